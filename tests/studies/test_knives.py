@@ -116,12 +116,45 @@ def test_a_study_is_not_written_over_a_file(tmp_path: Path) -> None:
     assert run(*words, str(tmp_path / "link.toml"), "--force").exit_code == 2
 
 
+def test_a_study_never_replaces_its_machine(tmp_path: Path) -> None:
+    """Neither under its own name nor under that of the machine beside it, whatever --force says."""
+    for name, study, extra in (
+        ("own.toml", "own.toml", ()),
+        ("k_machine.toml", "k.toml", ("--set", "topper.offset=30 mm")),
+    ):
+        file = tmp_path / name
+        file.write_text(TOPPER + FIELD, encoding="utf-8")
+        over = ("--over", "edge_length=0.1:0.2:3", *extra)
+        done = run("topper", "field", str(file), *over, "--study", str(tmp_path / study), "--force")
+        assert done.exit_code == 2
+        assert "machine file of the study itself" in done.stderr
+        assert file.read_text() == TOPPER + FIELD
+    for place in (".", "/"):
+        assert run("topper", "field", str(file), *over, "--study", place).exit_code == 2
+    size = ("size", "roller_two_carts", "--minimum-cost")
+    done = run(*size, "--study", str(tmp_path / "z.toml"), "--out", str(tmp_path / "z.toml"), "--force")
+    assert done.exit_code == 2
+    assert "a file that --study writes" in done.stderr
+
+
+def test_a_study_in_a_linked_folder_finds_its_machine(tmp_path: Path) -> None:
+    (tmp_path / "real" / "deep").mkdir(parents=True)
+    (tmp_path / "link").symlink_to(tmp_path / "real" / "deep")
+    file = tmp_path / "topper.toml"
+    file.write_text(TOPPER + FIELD, encoding="utf-8")
+    study = tmp_path / "link" / "s.toml"
+    over = ("--over", "edge_length=0.1:0.2:3")
+    assert run("topper", "field", str(file), *over, "--study", str(study)).exit_code == 0
+    assert lw.read_study(study).n_rows == 3
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
         (["topper"], "--study: found it without --over"),
         (["topper_crank", "--over", "knife_speed=0:1:3"], "knife_speed: found 0 m/s, expected more than 0"),
         (["topper", "--over", "edge_length=-1:1:3"], "found edge_length -1 m, expected more than 0"),
+        (["topper", "--over", "edge_length=0.1:0.2:3", "--seed", "-1"], "seed: found -1"),
     ],
 )
 def test_what_is_no_study(words: list[str], told: str, tmp_path: Path) -> None:

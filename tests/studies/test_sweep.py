@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -314,6 +315,10 @@ def test_a_damaged_description_loses_no_row(study_file: Files, tmp_path: Path) -
     plan, rows = lw.read_study(study_file()), tmp_path / "rows"
     lw.sweep(plan, rows)
     whole = contents(rows)
+    part = {key: json.loads((rows / "_study.json").read_text())[key] for key in ("rows", "hash", "layout")}
+    (rows / "_study.json").write_text(json.dumps(part), encoding="utf-8")
+    with pytest.raises(InputError, match="writes it anew"):
+        opened(rows)
     (rows / "_study.json").write_text("{", encoding="utf-8")
     with pytest.raises(InputError, match="writes it anew"):
         opened(rows)

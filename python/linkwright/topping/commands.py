@@ -241,10 +241,16 @@ def best(
         hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
     with bar("knives") as watch:
         knife = best_knife(machine, objective=objective.value, seed=seed, watch=watch)
-    hand_over(_answer(machine, knife), json=json, folder=folder)
+    rests = knife.best is not None and knife.best.knife_speed == 0
+    hint = [_RESTS] if study is not None and rests else []
+    hand_over(_answer(machine, knife, hint), json=json, folder=folder)
 
 
-def _answer(machine: Machine, search: KnifeSearch) -> Answer:
+# Of the study of a knife that the search alone finds.
+_RESTS = "the best knife rests, which the study does not find: its knife speed comes near to 0 at best"
+
+
+def _answer(machine: Machine, search: KnifeSearch, hint: list[str]) -> Answer:
     """The best knife, also as lines of a machine file; or that none keeps the limits."""
     from linkwright.topping.tables.field import best_lines, best_table, best_warnings
 
@@ -260,7 +266,7 @@ def _answer(machine: Machine, search: KnifeSearch) -> Answer:
         units=machine.units,
         results=lambda _: {"topper_best": results},
         findings=[] if failing is None else [failing.words + "."],
-        warnings=[] if failing else list(best_warnings(search)),
+        warnings=[] if failing else [*best_warnings(search), *hint],
         head=lambda: machine.name,
         tables=lambda: [] if best is None else [best_table(search, best)],
         tail=lambda: "" if best is None else best_lines(best),
