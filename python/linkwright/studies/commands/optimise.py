@@ -153,8 +153,8 @@ def _short_warnings(best: Front, points: int) -> list[str]:
     without = points - len(best.failed) - len(best.machines)
     if without <= 0:
         return []
-    found = f"{without} of the {points} machines sought {'is' if without == 1 else 'are'} left out"
-    return [f"{found}: others are as good in {best.goals[0]} and in {best.goals[1]}"]
+    counted = f"{without} of the {points} machines sought {'is' if without == 1 else 'are'} left out"
+    return [f"{counted}: others are as good in {best.goals[0]} and in {best.goals[1]}"]
 
 
 def _flat_warnings(optimum: Optimum) -> list[str]:

@@ -30,8 +30,8 @@ _POINTS = 6
 _CLOSED = math.radians(6.0)
 # Panels of the gas exchange: order 24 advances by less than a third of its period from point to point.
 _OPEN = math.radians(10.0)
-# Share of a panel by which angles at which one more is taken lie beside its multiples: so a small change of a
-# round angle, as most files have, leaves the mesh as it is.
+# Share of a panel by which durations of a release at which one more is taken lie beside its multiples: so a
+# small change of a round angle, as most files have, leaves the mesh as it is.
 _BESIDE = 0.137
 
 
@@ -83,7 +83,7 @@ def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) 
     """
     marks = [_even(start, end, _CLOSED)]
     for begin, duration in releases:
-        n = 2 * _panels(duration, _CLOSED)
+        n = 2 * math.ceil(duration / _CLOSED + _BESIDE)
         marks.append(begin + duration * (np.arange(n + 1) / n) ** 2)
     edges = np.unique(np.concatenate(marks))
     return _apart(edges, {start, end, *(edge for b, d in releases for edge in (b, b + d))})
@@ -100,12 +100,7 @@ def open_edges(start: float, end: float, corners: tuple[float, ...]) -> Floats:
 
 
 def _even(start: float, end: float, width: float) -> Floats:
-    return np.linspace(start, end, _panels(end - start, width) + 1)
-
-
-def _panels(angle: float, width: float) -> int:
-    """Panels of at most a width over an angle."""
-    return math.ceil(angle / width + _BESIDE)
+    return np.linspace(start, end, math.ceil((end - start) / width) + 1)
 
 
 def _apart(edges: Floats, corners: set[float]) -> Floats:
