@@ -60,5 +60,5 @@ def test_the_written_study_has_the_same_optimum(
 def test_a_choice_of_motor_is_no_study(tmp_path: Path) -> None:
     done = run("size", "roller_two_carts", "--study", str(tmp_path / "study.toml"))
     assert done.exit_code == 2
-    assert "--study: it belongs to a study: --minimum-cost, --pressure-angle or --shaft" in done.stderr
+    assert "--study: it belongs to --minimum-cost, --pressure-angle or --shaft" in done.stderr
     assert not list(tmp_path.iterdir())
