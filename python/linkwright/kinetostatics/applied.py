@@ -16,7 +16,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.kernel.numerics.tangent_array import numbers, primal
+from linkwright.kernel.numerics.tangent_array import on_lines, primal
 from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses
@@ -174,7 +174,7 @@ def along_line(scene: Scene, between: tuple[str, str], pull: Callable[[Floats, F
 def _spring(scene: Scene, load: loads.Spring) -> Wrenches:
     if load.length is not None and load.force is not None:
         x, y = load.length, load.force
-        return along_line(scene, load.between, lambda length, _: _table(length, x, y))
+        return along_line(scene, load.between, lambda length, _: on_lines(length, x, y))
     k, free = (0.0 if x is None else x for x in (load.stiffness, load.free_length))
     return along_line(scene, load.between, lambda length, _: load.preload + k * (length - free))
 
@@ -182,7 +182,7 @@ def _spring(scene: Scene, load: loads.Spring) -> Wrenches:
 def _damper(scene: Scene, load: loads.Damper) -> Wrenches:
     if load.velocity is not None and load.force is not None:
         x, y = load.velocity, load.force
-        return along_line(scene, load.between, lambda _, parting: _table(parting, x, y))
+        return along_line(scene, load.between, lambda _, parting: on_lines(parting, x, y))
     c = 0.0 if load.damping is None else load.damping
     return along_line(scene, load.between, lambda _, parting: c * parting)
 
@@ -223,8 +223,8 @@ def _torsional_damper(scene: Scene, load: loads.TorsionalDamper) -> Wrenches:
 def _over_position(scene: Scene, load: loads.ForcePosition) -> Wrenches:
     slide = scene.kinematics.slides[load.on]
     sense = _sense(slide.d1, scene.size, scene)
-    ahead = _table(slide.position, load.position, load.forward)
-    behind = _table(slide.position, load.position, load.return_) if load.return_ else 0.0 * ahead
+    ahead = on_lines(slide.position, load.position, load.forward)
+    behind = on_lines(slide.position, load.position, load.return_) if load.return_ else 0.0 * ahead
     return Wrenches(scene).along_slide(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
@@ -234,13 +234,14 @@ def _over_swing(scene: Scene, load: loads.TorqueSwing) -> Wrenches:
     middle = 0.5 * (load.angle[0] + load.angle[-1])
     turned = scene.angle(load.on) - middle
     angle = middle + np.arctan2(np.sin(turned), np.cos(turned))
-    ahead = _table(angle, load.angle, load.forward)
-    behind = _table(angle, load.angle, load.return_) if load.return_ else 0.0 * ahead
+    ahead = on_lines(angle, load.angle, load.forward)
+    behind = on_lines(angle, load.angle, load.return_) if load.return_ else 0.0 * ahead
     return Wrenches(scene).couple(load.on, np.where(sense > 0, -ahead, np.where(sense < 0, behind, 0.0)))
 
 
 def _over_angle(scene: Scene, load: loads.OverCrankAngle, values: Sequence[float]) -> Floats:
-    return _table(scene.motion.crank_angle, *load.points(values), period=primal(load.cycle))
+    at: Floats = on_lines(scene.motion.crank_angle, *load.points(values), period=primal(load.cycle))
+    return at
 
 
 def _torque_over_angle(scene: Scene, load: loads.TorqueAngle) -> Floats:
@@ -253,12 +254,5 @@ def _force_over_angle(scene: Scene, load: loads.ForceAngle) -> Wrenches:
 
 def _over_speed(scene: Scene, load: loads.TorqueSpeed) -> Floats:
     speed = scene.motion.speed
-    return _table(np.abs(speed), load.speed, load.torque) * np.sign(speed)
-
-
-def _table(
-    x: Floats, places: Sequence[float], values: Sequence[float], period: float | None = None
-) -> Floats:
-    """Straight lines between the points of a table, whose values may have derivatives."""
-    lines: Floats = np.interp(x, numbers(places), numbers(values), period=period)
-    return lines
+    torque: Floats = on_lines(np.abs(speed), load.speed, load.torque) * np.sign(speed)
+    return torque

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, primal
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, on_lines, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, stroke_load
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
@@ -80,7 +80,7 @@ def _at_place(rod: PolishedRod, along: Any, angle: float, *, rising: bool) -> St
         moved: Any = place + TangentArray(np.zeros(1), late.d)
         force = _one(heights[-end], travel)
         if load.angle is not None:
-            force = np.interp(moved, numbers(load.angle), numbers(heights), period=2 * np.pi)
+            force = on_lines(moved, load.angle, heights, period=2 * np.pi)
     elif corner is not None:
         knots = load.position if load.angle is None else load.angle
         late = _one(knots[corner], travel) - place

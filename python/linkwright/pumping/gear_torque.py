@@ -27,7 +27,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.numerics.tangent_array import numbers
+from linkwright.kernel.numerics.tangent_array import on_lines
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.numerics.zeros import zero, zeros
@@ -270,14 +270,12 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
     """Load of the polished rod at crank angles, from its table."""
     if load.angle is not None:
         assert load.force is not None
-        by_angle: Floats = np.interp(angles, numbers(load.angle), numbers(load.force), period=2 * np.pi)
+        by_angle: Floats = on_lines(angles, load.angle, load.force, period=2 * np.pi)
         return by_angle
     assert load.position is not None
     assert load.up is not None
     assert load.down is not None
-    up, down = (
-        np.interp(position, numbers(load.position), numbers(values)) for values in (load.up, load.down)
-    )
+    up, down = (on_lines(position, load.position, values) for values in (load.up, load.down))
     by_place: Floats = np.where(factor >= 0, up, down)
     return by_place
 

@@ -30,6 +30,13 @@ _SPREAD = 6.0
 _STRATA = 2000
 
 
+def between(low: float, high: float, steps: int | None = None) -> dict[str, Any]:
+    """Entries of a variable between two ends, in so many steps of a grid; values where that is no range."""
+    if low < high and steps != 1:
+        return {"range": [low, high]} | ({} if steps is None else {"steps": steps})
+    return {"values": np.linspace(low, high, steps or 1).tolist()}
+
+
 @dataclass(frozen=True)
 class Axis:
     """A variable."""

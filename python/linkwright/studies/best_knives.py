@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from linkwright.machine.machine import Machine
+from linkwright.studies.axes import between
 from linkwright.studies.knives import Knob, knob_of, with_field
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
@@ -97,9 +98,8 @@ def _speeds(knob: Knob, low: float, high: float) -> dict[str, Any]:
 
 
 def _between(address: str, low: float, high: float) -> dict[str, Any]:
-    """A variable within its ends; one value where they are the same."""
-    low, high = float(low), float(high)
-    return {"address": address, **({"range": [low, high]} if low < high else {"values": [low]})}
+    """A variable within its ends."""
+    return {"address": address, **between(float(low), float(high))}
 
 
 def _longest(topper: Topper) -> float:

@@ -23,8 +23,10 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, LENGTH, not_negative, positive
 from linkwright.machine.machine import Machine
+from linkwright.studies.axes import between
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
+from linkwright.studies.responses import entry_number
 from linkwright.studies.rows import SOLVED, Rows
 
 # Share by which a cam may pass a limit by rounding.
@@ -135,7 +137,7 @@ def search_entries(plan: StudyPlan, rows: Mapping[str, Floats]) -> dict[str, Flo
     entries = {name: column for name, column in rows.items() if name not in ("law", "lift")}
     if "lift" in rows:
         (reference,) = (axis.addresses[0] for axis in plan.axes if axis.name == "lift")
-        entries["lift_factor"] = rows["lift"] / _number(plan.machine, reference)
+        entries["lift_factor"] = rows["lift"] / entry_number(plan.machine, reference)
     return {name: entries[name] for name in _asked(plan) if name in entries}
 
 
@@ -144,19 +146,9 @@ def _asked(plan: StudyPlan) -> list[str]:
     return ["lift_factor" if axis.name == "lift" else axis.name for axis in plan.axes]
 
 
-def _number(machine: Machine, address: str) -> float:
-    """A number of the machine."""
-    from linkwright.machine.address import get
-
-    return float(get(machine, address))
-
-
 def _levels(levels: Levels, factor: float = 1.0) -> dict[str, Any]:
     """Values of a variable: its levels times a factor above zero."""
-    low, high = factor * levels.low, factor * levels.high
-    if levels.steps > 1 and low < high:
-        return {"range": [low, high], "steps": levels.steps}
-    return {"values": np.linspace(low, high, levels.steps).tolist()}
+    return between(factor * levels.low, factor * levels.high, levels.steps)
 
 
 def _laws(cam: Cam, place: str, laws: Sequence[str]) -> dict[str, Any]:

@@ -95,9 +95,9 @@ class SweepFolder:
         require_pyarrow()
         try:
             if (self.path / MANIFEST).exists():
-                known = _manifest_of(self.path / MANIFEST)
-                if known is not None:
-                    _require_same(opened(self.path), self)
+                manifest = _manifest_of(self.path / MANIFEST)
+                if manifest is not None:
+                    _require_same(_known(self.path, manifest), self)
                     return
                 self._require_own_rows()
                 write_file(self.path / MANIFEST, _text(self.manifest))
@@ -161,13 +161,17 @@ def opened(path: Path) -> SweepFolder:
             f"{place}: found no description of a sweep; `linkwright sweep` with the same study writes it "
             "anew and keeps the rows that are there"
         )
-    folder = SweepFolder(path, manifest)
+    return _known(path, manifest)
+
+
+def _known(path: Path, manifest: dict[str, Any]) -> SweepFolder:
+    """The folder of a description; an `InputError` if its files have other columns."""
     if manifest.get("layout") != LAYOUT:
         raise InputError(
-            f"{place}: found files of another version of Linkwright, whose columns are others; open them "
-            "with that version, or compute the sweep again in another folder"
+            f"{path / MANIFEST}: found files of another version of Linkwright, whose columns are others; "
+            "open them with that version, or compute the sweep again in another folder"
         )
-    return folder
+    return SweepFolder(path, manifest)
 
 
 def _manifest_of(place: Path) -> dict[str, Any] | None:

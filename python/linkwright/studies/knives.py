@@ -30,6 +30,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity, worded
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
+from linkwright.studies.axes import between
 from linkwright.studies.engine import evaluate
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
@@ -258,7 +259,7 @@ def _valued(values: Floats) -> dict[str, Any]:
     if n > 2 and low < high:
         even = np.linspace(low, high, n)
         if np.abs(values - even).max() <= _ROUNDING * (high - low):
-            return {"range": [low, high], "steps": n}
+            return between(low, high, n)
     return {"values": values.tolist()}
 
 

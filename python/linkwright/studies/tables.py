@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.studies.allocation import Allocation
@@ -33,8 +32,8 @@ def sweep_tables(sweep: Sweep, plan: StudyPlan, units: dict[str, str]) -> list[T
     for name, extremes in sweep.extremes.items():
         for key, word in (("min", "minimum"), ("max", "maximum")):
             at = int(extremes[f"{key}_row"])
-            values = {axis.name: float(column[0]) for axis, column in _row_of(plan, at)}
-            beside = [_value(axis, values[axis.name], units) for axis in shown]
+            there = plan.rows(at, at + 1)
+            beside = [_value(axis, float(there[axis.name][0]), units) for axis in shown]
             rows.append((f"{word} of {name}", "", measured(extremes[key], units[name]), str(at), *beside))
     heads = ("response", "", "value", "row", *(axis.name for axis in shown))
     tables = [Table("sweep", "Responses", heads, rows)] if rows else []
@@ -45,12 +44,6 @@ def sweep_tables(sweep: Sweep, plan: StudyPlan, units: dict[str, str]) -> list[T
             listed.append((f"{len(sweep.reasons) - _REASONS} further reasons", "", str(rest)))
         tables.append(Table("failed", "Rows without a result", ("reason", "", "rows"), listed))
     return tables
-
-
-def _row_of(plan: StudyPlan, row: int) -> Iterator[tuple[Axis, Floats]]:
-    """The variables of a row."""
-    columns = plan.rows(row, row + 1)
-    return ((axis, columns[axis.name]) for axis in plan.axes)
 
 
 def _value(axis: Axis, value: float, units: dict[str, str]) -> str:

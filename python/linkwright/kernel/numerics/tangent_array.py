@@ -327,6 +327,11 @@ def numbers(listed: Sequence[Any]) -> Any:
     return np.asarray(listed) if n is None else _row(listed, n)
 
 
+def on_lines(x: Any, places: Sequence[Any], values: Sequence[Any], period: float | None = None) -> Any:
+    """Straight lines between points, which may have derivatives, as `numpy.interp` has them."""
+    return np.interp(x, numbers(places), numbers(values), period=period)
+
+
 def lifted(x: Any, n: int) -> TangentArray:
     """A number or an array, with derivatives or without, as an array with derivatives by n variables."""
     return _lifted(x, n).copy()

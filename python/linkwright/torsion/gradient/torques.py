@@ -62,7 +62,7 @@ def torque_tangents(
     `train`, `referred`, `d`: that of the machine, referred, and its derivatives; `speeds`: (speeds,) [rad/s].
     """
     assert machine.train is not None
-    if not is_plain(machine.train, referred):
+    if not _is_plain(machine, referred):
         return _by_differences(machine, referred, speeds, d, refused)
     orders = excited_train(machine, speeds[:1]).torques.orders
     discs = list(train.discs)
@@ -93,10 +93,10 @@ def torque_tangents(
 _ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares.")
 
 
-def is_plain(train: Train, referred: ReferredTrain) -> bool:
+def _is_plain(machine: Machine, referred: ReferredTrain) -> bool:
     """Whether torques and stiffnesses follow from the entries by plain arithmetic."""
-    is_curved = any(coupling.twist is not None for coupling in train.couplings.values())
-    return not train.installed and not is_curved and tree_of(referred) is not None
+    assert machine.train is not None
+    return not machine.train.installed and not _curved(machine) and tree_of(referred) is not None
 
 
 def _by_differences(

@@ -31,7 +31,7 @@ from linkwright.torsion.limits.criteria import peaks_on
 from linkwright.torsion.limits.survey import Survey
 from linkwright.torsion.modes.campbell import CampbellDiagram, CriticalSpeed
 from linkwright.torsion.response.forced import TorsionResponse, torsion_response
-from linkwright.torsion.response.stress import shaft_stress, stress_per_torque
+from linkwright.torsion.response.stress import ShaftStress, shaft_stress, stress_per_torque
 
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9
@@ -121,10 +121,14 @@ class _Loads:
     seen: Survey
 
     @cached_property
+    def _stress(self) -> ShaftStress:
+        """Stresses over the run."""
+        return shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
+
+    @cached_property
     def limited(self) -> list[int]:
         """Rows of shafts with a permitted stress."""
-        stress = shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
-        rows: list[int] = np.flatnonzero(np.isfinite(stress.continuous).any(axis=1)).tolist()
+        rows: list[int] = np.flatnonzero(np.isfinite(self._stress.continuous).any(axis=1)).tolist()
         return rows
 
     @cached_property
@@ -132,8 +136,7 @@ class _Loads:
         """Those that count."""
         if not self.limited:
             return self.seen.found.shafts
-        stress = shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
-        return tuple(stress.shafts[row] for row in self.limited)
+        return tuple(self._stress.shafts[row] for row in self.limited)
 
     @cached_property
     def rounding(self) -> Floats:
