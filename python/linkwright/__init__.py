@@ -70,6 +70,7 @@ _HOME = {
     "transient": "drive.transient",
     "motion_events": "drive.motion_events",
     "motion_extremes": "drive.motion_events",
+    "contact_losses": "kinetostatics.contact_in_time",
     "cycle_motion": "drive.cycle_motion",
     "run_up": "drive.run_up",
     "run_down": "drive.run_up",
@@ -229,6 +230,7 @@ if TYPE_CHECKING:
     from linkwright.drive.transient import transient as transient
     from linkwright.kinetostatics.balancing import balance as balance
     from linkwright.kinetostatics.balancing import partial_balance as partial_balance
+    from linkwright.kinetostatics.contact_in_time import contact_losses as contact_losses
     from linkwright.kinetostatics.envelope import envelope as envelope
     from linkwright.kinetostatics.envelope import harmonics as harmonics
     from linkwright.kinetostatics.envelope import load_cases as load_cases

@@ -108,15 +108,21 @@ def test_no_handler_forgets_an_error_of_ours() -> None:
 
 
 def test_a_study_has_one_collector_of_findings() -> None:
-    # A second collector is one whose findings nobody asks for; a check is a study of its own, and so is what
-    # the studio computes while a slider is held.
+    # A second collector is one whose findings nobody asks for; a check is a study of its own, and so are
+    # a motion in time and what the studio computes while a slider is held.
     made = [
         file
         for file, tree in trees()
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Findings"
     ]
-    assert sorted(made) == ["app/soundness.py", "app/study.py", "kernel/findings.py", "studio/analyses.py"]
+    assert sorted(made) == [
+        "app/soundness.py",
+        "app/study.py",
+        "drive/commands.py",
+        "kernel/findings.py",
+        "studio/analyses.py",
+    ]
 
 
 def test_nothing_is_suppressed_by_contextlib() -> None:

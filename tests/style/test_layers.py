@@ -89,6 +89,8 @@ EDGES = {
     # A drive moves a linkage against its loads; its shafts are those of torsion.
     ("drive", "linkages"),
     ("drive.commands", "linkages"),
+    # The forces along a motion in time tell whether followers and cables keep contact.
+    ("drive.commands", "kinetostatics"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
     # A torsionally flexible driveline is a train.

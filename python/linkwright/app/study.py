@@ -29,6 +29,7 @@ from linkwright.kernel.findings import Findings
 from linkwright.kernel.public import public
 from linkwright.kernel.result import Result, finite
 from linkwright.kinetostatics.collect import LEAVES
+from linkwright.kinetostatics.contact_in_time import contact_losses
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
@@ -238,6 +239,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         accuracy=accuracy,
     )
     result = _with_cams(result, findings)
+    _losses_in_time(result, findings)
     warnings = (*_of_units(result), *result.warnings, *findings.warnings)
     return _topped(replace(result, findings=findings.findings, warnings=warnings), cut)
 
@@ -315,6 +317,15 @@ def _with_cams(known: Study, findings: Findings) -> Study:
         cam_vibrations=cam_vibrations(cams, findings),
         warnings=(*cam_warnings(cams), *known.warnings),
     )
+
+
+def _losses_in_time(known: Study, findings: Findings) -> None:
+    """Followers and cables that lose contact in the run-up or run-down, though not in steady motion."""
+    floating = {cam.name for cam in known.loaded_cams if cam.force_min < 0}
+    for what, of in (("run-up", known.run_up), ("run-down", known.run_down)):
+        losses = findings.beside_of(contact_losses, known.machine, of.motion) if of else None
+        lost = [loss for loss in losses or () if not (loss.kind == "cam" and loss.name in floating)]
+        findings.about(f"{what}: ").add(loss.sentence() for loss in lost)
 
 
 def _turned(machine: Machine, findings: Findings, accuracy: float, step: float | None) -> Study:

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
     from linkwright.drive.motion_events import MotionEvent, MotionExtreme
     from linkwright.drive.transient import Transient
+    from linkwright.kernel.findings import Findings
     from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.page.table import Table
+    from linkwright.kinetostatics.contact_in_time import ContactLoss
     from linkwright.linkages.motion import Motion
     from linkwright.machine.machine import Machine
 
@@ -69,7 +71,8 @@ class _MotionReport:
     motion: Transient
     zero: Zero
     steps: int
-    is_driven: bool
+    losses: tuple[ContactLoss, ...]
+    findings: Findings
 
     @property
     def events(self) -> tuple[MotionEvent, ...]:
@@ -108,9 +111,12 @@ def transient(
     Reports what happens on the way (kinks of the loads, standstill, stall) with angle and numbers, and the
     exact extremes of speed and acceleration.
     """
+    from linkwright.drive.tables_in_time import end_sentence
     from linkwright.drive.transient import transient as follow
+    from linkwright.kernel.findings import Findings
     from linkwright.kernel.page.angle_zero import Zero
     from linkwright.kernel.units import ANGLE, SPEED, TIME
+    from linkwright.kinetostatics.contact_in_time import contact_losses
     from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read
 
@@ -135,21 +141,23 @@ def transient(
         clockwise=clockwise,
         **until,
     )
-    followed = _MotionReport(machine, motion, counted, steps, not no_motor)
+    findings = Findings()
+    if motion.came_to_rest:
+        # Without its motor a machine is meant to come to rest.
+        (findings.warn if no_motor else findings.add)([end_sentence(motion, counted)])
+    losses = findings.beside_of(contact_losses, machine, motion) or ()
+    findings.add(loss.sentence(counted) for loss in losses)
+    followed = _MotionReport(machine, motion, counted, steps, losses, findings)
     hand_over(_answer(followed), json=json, curves=curves, folder=folder)
 
 
 def _answer(of: _MotionReport) -> Answer:
-    from linkwright.drive.tables_in_time import end_sentence
-
-    ended = [end_sentence(of.motion, of.zero)] if of.motion.came_to_rest else []
     return Answer(
         machine=of.machine.name,
         units=of.machine.units,
         results=partial(_results, of),
-        # Without its motor a machine is meant to come to rest.
-        findings=ended if of.is_driven else [],
-        warnings=[] if of.is_driven else ended,
+        findings=list(of.findings.findings),
+        warnings=list(of.findings.warnings),
         head=lambda: _head(of),
         tables=partial(_tables, of),
         files=partial(_files, of),
@@ -185,6 +193,7 @@ def _results(of: _MotionReport, curves: bool) -> dict[str, Any]:
         "methods": [method._asdict() for method in of.motion.methods],
         "extremes": [extreme._asdict() for extreme in of.extremes],
         "events": [event._asdict() for event in of.events],
+        "contact_losses": [loss._asdict() for loss in of.losses],
     }
     if curves:
         results |= {name: values.tolist() for name, values in _course(of).curves().items()}

@@ -164,11 +164,16 @@ def course(motion: Transient, intervals: int) -> tuple[Floats, Floats, Floats, F
     if len(motion.time) < 2:
         return motion.time, motion.crank_angle, motion.speed, motion.acceleration
     time = np.linspace(motion.time[0], motion.time[-1], intervals + 1)
+    return time, *states(motion, time)
+
+
+def states(motion: Transient, time: Floats) -> tuple[Floats, Floats, Floats]:
+    """Angle [rad], speed [rad/s] and acceleration [rad/s²] at times of a motion that moves, (n,) each."""
     k = np.clip(np.searchsorted(motion.time, time, side="right") - 1, 0, len(motion.time) - 2)
     step = np.diff(motion.time)[k]
     z = (time - motion.time[k]) / step
     rates = polynomial.polyder(motion.between.coefficients(1).T)[:, k]
-    return time, *motion.at(time), polynomial.polyval(z, rates, tensor=False) / step
+    return *motion.at(time), polynomial.polyval(z, rates, tensor=False) / step
 
 
 def sides(motion: Transient) -> tuple[Floats, Floats]:

@@ -20,27 +20,37 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
 from linkwright.kernel.files.points import lines_of, require_below
 from linkwright.kernel.public import public
-from linkwright.kernel.units import INERTIA, POWER, RATIO, SPEED, TORQUE, Kind, parse
+from linkwright.kernel.units import (
+    INERTIA,
+    POWER,
+    RATIO,
+    SPEED,
+    TORQUE,
+    Quantity,
+    not_negative,
+    parse,
+    positive,
+)
 
 _KEY = "drive.motor.file"
 
 # Columns that are entries of a motor, and what is in them.
-_ENTRIES: dict[str, Kind] = {
-    "power_rated": POWER,
-    "speed_rated": SPEED,
-    "torque_rated": TORQUE,
-    "inertia": INERTIA,
-    "speed_synchronous": SPEED,
-    "torque_breakdown": TORQUE,
-    "speed_breakdown": SPEED,
-    "torque_start": TORQUE,
-    "torque_pull_up": TORQUE,
-    "speed_pull_up": SPEED,
-    "resistance_ratio": RATIO,
-    "speed_no_load": SPEED,
-    "torque_stall": TORQUE,
-    "torque_max": TORQUE,
-    "speed_max": SPEED,
+_ENTRIES: dict[str, Quantity] = {
+    "power_rated": positive(POWER),
+    "speed_rated": positive(SPEED),
+    "torque_rated": positive(TORQUE),
+    "inertia": not_negative(INERTIA),
+    "speed_synchronous": positive(SPEED),
+    "torque_breakdown": positive(TORQUE),
+    "speed_breakdown": positive(SPEED),
+    "torque_start": positive(TORQUE),
+    "torque_pull_up": positive(TORQUE),
+    "speed_pull_up": positive(SPEED),
+    "resistance_ratio": not_negative(RATIO),
+    "speed_no_load": positive(SPEED),
+    "torque_stall": positive(TORQUE),
+    "torque_max": positive(TORQUE),
+    "speed_max": positive(SPEED),
 }
 
 # Those that size a motor; the maximum torque of a DC motor alone is an entry of a machine file too.
@@ -209,10 +219,10 @@ def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
 
 def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[str, str]) -> dict[str, float]:
     """The numbers of a row in SI; an empty cell is none."""
-    kinds = {**_ENTRIES, **dict.fromkeys(_RATIOS, RATIO)}
+    quantities = {**_ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))}
     entries: dict[str, float] = {}
     for name, unit in heads:
-        if name not in kinds or not cells[name]:
+        if name not in quantities or not cells[name]:
             continue
         if _WITH_UNIT.fullmatch(cells[name]):
             remedy = (
@@ -221,12 +231,16 @@ def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[st
             raise _wrong(path, line, show(cells[name]), f"a number in the column {name}", remedy)
         try:
             number = f"{cells[name]} {unit}".strip() if unit else float(cells[name])
-            entries[name] = parse(number, kinds[name])
+            entries[name] = parse(number, quantities[name].kind)
         except ValueError:
             raise _wrong(path, line, show(cells[name]), f"a number in the column {name}") from None
         except UnitError as error:
             problem = replace(error.problem, key=f"{_KEY}, column {name}", path=str(path), line=line)
             raise MachineFileError([problem]) from None
+        quantity = quantities[name]
+        if not quantity.holds(entries[name]):
+            expected = f"in the column {name} {quantity.expected}"
+            raise _wrong(path, line, show(cells[name]), expected, quantity.remedy(entries[name]))
     rated = entries.get("torque_rated")
     if rated is None and "power_rated" in entries and "speed_rated" in entries:
         rated = entries["power_rated"] / entries["speed_rated"]

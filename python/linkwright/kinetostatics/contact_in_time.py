@@ -1,0 +1,156 @@
+"""Where a motion in time loses contact: a follower leaves its cam, a cable becomes slack.
+
+The motion is that of a machine in contact. The forces along it say whether it stays so: where one that can
+only press would have to pull, the motion behind that place is not that of the machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from linkwright.drive.motion_events import states
+from linkwright.drive.transient import Transient
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.zeros import zero as zero_of
+from linkwright.kernel.page.angle_zero import Zero
+from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.public import public
+from linkwright.kinetostatics.collect import LEAVES
+from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.motion import Motion
+from linkwright.machine.machine import Machine
+
+# Places in a step of the solver, over which speed and acceleration are polynomials of degree 7 and 6. They
+# lie inside: at its ends a law of a cam may go over into the next one.
+_PLACES = np.linspace(1e-6, 1 - 1e-6, 17)
+
+# Steps whose forces are computed at once.
+_STEPS = 250
+
+# Share of the maximum force below which a pull is none: the acceleration of a motion is exact to so much at
+# the loosest accuracy that is usual, 1e-8 of the speed over a hundredth of a step.
+_NOTHING = 1e-6
+
+_FILE = Zero()
+
+
+class ContactLoss(NamedTuple):
+    """A contact that a motion loses.
+
+    Attributes
+    ----------
+    kind : str
+        ``"cam"`` or ``"cable"``.
+    name : str
+        Of the cam, or of the cable.
+    time : float
+        Where it is lost first [s].
+    crank_angle : float
+        There, counted on over the revolutions [rad].
+    speed : float
+        Of the crank there [rad/s].
+    pull : float
+        The largest force that would have to pull, or of a cable to push [N].
+    pull_time : float
+        Its time [s].
+    """
+
+    kind: str
+    name: str
+    time: float
+    crank_angle: float
+    speed: float
+    pull: float
+    pull_time: float
+
+    def sentence(self, zero: Zero = _FILE) -> str:
+        """Which contact is lost, where, and what holds it; crank angles count from `zero`."""
+        where = f"after {number(self.time)} s, at crank angle {degrees(self.crank_angle - zero.angle)}"
+        at = f"{where} and {number(self.speed)} rad/s"
+        most = f"after {number(self.pull_time)} s it would have to be"
+        if self.kind == "cam":
+            return (
+                f"{LEAVES} {self.name} {at}; {most} pulled with {number(self.pull)} N; this motion holds for "
+                "a follower that stays; a spring that presses with so much more, a lower speed, or a groove "
+                "keeps it on the cam."
+            )
+        return (
+            f"The cable {self.name} becomes slack {at}; {most} pushed with {number(self.pull)} N; this "
+            "motion holds for a cable that stays tight; increase the load on its end, or reduce the speed."
+        )
+
+
+@public
+def contact_losses(machine: Machine, motion: Transient) -> tuple[ContactLoss, ...]:
+    """Contacts that a motion loses, by the forces at 17 places of each step of the solver.
+
+    Parameters
+    ----------
+    machine : Machine
+    motion : Transient
+        Its motion in time.
+
+    Returns
+    -------
+    tuple of ContactLoss
+        A follower that nothing but a spring or its load keeps on the cam, or a cable; none where all press.
+
+    Raises
+    ------
+    FindingError
+        There are no forces along a part of the motion.
+
+    See Also
+    --------
+    linkwright.kinetostatics.forces.forces : Forces along the motion.
+    """
+    contacts = _contacts(machine)
+    if not contacts or motion.steps == 0:
+        return ()
+    return tuple(_losses(machine, motion, contacts))
+
+
+def _contacts(machine: Machine) -> list[tuple[str, str]]:
+    """Kind and name of what can only press, and of what can only pull."""
+    cams = machine.mechanism.cams.items()
+    followers = [("cam", name) for name, cam in cams if cam.closure == "spring"]
+    return [*followers, *(("cable", name) for name in machine.mechanism.cables)]
+
+
+def _losses(machine: Machine, motion: Transient, contacts: list[tuple[str, str]]) -> Iterator[ContactLoss]:
+    """Of each contact that is lost, where first and with what force."""
+    time = (motion.time[:-1, None] + np.diff(motion.time)[:, None] * _PLACES).ravel()
+    held = partial(_held, machine, motion, contacts)
+    parts = np.array_split(time, -(-motion.steps // _STEPS))
+    for i, force in enumerate(np.concatenate([held(part) for part in parts], axis=1)):
+        if np.isnan(force).all():
+            continue
+        worst = int(np.nanargmin(force))
+        lost = np.flatnonzero(force < -_NOTHING * np.nanmax(np.abs(force)))
+        if len(lost):
+            at = _first(partial(_of_one, held, i), time, force, int(lost[0]))
+            angle, speed, _ = (float(x[0]) for x in states(motion, np.array([at])))
+            yield ContactLoss(*contacts[i], at, angle, speed, float(-force[worst]), float(time[worst]))
+
+
+def _held(machine: Machine, motion: Transient, contacts: list[tuple[str, str]], time: Floats) -> Floats:
+    """Force with which each contact is held at times (n,) of a motion, (contacts, n) [N]."""
+    acting = forces(machine, Motion(*states(motion, time), time), contributions=False)
+    tensions = {pair.second: pair.normal for pair in acting.pairs.values() if pair.kind == "cable"}
+    return np.array([acting.drives[name] if kind == "cam" else tensions[name] for kind, name in contacts])
+
+
+def _of_one(held: Callable[[Floats], Floats], i: int, time: float) -> float:
+    """Force with which one contact is held at a time [N]."""
+    return float(held(np.array([time]))[i, 0])
+
+
+def _first(held: Callable[[float], float], time: Floats, force: Floats, lost: int) -> float:
+    """The time at which a force first passes zero, with the index of the first at which it has."""
+    if lost == 0 or not force[lost - 1] > 0:
+        return float(time[lost])
+    return zero_of(held, float(time[lost - 1]), float(time[lost]))
