@@ -115,6 +115,11 @@ def test_a_row_without_a_characteristic_leaves_its_neighbours_alone(address: str
     assert (np.delete(knee, 17) == lw.get(machine, "drive.motor.speed_breakdown")).all()
 
 
+def test_a_machine_of_constant_speed_is_refused_by_name() -> None:
+    with pytest.raises(InputError, match=r"mechanism\.cranks\.crank\.radius: .*drive\.motor"):
+        lw.steady_states(lw.read("topper_crank"), {"mechanism.cranks.crank.radius": np.array([0.02, 0.03])})
+
+
 @pytest.mark.parametrize("shape", [(2, 2), (0,)])
 def test_arrays_that_are_no_rows(shape: tuple[int, ...]) -> None:
     machine = lw.read("machines/roller_one_cart.toml")

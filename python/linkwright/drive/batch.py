@@ -180,7 +180,11 @@ def steady_states(
     if not 1e-13 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
-        raise InputError("a motor of constant speed has the same speed in every machine")
+        raise InputError(
+            f"{', '.join(entries)}: found a machine with a motor of constant speed, whose steady motion is that "
+            'speed whatever the entries; expected a drive.motor of another kind, such as "induction"; vary '
+            "other results by linkwright sweep"
+        )
     require_same_turns(machine)
     arrays = _columns(machine, entries)
     compiled = compile_machine(replace(machine, arrays))
