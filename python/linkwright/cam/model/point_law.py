@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -105,8 +106,9 @@ class FormulaLaw(Law):
         text = self.swing if swing else self.lift
         if text is None:
             return None
-        ends = self._taylor(text, np.array([0.0, 1.0]), angle)[0]
-        return float(ends[1] - ends[0])
+        start, end = self._taylor(text, np.array([0.0, 1.0]), angle)[0]
+        # A formula without values is refused by its law, in its own words.
+        return float(end - start) if np.isfinite([start, end]).all() else math.nan
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.lift is None) == (self.swing is None):
