@@ -503,6 +503,13 @@ def _failure(
             + f", but Newton's method does not converge to it: its numbers are not known; {_IN_TIME}",
             method="Newton's method",
         )
+    if not reached > accuracy:
+        return ConvergenceError(
+            f"steady motion needs more than {MESH_STEPS_MAX} steps a revolution to see all that is steep in the "
+            "formulas of the loads; write fewer, or wider, pulses and switches",
+            method="collocation",
+            iterations=MESH_STEPS_MAX,
+        )
     return ConvergenceError(
         f"steady motion was found to a relative accuracy of {reached:.1e} only, {accuracy:g} is required; "
         "reduce the accuracy, or check whether the mechanism nearly locks",

@@ -425,6 +425,9 @@ impl Job for Search<'_> {
         let (mut mesh, mut start, mut sweeps, mut reached) = (self.mesh, self.start, 0, f64::NAN);
         let (mut placements, mut marches, mut best, mut idle) = (0, 0, f64::INFINITY, 0);
         let mut looks = 0;
+        if mesh.edges.len() > STEPS_MAX {
+            return Err(Failure::new(Status::Inaccurate));
+        }
         for _ in 0..MESHES_MAX {
             poll();
             let machine = Machine::new(self.plan, &q).keeping_branch(may_jump);

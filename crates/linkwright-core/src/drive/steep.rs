@@ -48,8 +48,12 @@ const SHORTEST: f64 = 1e-9;
 /// A link turns no faster than this: beside a change point it may be faster for a moment, in which a pulse does no work.
 const FASTEST: f64 = 1000.0;
 
-/// Most cuts.
-const CUTS_MAX: usize = 4096;
+/// Most cuts of a search for what is steep. A pulse takes two for each halving of the width down to its own: what is left
+/// beyond these are so many pulses that the ends beside each are more than a revolution may have.
+const CUTS_MAX: usize = 1 << 16;
+
+/// Most cuts of a search for the zeros of a switch.
+const ZERO_CUTS_MAX: usize = 4096;
 
 /// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -243,7 +247,7 @@ impl<'a> Steepness<'a> {
                 continue;
             }
             let has_one = slope.low > 0.0 || slope.high < 0.0;
-            if has_one || to.at - from.at < SHORTEST || cuts >= CUTS_MAX {
+            if has_one || to.at - from.at < SHORTEST || cuts >= ZERO_CUTS_MAX {
                 if (from.value < 0.0) != (to.value < 0.0) {
                     zeros.push([from.at, to.at]);
                 }
