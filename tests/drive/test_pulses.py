@@ -295,7 +295,7 @@ def test_a_link_that_goes_round_many_times_meets_its_pulse_each_time(ratio: int)
     assert abs(abs(state.energy_load) - work) < 1e-5 * work
 
 
-# Of the closed form of the work: so much, a load's share of an accuracy of 1e-9, is rounding of a narrow pulse.
+# Of the work: the accuracy asked for is 1e-9, and rounding of the angle moves a pulse by 1e-9 of its width.
 WORK = 1e-8
 
 
