@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
@@ -70,8 +70,10 @@ def _of_group(
 
 
 def _reason(name: str, error: Exception) -> str:
+    if isinstance(error, LinkwrightError):
+        return " ".join(str(error).split())
     if name.rsplit(".", 1)[-1].isdecimal():
-        return "the place of a point of a table has no derivative; its value has"
+        return "the place of a point of this table has no derivative; its value has"
     if isinstance(error, TypeError):
         return "the machine does not follow it by plain arithmetic (a count, a motion law, a searched length)"
     return str(error)
@@ -124,6 +126,11 @@ class Directions:
         object.__setattr__(self, "values", np.ascontiguousarray(self.values))
 
 
+# Numbers of one form agree but for rounding: to this share, or to this number in SI.
+_ALIKE, _NOTHING = 1e-6, 1e-9
+
+_OTHER_FORM = "a motion law is of another form beside this value: a part of it has no length, or no size, here"
+
 _CHANGE_POINTS = (
     "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
     "that keep it clear of them"
@@ -148,7 +155,15 @@ def directions(
         kept: Directions = last[1]
         return kept
     refused: dict[str, str] = {}
-    derivatives = columns(machine, variables, lambda machine: program(machine).parameters, refused)
+    plain = program(machine).parameters
+
+    def numbers(machine: Machine) -> Sequence[Any]:
+        listed = program(machine).parameters
+        if len(listed) != len(plain) or not np.allclose([*map(primal, listed)], plain, rtol=_ALIKE, atol=_NOTHING):
+            raise InputError(_OTHER_FORM)
+        return listed
+
+    derivatives = columns(machine, variables, numbers, refused)
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
         n_own = program(machine).n_own
         moved = [name for name, column in derivatives.items() if column[:n_own].any()]

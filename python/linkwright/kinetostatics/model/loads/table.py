@@ -11,6 +11,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
 
@@ -99,7 +101,13 @@ class OverCrankAngle(Load):
 
     def points(self, values: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
         """Angles [rad] and values without the repetition of the first point at the end of the cycle."""
-        closes = self.angle[-1] - self.angle[0] >= self.cycle * (1 - _ROUNDED)
+        ends = self.angle[0], self.angle[-1]
+        closes = ends[1] - ends[0] >= self.cycle * (1 - _ROUNDED)
+        if closes and variables_of(ends) is not None:
+            raise InputError(
+                "the table closes: its first and its last angle are one cycle apart, and neither can move "
+                "without the other"
+            )
         return (self.angle[:-1], values[:-1]) if closes else (self.angle, values)
 
     def _table_faults(self, key: str, unit: str) -> Iterator[InitErrorDetails]:
