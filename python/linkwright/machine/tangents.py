@@ -19,7 +19,8 @@ from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Translation, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
+from linkwright.machine.program.core import Element
 from linkwright.machine.program.mechanism import MechanismProgram
 
 # What tells that an entry is not followed.
@@ -129,7 +130,15 @@ class Directions:
 # Numbers of one form agree but for rounding: to this share, or to this number in SI.
 _ALIKE, _NOTHING = 1e-6, 1e-9
 
-_OTHER_FORM = "a motion law is of another form beside this value: a part of it has no length, or no size, here"
+_OTHER_FORM = (
+    "the machine is of another form beside this value: a part of a motion law, or of a table, has no length or no "
+    "size here"
+)
+
+_PARTING = (
+    "it moves a section of one cam away from that of another, and velocity or acceleration of both followers "
+    "jump at their common angle"
+)
 
 _CHANGE_POINTS = (
     "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
@@ -168,16 +177,30 @@ def directions(
         n_own = program(machine).n_own
         moved = [name for name, column in derivatives.items() if column[:n_own].any()]
         refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
+    if sum(isinstance(element, Element.Programme) for element in compiled.elements) > 1:
+        refused.update(dict.fromkeys(_parting(compiled, derivatives), _PARTING))
     known = tuple(name for name in variables if name in derivatives and name not in refused)
-    # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
-    values = np.zeros((len(compiled.parameters), len(known)))
-    for place, name in enumerate(known):
-        values[: len(derivatives[name]), place] = derivatives[name]
+    values = _columns_of(compiled, [derivatives[name] for name in known])
     sizes = np.array([abs(float(entry_of(machine, name))) or 1.0 for name in known])
     directions = Directions(known, values, sizes, refused)
     # Several analyses of a machine ask for the same ones.
     compiled.kept["directions"] = asked, directions
     return directions
+
+
+def _columns_of(compiled: CompiledMachine, derivatives: Sequence[Floats]) -> Floats:
+    """Derivatives of all parameters by some entries, (parameters, entries)."""
+    # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
+    values = np.zeros((len(compiled.parameters), len(derivatives)))
+    for place, column in enumerate(derivatives):
+        values[: len(column), place] = column
+    return values
+
+
+def _parting(compiled: CompiledMachine, derivatives: Mapping[str, Floats]) -> list[str]:
+    """Entries that move apart angles at which two motion laws jump together."""
+    along = compiled.kinks_along(_columns_of(compiled, [*derivatives.values()]), compiled.kinks())
+    return [name for name, lost in zip(derivatives, np.isnan(along).any(axis=0), strict=True) if lost]
 
 
 @dataclass(frozen=True)
@@ -225,15 +248,23 @@ def followed(
     return known, work(seeded(machine, known))
 
 
+def _is_of_law(machine: Machine, name: str) -> bool:
+    """Whether an entry belongs to the motion that the law of a cam is made of."""
+    place = known_place(machine, name)
+    return place[:2] == ("mechanism", "cams") and place[3] in ("sections", "train")
+
+
 def seeded(machine: Machine, names: Sequence[str]) -> Machine:
     """The machine with arrays of tangents by some of its entries, for what is worked out in arrays.
 
     An entry that follows from others keeps its derivatives by these, beside that by itself with all entries
-    of the file held.
+    of the file held. What the law of a cam is made of are tangents: its pieces are numbers, which then meet
+    arrays.
     """
     units = dict(zip(names, np.eye(len(names)), strict=True))
     seeds: dict[str, Any] = {
-        name: TangentArray(float(entry_of(machine, name)), unit) for name, unit in units.items()
+        name: (Tangent if _is_of_law(machine, name) else TangentArray)(float(entry_of(machine, name)), unit)
+        for name, unit in units.items()
     }
     following = {name: known_place(machine, name) for name in names if not is_given(machine, name)}
     given = exchanged(machine, {name: seeds[name] for name in names if name not in following})

@@ -38,31 +38,21 @@ impl<R> Joint<R> {
 }
 
 impl<R: Real> Machine<'_, Dual<R>> {
-    /// Crank angles with their derivatives: one on a kink moves with it, others stay. Where several kinks are at one angle that
-    /// at which the machine may jump counts: elsewhere a motion does not depend on the place of a kink, as small as changes
-    /// are, and one that moves counts more than one that stays. It is no number where jumps at one angle move apart.
+    /// Crank angles with their derivatives: one on a kink moves with it, others stay. Of several kinks at one angle the joint of
+    /// a motion law counts before others, and the knot of a table, where the motion only bends, behind them: as small as
+    /// changes are, the motion does not depend on the place of a bend. It is no number where jumps at one angle move apart.
     #[inline(always)]
     pub fn moving(&self, angles: &[f64], m: &mut Motion<Dual<R>>) -> Vec<Dual<R>> {
-        let (watches, joints) = (self.plan.all_watches(), self.numbered_joints());
+        let (watches, joints, knots) = (self.plan.all_watches(), self.joints(), self.angle_knots());
         let mut moving = Vec::with_capacity(angles.len());
         for &angle in angles {
             let zeros = self.zeros_at(&watches, angle, m);
-            let here = || joints.iter().filter(|joint| joint.is_at(angle));
-            let knots = zeros.iter().filter(|(watch, _)| watch.is_knot()).map(|(_, d)| *d);
-            let mut d = R::splat(0.0);
-            for by in here().map(|joint| joint.d).chain(knots) {
-                d = d.abs().select_lt(by.abs(), by, d);
-            }
-            if let Some((_, by)) = zeros.iter().rfind(|(watch, _)| !watch.is_knot()) {
-                d = *by;
-            }
-            let mut jump: Option<R> = None;
-            for joint in here().filter(|joint| joint.jumps) {
-                let by = jump.unwrap_or(joint.d);
-                let apart = (joint.d - by).abs();
-                jump = Some((by.abs() * TOGETHER).select_lt(apart, R::splat(f64::NAN), by));
-            }
-            moving.push(Dual { value: R::splat(angle), d: jump.unwrap_or(d) });
+            let of_slides = zeros.iter().filter(|(watch, _)| watch.is_knot()).map(|(_, d)| *d);
+            let knot =
+                farthest(knots.iter().filter(|knot| knot.is_at(angle)).map(|knot| knot.d).chain(of_slides));
+            let zero = zeros.iter().rfind(|(watch, _)| !watch.is_knot()).map(|(_, d)| *d);
+            let d = joint_at(&joints, angle).or(zero).or(knot).unwrap_or(R::splat(0.0));
+            moving.push(Dual { value: R::splat(angle), d });
         }
         moving
     }
@@ -100,9 +90,9 @@ impl<R: Real> Machine<'_, Dual<R>> {
         values
     }
 
-    /// Joints of motion laws in pieces, and knots of tables over the crank angle.
+    /// Joints of motion laws in pieces.
     #[inline(always)]
-    fn numbered_joints(&self) -> Vec<Joint<R>> {
+    fn joints(&self) -> Vec<Joint<R>> {
         let mut joints = Vec::new();
         for element in &self.plan.mechanism.elements {
             let Element::Programme(programme) = element else { continue };
@@ -111,14 +101,42 @@ impl<R: Real> Machine<'_, Dual<R>> {
                 joints.push(Joint { angle: joint.value.max_lane(), period: TAU, d: joint.d, jumps });
             }
         }
+        joints
+    }
+
+    /// Knots of tables over the crank angle.
+    #[inline(always)]
+    fn angle_knots(&self) -> Vec<Joint<R>> {
+        let mut knots = Vec::new();
         for (table, turns) in self.plan.angle_tables() {
             for knot in table.moving_knots() {
                 let (d, period) = (knot.number(self.q).d, TAU * f64::from(turns));
-                joints.push(Joint { angle: knot.x, period, d, jumps: false });
+                knots.push(Joint { angle: knot.x, period, d, jumps: false });
             }
         }
-        joints
+        knots
     }
+}
+
+/// How the joints at an angle move: those at which the motion may jump count, else the one that moves farthest.
+#[inline(always)]
+fn joint_at<R: Real>(joints: &[Joint<R>], angle: f64) -> Option<R> {
+    let mut jump: Option<R> = None;
+    for joint in joints.iter().filter(|joint| joint.jumps && joint.is_at(angle)) {
+        let by = jump.unwrap_or(joint.d);
+        let apart = (joint.d - by).abs();
+        jump = Some((by.abs() * TOGETHER).select_lt(apart, R::splat(f64::NAN), by));
+    }
+    jump.or_else(|| farthest(joints.iter().filter(|joint| joint.is_at(angle)).map(|joint| joint.d)))
+}
+
+/// Lane by lane the one that moves farthest; none of none.
+#[inline(always)]
+fn farthest<R: Real>(moves: impl Iterator<Item = R>) -> Option<R> {
+    moves.reduce(
+        #[inline(always)]
+        |most, by| most.abs().select_lt(by.abs(), by, most),
+    )
 }
 
 impl Watch {

@@ -12,6 +12,7 @@ from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import moves
 from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
@@ -72,11 +73,11 @@ class TorqueSwing(Load):
         for torques, sense in ((self.forward, "-step(psi_dot)"), (self.return_, "step(-psi_dot)")):
             if torques is None:
                 continue
-            if torques[0]:
+            if moves(torques[0]):
                 yield f"{sense}*first", {"first": torques[0]}
             pieces = zip(pairwise(self.angle), pairwise(torques), strict=True)
             for (low, high), (before, after) in pieces:
-                if after != before:
+                if moves(after - before):
                     slope = (after - before) / (high - low)
                     ends = {"low": low - middle, "high": high - middle}
                     yield f"{sense}*{_PIECE}", {"slope": slope, "middle": middle, **ends}
