@@ -225,7 +225,11 @@ def with_tables(random: Generator, drive: Table, speeds: tuple[float, float], si
             "angle": _increasing(random, (0.0, 6.2), 5),
             "torque": heights(5, 0.3),
         },
-        "fan": {"kind": "torque_speed", "speed": _around(random, *speeds), "torque": np.sort(heights(4, 0.3))},
+        "fan": {
+            "kind": "torque_speed",
+            "speed": _around(random, *speeds),
+            "torque": np.sort(heights(4, 0.3)),
+        },
     }
     for name, slider in sliders.items():
         rod, reach = slider["rod"], (slider["rod"] - r, slider["rod"] + r)
@@ -332,4 +336,5 @@ def _follower(random: Generator, height: float) -> Table:
         "rotation": str(random.choice(["same", "opposite"])),
         "sections": sections,
     }
-    return cam | ({"arm_pivot": "P", "arm_length": 0.1} if swings else {"direction": random.uniform(0.0, 3.0)})
+    arm = {"arm_pivot": "P", "arm_length": 0.1}
+    return cam | (arm if swings else {"direction": random.uniform(0.0, 3.0)})

@@ -1,5 +1,5 @@
-"""Derivatives of motion and forces by the sections and laws of cams on the shaft: extrapolated differences of the
-same analyses, with laws whose acceleration jumps where sections meet, and smooth ones.
+"""Derivatives of motion and forces by the sections and laws of cams on the shaft, of which some jump in the
+acceleration, against extrapolated differences of the same analyses.
 """
 
 from __future__ import annotations
@@ -93,9 +93,8 @@ def _forces(machine: lw.Machine) -> dict[str, float]:
 def _ways(machine: lw.Machine, variables: Sequence[str]) -> list[dict[str, float]]:
     """Entries of cams and by how much each goes: sections in pairs, so that angles and lifts still close."""
     of_cams = [name for name in variables if name.startswith("mechanism.cams.") and lw.get(machine, name)]
-    paired = [
-        [name for name in of_cams if ".sections." in name and name.endswith(key)] for key in (".angle", ".lift")
-    ]
+    sections = [name for name in of_cams if ".sections." in name]
+    paired = [[name for name in sections if name.endswith(key)] for key in (".angle", ".lift")]
     alone = [name for name in of_cams if not any(name in pair for pair in paired)]
     ways = [{name: abs(lw.get(machine, name))} for name in alone]
     for pair in paired:
@@ -152,12 +151,12 @@ def test_motion_in_time_and_forces_follow_sections(laws: str, measure: Measure) 
     variables = lw.gradient(machine, [next(iter(measure(machine))).partition(".")[0]]).variables
     ways = [way for way in _ways(machine, variables) if any(".sections." in name for name in way)]
     off = errors(machine, measure, ways)
-    assert len(off) >= 10
+    assert len(off) >= 8
     assert max(off.values()) <= TOLERANCE, {key: size for key, size in off.items() if size > TOLERANCE}
 
 
 def test_all_lifts_together_scale_the_work_of_friction() -> None:
-    """Friction alone takes work over a revolution, in proportion to force and lift: no difference is needed."""
+    """Friction alone takes work over a revolution, in proportion to force and lift."""
     machine = _machine("constant acceleration", 1.0)
     entries = [f"mechanism.cams.c.sections.{i}.lift" for i in (0, 2)]
     found = lw.gradient(machine, ["steady_state.energy_load"], [*entries, "loads.dry.force"])

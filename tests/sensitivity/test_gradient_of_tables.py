@@ -1,11 +1,10 @@
-"""Derivatives by the points of tables. A table whose points follow a law has the derivatives of that law, by the
-chain rule; so a machine with the law itself is the check of its values, without a difference. Places are checked
-by differences of the same analyses.
+"""Derivatives by the points of tables. A table whose points follow a law has the derivatives of that law, by
+the chain rule; so a machine with the law itself is the check of its values, without a difference. Places are
+checked by differences of the same analyses.
 """
 
 import numpy as np
 import pytest
-
 from test_gradient_of_laws import _forces, _run_up, _steady, errors
 
 import linkwright as lw
@@ -201,7 +200,8 @@ MOTORS = {
 def _places(machine, where, keys):
     """Entries of the places of a table that are not zero; each goes by its own size."""
     keys = (keys,) if isinstance(keys, str) else keys
-    listed = [name for name in lw.addresses(machine) if name.startswith(tuple(f"{where}.{key}" for key in keys))]
+    starts = tuple(f"{where}.{key}" for key in keys)
+    listed = [name for name in lw.addresses(machine) if name.startswith(starts)]
     return [{name: abs(lw.get(machine, name))} for name in listed if lw.get(machine, name)]
 
 
@@ -238,6 +238,7 @@ def test_ends_of_a_table_that_closes_are_refused():
     closing = {"kind": "torque_angle", "angle": [0.0, 1.0, 2 * np.pi], "torque": [90.0, 300.0, 90.0]}
     machine = _with_load(closing)
     found = lw.gradient(machine, ["steady_state.unevenness"])
-    assert {name for name in found.refused if ".angle." in name} == {"loads.more.angle.0", "loads.more.angle.2"}
+    ends = {"loads.more.angle.0", "loads.more.angle.2"}
+    assert {name for name in found.refused if ".angle." in name} == ends
     with pytest.raises(InputError, match="the table closes"):
         lw.gradient(machine, ["steady_state.unevenness"], ["loads.more.angle.0"])

@@ -131,8 +131,8 @@ class Directions:
 _ALIKE, _NOTHING = 1e-6, 1e-9
 
 _OTHER_FORM = (
-    "the machine is of another form beside this value: a part of a motion law, or of a table, has no length or no "
-    "size here"
+    "the machine is of another form beside this value: a part of a motion law, or of a table, has no length "
+    "or no size here"
 )
 
 _PARTING = (
@@ -164,15 +164,10 @@ def directions(
         kept: Directions = last[1]
         return kept
     refused: dict[str, str] = {}
-    plain = program(machine).parameters
-
-    def numbers(machine: Machine) -> Sequence[Any]:
-        listed = program(machine).parameters
-        if len(listed) != len(plain) or not np.allclose([*map(primal, listed)], plain, rtol=_ALIKE, atol=_NOTHING):
-            raise InputError(_OTHER_FORM)
-        return listed
-
-    derivatives = columns(machine, variables, numbers, refused)
+    parameters = program(machine).parameters
+    derivatives = columns(
+        machine, variables, lambda along: _of_form(parameters, program(along).parameters), refused
+    )
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
         n_own = program(machine).n_own
         moved = [name for name, column in derivatives.items() if column[:n_own].any()]
@@ -186,6 +181,14 @@ def directions(
     # Several analyses of a machine ask for the same ones.
     compiled.kept["directions"] = asked, directions
     return directions
+
+
+def _of_form(parameters: Sequence[float], along: Sequence[Any]) -> Sequence[Any]:
+    """Parameters with tangents, which have to be one by one those of the machine. Raises InputError."""
+    values = [*map(primal, along)]
+    if len(values) != len(parameters) or not np.allclose(values, parameters, rtol=_ALIKE, atol=_NOTHING):
+        raise InputError(_OTHER_FORM)
+    return along
 
 
 def _columns_of(compiled: CompiledMachine, derivatives: Sequence[Floats]) -> Floats:
