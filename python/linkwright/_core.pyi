@@ -112,7 +112,7 @@ MESH_STEPS_MAX: int
 class Table:
     """Straight lines between points; raises ValueError unless x increases and all is finite.
 
-    `first`: the first of the parameters that the values are as well.
+    `first`: the first of the parameters that the points are as well, all places before all values.
     """
 
     def __new__(cls, x: Sequence[float], y: Sequence[float], first: int | None = None) -> Table: ...
@@ -155,9 +155,13 @@ class Piece:
 
 @final
 class MotionLaw:
-    """Pieces that follow one another over a whole revolution; ValueError if they do not."""
+    """Pieces that follow one another over a whole revolution; ValueError if they do not.
 
-    def __new__(cls, pieces: Sequence[Piece]) -> MotionLaw: ...
+    `first`: the first of the parameters that their numbers are as well, piece by piece: start, length,
+    polynomial, harmonics.
+    """
+
+    def __new__(cls, pieces: Sequence[Piece], first: int | None = None) -> MotionLaw: ...
 
 @final
 class Line:

@@ -209,3 +209,132 @@ def with_blow(random: Generator, drive: Table, size: float) -> Table:
     }
     load = {"kind": "formula", "on": "A", "torque": str(random.choice(BLOWS)), "constants": constants}
     return drive | {"loads": drive["loads"] | {"blow": load}}
+
+
+def with_tables(random: Generator, drive: Table, speeds: tuple[float, float], size: float) -> Table:
+    """A drive with tables over angle, position, distance and both speeds; torques are of the given size."""
+    sliders = drive["mechanism"].get("sliders", {})
+    r = drive["mechanism"]["cranks"]["A"]["radius"]
+
+    def heights(n: int, by: float = 1.0) -> list[float]:
+        return (by * size * random.uniform(-0.3, 1.0, n)).tolist()
+
+    loads: Table = {
+        "turning": {
+            "kind": "torque_angle",
+            "angle": _increasing(random, (0.0, 6.2), 5),
+            "torque": heights(5, 0.3),
+        },
+        "fan": {
+            "kind": "torque_speed",
+            "speed": _around(random, *speeds),
+            "torque": np.sort(heights(4, 0.3)),
+        },
+    }
+    for name, slider in sliders.items():
+        rod, reach = slider["rod"], (slider["rod"] - r, slider["rod"] + r)
+        loads |= {
+            f"{name} pressed": {
+                "kind": "force_position",
+                "on": name,
+                "position": _increasing(random, reach, 3),
+                "forward": np.abs(heights(3, 0.3 / r)),
+                "return": np.abs(heights(3, 0.3 / r)),
+            },
+            f"{name} held": {
+                "kind": "spring",
+                "between": [name, "O"],
+                "length": _increasing(random, (rod - 0.5 * r, rod + r), 3),
+                "force": heights(3, 0.3 / r),
+            },
+            f"{name} damped": {
+                "kind": "damper",
+                "between": [name, "O"],
+                "velocity": [-r * speeds[0], -0.1 * r * speeds[0], 0.4 * r * speeds[0]],
+                "force": np.sort(heights(3, 0.1 / r)),
+            },
+        }
+    plain = {name: {key: _listed(value) for key, value in load.items()} for name, load in loads.items()}
+    some = {name: plain[name] for name in plain if random.random() < 0.6}
+    return drive | {"loads": drive["loads"] | some}
+
+
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def _increasing(random: Generator, ends: tuple[float, float], n: int) -> list[float]:
+    """Places that keep off each other."""
+    shares = np.cumsum(random.uniform(0.3, 1.0, n + 1))[:-1]
+    return (ends[0] + (ends[1] - ends[0]) * shares / (shares[-1] + 0.3)).tolist()
+
+
+def _around(random: Generator, low: float, high: float) -> list[float]:
+    """Speeds of which some lie between two, where these are apart."""
+    inner = low + (high - low) * np.array([random.uniform(0.2, 0.4), random.uniform(0.6, 0.8)])
+    return [0.0, *(inner * [1.0, 1.001]).tolist(), 1.5 * high]
+
+
+# Laws of a follower, of which some jump in the acceleration.
+FOLLOWER_LAWS: tuple[Any, ...] = (
+    *("parabolic", "parabolic", "harmonic", "cycloidal", "polynomial_3_4_5", "minimum_jerk"),
+    {"kind": "modified_sine", "share": 0.17},
+    {"kind": "modified_trapezoid", "share": 0.11},
+    {"kind": "combined", "start": 0.3, "stop": 0.22},
+    {"kind": "s_curve", "start": 0.3, "stop": 0.35, "rounding": 0.2},
+    {"kind": "trapezoidal_velocity", "start": 0.25, "stop": 0.3},
+)
+
+
+def random_camshaft(random: Generator) -> Table:
+    """One or two cams on a shaft that a motor drives, whose followers have mass, friction and springs."""
+    height, mass = log_uniform(random, 5e-3, 80e-3), log_uniform(random, 1.0, 300.0)
+    speed, ratio = log_uniform(random, 3.0, 40.0), float(random.choice([1.0, 9.8]))
+    force = mass * 9.81 + log_uniform(random, 10.0, 3000.0)
+    torque = force * height * log_uniform(random, 0.7, 20.0) / ratio
+    drive = _drive(random, ratio, torque, speed * ratio)
+    inertia = mass * height**2 * log_uniform(random, 0.3, 100.0)
+    drive["flywheel"] = {"on": "crank", "inertia": inertia}
+    loads: Table = {"gravity": {"kind": "gravity"}} if random.random() < 0.5 else {}
+    cams: Table = {}
+    for name in ("c", "d")[: random.integers(1, 3)]:
+        cams[name] = _follower(random, height)
+        swings = cams[name]["follower"] == "oscillating"
+        if not swings:
+            loads[f"{name} rubs"] = {"kind": "dry", "on": name, "force": 0.2 * force}
+        if random.random() < 0.7:
+            stiffness = force / height * random.uniform(0.1, 1.0)
+            between = [name, "O"]
+            loads[f"{name} closes"] = {
+                "kind": "spring", "between": between, "stiffness": stiffness, "free_length": 0.05
+            }  # fmt: skip
+    return {
+        "format": 1,
+        "name": "Random camshaft",
+        "drive": drive,
+        "mechanism": {"points": {"P": {"x": 0.13, "y": 0.02}}, "cams": cams},
+        "bodies": {name: {"mass": mass} for name in cams},
+        "loads": loads,
+    }
+
+
+def _follower(random: Generator, height: float) -> Table:
+    """A cam with rise, dwell and return, and sometimes a second dwell."""
+    swings = bool(random.random() < 0.3)
+    key, stroke = ("swing", height / 0.1) if swings else ("lift", height)
+    laws = [FOLLOWER_LAWS[random.integers(len(FOLLOWER_LAWS))] for _ in range(2)]
+    shares = random.dirichlet([6.0, 2.0, 6.0, 2.0])[: random.choice([3, 4])]
+    angles = (shares / shares.sum() * 2 * np.pi).tolist()
+    sections: list[Table] = [{"angle": angle} for angle in angles]
+    sections[0] |= {key: stroke, "law": laws[0]}
+    sections[2] |= {key: -stroke, "law": laws[1]}
+    cam: Table = {
+        "follower": "oscillating" if swings else "translating",
+        "base_radius": 0.05,
+        "roller_radius": 0.01,
+        "phase": random.uniform(0.0, 6.0),
+        "rotation": str(random.choice(["same", "opposite"])),
+        "sections": sections,
+    }
+    arm = {"arm_pivot": "P", "arm_length": 0.1}
+    return cam | (arm if swings else {"direction": random.uniform(0.0, 3.0)})

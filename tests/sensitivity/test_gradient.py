@@ -62,6 +62,8 @@ def test_derivatives_are_those_of_the_analysis(path):
     tied = np.array([f"steady_state.{name}" in found.ties for name in _NUMBERS])
     given = [name for name, value in zip(found.variables, found.at, strict=True) if value]
     given = [name for name in given if "press" not in path or name not in _TOUCHING]
+    # Sections of a cam have to close: in pairs they are varied elsewhere.
+    given = [name for name in given if ".sections." not in name or ".law." in name]
     scale = np.abs(found.derivatives[rows] * found.at).max(axis=1)
     for address in given[:: max(1, len(given) // 8)]:
         place = found.variables.index(address)
@@ -167,7 +169,9 @@ def test_entries_tie_where_differences_to_both_sides_differ(name):
     middle = lw.steady_state(machine, accuracy=1e-11)
     found = lw.gradient(machine, responses)
     n_tied = 0
-    for entry, value in zip(found.variables, found.at, strict=True):
+    # Sections of a cam do not close when one of them alone is another.
+    closing = [not (".sections." in name and ".law." not in name) for name in found.variables]
+    for entry, value in zip(np.array(found.variables)[closing].tolist(), found.at[closing], strict=True):
         h = 1e-6 * (abs(value) or 1.0)
         try:
             beside = [lw.replace(machine, {entry: value + step}) for step in (h, -h)]

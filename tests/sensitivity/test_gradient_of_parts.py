@@ -9,7 +9,6 @@ import pytest
 
 import linkwright as lw
 from linkwright.cam.dynamics.loaded import cam_force
-from linkwright.kernel.errors import InputError
 from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source
 
@@ -100,8 +99,16 @@ def test_entries_that_move_a_joint_under_the_extreme_have_none() -> None:
     found = lw.gradient(machine, ["cam_force.F.force_max"])
     assert "mechanism.cams.F.phase" in found.ties["cam_force.F.force_max"]
     assert np.isnan(found.of("cam_force.F.force_max")["mechanism.cams.F.phase"])
-    with pytest.raises(InputError, match="sections"):
-        lw.gradient(machine, ["cam_force.F.force_max"], ["mechanism.cams.F.sections.0.lift"])
+    # Lifts do not move it.
+    lifts = [f"mechanism.cams.F.sections.{i}.lift" for i in (0, 1)]
+    slopes = lw.gradient(machine, ["cam_force.F.force_max"], lifts).derivatives[0]
+    exact = slopes @ [1.0, -1.0]
+    h, here = 1e-6, [lw.get(machine, lift) for lift in lifts]
+    up, down = (
+        cam_force(lw.replace(machine, {lifts[0]: here[0] + by, lifts[1]: here[1] - by}), "F").force_max
+        for by in (h, -h)
+    )
+    assert (up - down) / (2 * h) == pytest.approx(exact, rel=1e-7)
 
 
 def test_forces_of_a_follower_that_leaves_have_derivatives() -> None:
@@ -185,11 +192,15 @@ def _limited(jerk: str) -> str:
 
 
 @pytest.mark.parametrize("analysis", ["cam_force", "forces"])
-def test_limits_of_a_law_are_no_entries_that_forces_follow(analysis: str) -> None:
-    """Also one that the law does not reach, so that nothing depends on it."""
-    found = lw.gradient(lw.loads(_limited(", jerk_max = 1")), [analysis])
-    assert "bodies.F.mass" in found.variables
-    assert "mechanism.cams.F.sections.0.law.velocity_max" in found.refused
+def test_forces_follow_the_limits_of_a_law(analysis: str) -> None:
+    """One that the law does not reach changes nothing; one that it reaches moves jumps of the force."""
+    limit = "mechanism.cams.F.sections.0.law"
+    far = lw.gradient(lw.loads(_limited(", jerk_max = 1")), [analysis])
+    assert not far.refused
+    slopes = far.derivatives[:, far.variables.index(f"{limit}.velocity_max")]
+    np.testing.assert_array_equal(slopes, 0.0)
+    near = lw.gradient(lw.loads(_limited("")), [analysis])
+    assert any(f"{limit}.acceleration_max" in tie for tie in near.ties.values()) == (analysis == "cam_force")
 
 
 def test_a_law_without_a_limit_of_the_jerk_has_derivatives() -> None:

@@ -1,9 +1,11 @@
-"""Derivatives by the values of tables: a table whose points follow a law has the derivatives of that law, by
-the chain rule; so a machine with the law itself is the check, without a difference.
+"""Derivatives by the points of tables. A table whose points follow a law has the derivatives of that law, by
+the chain rule; so a machine with the law itself is the check of its values, without a difference. Places are
+checked by differences of the same analyses.
 """
 
 import numpy as np
 import pytest
+from test_gradient_of_laws import _forces, _run_up, _steady, errors
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
@@ -122,13 +124,121 @@ def test_values_of_a_motor_follow_its_line():
         assert np.all(np.abs(along - expected.derivatives[:, 0]) <= 2e-8 * np.abs(found.values) / stall)
 
 
-def test_torque_over_speed_and_places():
-    """A load over speed on a straight line; the places of its points are refused with the reason."""
+def test_torque_over_speed():
+    """A load over speed on a straight line."""
     speeds = [0.0, 5.0, 20.0]
     machine = _with_load({"kind": "torque_speed", "speed": speeds, "torque": [8.0 * w for w in speeds]})
     _, along = _summed(machine, ["steady_state.energy_load"], "torque", np.array(speeds))
     viscous = _with_load({"kind": "viscous", "on": "A1", "damping_torsional": 8.0})
     expected = lw.gradient(viscous, ["steady_state.energy_load"], ["loads.more.damping_torsional"])
     assert along[0] == pytest.approx(expected.derivatives[0, 0], rel=1e-8)
-    with pytest.raises(InputError, match="place of a point"):
-        lw.gradient(machine, ["steady_state.unevenness"], ["loads.more.speed.1"])
+
+
+# Tables with corners inside the motion, and the key of their places.
+CORNERS = {
+    "angle": (
+        {"kind": "torque_angle", "angle": list(ANGLES), "torque": [90.0, 300.0, 50.0, -100.0, 120.0]},
+        "angle",
+    ),
+    "position": (
+        {
+            "kind": "force_position",
+            "on": "cart1",
+            "position": [0.5, 0.7, 1.1],
+            "forward": [800.0, 2000.0, 300.0],
+            "return": [500.0, 100.0, 900.0],
+        },
+        "position",
+    ),
+    "spring": (
+        {
+            "kind": "spring",
+            "between": ["cart1", "W"],
+            "length": [0.3, 0.6, 0.9, 1.2],
+            "force": [-300.0, -20.0, 100.0, 900.0],
+        },
+        "length",
+    ),
+    "damper": (
+        {
+            "kind": "damper",
+            "between": ["cart1", "W"],
+            "velocity": [-3.0, -0.4, 0.1, 0.5, 3.0],
+            "force": [-400.0, -150.0, 50.0, 250.0, 300.0],
+        },
+        "velocity",
+    ),
+    "speed": (
+        {"kind": "torque_speed", "speed": [0.0, 8.5, 10.7, 20.0], "torque": [10.0, 100.0, 180.0, 300.0]},
+        "speed",
+    ),
+}
+
+MOTORS = {
+    "curve": (
+        {
+            "kind": "table",
+            "speed": [0.0, 60.0, 95.0, 104.0, 120.0],
+            "torque": [60.0, 150.0, 120.0, 10.0, -200.0],
+            "inertia": 0.05,
+        },
+        "speed",
+    ),
+    "limited": (
+        {
+            "kind": "dc",
+            "torque_stall": 900.0,
+            "speed_no_load": 120.0,
+            "torque_max": 150.0,
+            "inertia": 0.05,
+        },
+        ("torque_max", "torque_stall", "speed_no_load"),
+    ),
+}
+
+
+def _places(machine, where, keys):
+    """Entries of the places of a table that are not zero; each goes by its own size."""
+    keys = (keys,) if isinstance(keys, str) else keys
+    starts = tuple(f"{where}.{key}" for key in keys)
+    listed = [name for name in lw.addresses(machine) if name.startswith(starts)]
+    return [{name: abs(lw.get(machine, name))} for name in listed if lw.get(machine, name)]
+
+
+@pytest.mark.parametrize("measure", [_steady, _run_up, _forces])
+@pytest.mark.parametrize("name", [*CORNERS, *MOTORS])
+def test_places_of_points_move_as_differences_do(name, measure):
+    """To 1e-7 of the largest: what differences are good for."""
+    if name in CORNERS:
+        table, key = CORNERS[name]
+        machine = _with_load(table)
+        ways = _places(machine, "loads.more", key)
+    else:
+        motor, key = MOTORS[name]
+        described = lw.read(CART).model_dump(by_alias=True, exclude_unset=True)
+        drive = described["drive"] | {"motor": motor}
+        machine = lw.Machine.model_validate(described | {"drive": drive})
+        ways = _places(machine, "drive.motor", key)
+    off = errors(machine, measure, ways)
+    assert len(off) >= 3
+    assert max(off.values()) <= 1e-7, off
+
+
+def test_a_point_that_slides_along_its_line_changes_nothing():
+    """Place and value together, where both lines beside the point have one slope."""
+    speeds = [0.0, 8.5, 10.7, 20.0]
+    machine = _with_load({"kind": "torque_speed", "speed": speeds, "torque": [8.0 * w for w in speeds]})
+    entries = ["loads.more.speed.1", "loads.more.torque.1"]
+    found = lw.gradient(machine, ["steady_state", "run_up"], entries)
+    along = found.derivatives @ [1.0, 8.0]
+    assert np.all(np.abs(along) <= 1e-9 * np.abs(found.derivatives).max(axis=1) + 1e-12)
+
+
+def test_ends_of_a_table_that_closes_are_refused():
+    closing = {"kind": "torque_angle", "angle": [0.0, 1.0, 2 * np.pi], "torque": [90.0, 300.0, 90.0]}
+    machine = _with_load(closing)
+    found = lw.gradient(machine, ["steady_state.unevenness"])
+    ends = {"loads.more.angle.0", "loads.more.angle.2"}
+    assert {name for name in found.refused if ".angle." in name} == ends
+    with pytest.raises(InputError, match="the table closes"):
+        lw.gradient(machine, ["steady_state.unevenness"], ["loads.more.angle.0"])

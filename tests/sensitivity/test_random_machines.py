@@ -83,7 +83,11 @@ def _drive(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
 
 def _forces(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
     """Largest forces of a drive in steady motion, at the angles that `forces` looks at."""
-    machine = lw.Machine.model_validate(random_drive(random))
+    return largest_forces(lw.Machine.model_validate(random_drive(random)))
+
+
+def largest_forces(machine: lw.Machine) -> tuple[lw.Machine, list[str], Measure]:
+    """The same of any machine."""
 
     def largest(machine: lw.Machine) -> Forces:
         return lw.forces(machine, lw.steady_state(machine, accuracy=1e-13), contributions=False)

@@ -80,6 +80,7 @@ impl<R: Real, N: Lift<R>> Neg for OnBranch<N, R> {
 impl<R: Real, N: Lift<R>> Real for OnBranch<N, R> {
     const LANES: usize = N::LANES;
     const ROUNDS: usize = N::ROUNDS;
+    const IS_DUAL: bool = N::IS_DUAL;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {

@@ -100,6 +100,7 @@ impl<R: Real> Mul<f64> for Dual<R> {
 impl<R: Real> Real for Dual<R> {
     const LANES: usize = R::LANES;
     const ROUNDS: usize = R::ROUNDS + 1;
+    const IS_DUAL: bool = true;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {

@@ -174,6 +174,7 @@ impl<R: Real, const N: usize> Mul<f64> for Jet<R, N> {
 impl<R: Real, const N: usize> Real for Jet<R, N> {
     const LANES: usize = R::LANES;
     // A Newton round doubles the number of coefficients that are right.
+    const IS_DUAL: bool = R::IS_DUAL;
     const ROUNDS: usize = R::ROUNDS + N.next_power_of_two().trailing_zeros() as usize;
 
     #[inline(always)]

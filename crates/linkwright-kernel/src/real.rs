@@ -28,6 +28,9 @@ pub trait Real:
     const LANES: usize;
     /// Whether it is numbers alone, without derivatives: then a function of it is done in its own arithmetic.
     const IS_PLAIN: bool = false;
+    /// Whether it carries a derivative by what the numbers of a machine vary with: then what is known beforehand of a function,
+    /// as the points of a table, is read from those numbers. Only duals do.
+    const IS_DUAL: bool = false;
     /// Rounds of Newton's method, after the value has converged, until all derivatives carried along have.
     const ROUNDS: usize = 0;
 

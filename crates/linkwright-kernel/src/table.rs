@@ -7,8 +7,40 @@ use crate::real::{Lift, Real};
 pub struct Table {
     x: Vec<f64>,
     y: Vec<f64>,
-    /// First of the parameters that its values are as well, if they are: then its derivatives follow theirs.
+    /// First of the parameters that its points are as well, if they are: then its derivatives follow theirs.
     first: Option<usize>,
+}
+
+/// A place of a table, and the parameter that it is as well, if it is one.
+#[derive(Clone, Copy, Debug)]
+pub struct Knot {
+    /// The place.
+    pub x: f64,
+    slot: Option<usize>,
+}
+
+/// Knots at one place are one, whatever moves them.
+impl PartialEq for Knot {
+    fn eq(&self, other: &Self) -> bool {
+        self.x == other.x
+    }
+}
+
+impl Knot {
+    /// The place as a number of the machine; it moves with its parameter.
+    #[inline(always)]
+    pub fn number<R: Real>(&self, q: &[R]) -> R {
+        number(self.x, self.slot, q)
+    }
+}
+
+/// A number that may be a parameter as well, which duals alone read.
+#[inline(always)]
+fn number<R: Real>(value: f64, slot: Option<usize>, q: &[R]) -> R {
+    match slot {
+        Some(slot) if R::IS_DUAL => q[slot],
+        _ => R::splat(value),
+    }
 }
 
 impl Table {
@@ -23,18 +55,35 @@ impl Table {
         })
     }
 
-    /// The table whose values are parameters as well, one behind the other from the first on.
+    /// The table whose points are parameters as well, one behind the other from the first on: all places, then all values.
     #[must_use]
     pub fn with_parameters(self, first: usize) -> Self {
         Table { first: Some(first), ..self }
     }
 
-    /// The parameters that its values are.
+    /// The parameters that its points are.
     pub fn parameters(&self) -> std::ops::Range<usize> {
-        self.first.map_or(0..0, |first| first..first.saturating_add(self.y.len()))
+        self.first.map_or(0..0, |first| first..first.saturating_add(2 * self.y.len()))
     }
 
-    /// Value at `x`, the end values being held outside; derivatives by `x` and by the values.
+    /// Its places, which may move.
+    pub fn moving_knots(&self) -> impl Iterator<Item = Knot> + '_ {
+        self.x.iter().enumerate().map(|(i, &x)| Knot { x, slot: self.first.map(|first| first + i) })
+    }
+
+    /// Its points, place and value, as numbers of the machine.
+    #[inline(always)]
+    pub fn points<R: Real>(&self, q: &[R]) -> impl Iterator<Item = [R; 2]> {
+        (0..self.x.len()).map(|i| self.point(i, q))
+    }
+
+    #[inline(always)]
+    fn point<R: Real>(&self, i: usize, q: &[R]) -> [R; 2] {
+        let slot = |of: usize| self.first.map(|first| first + of * self.x.len() + i);
+        [number(self.x[i], slot(0), q), number(self.y[i], slot(1), q)]
+    }
+
+    /// Value at `x`, the end values being held outside; derivatives by `x` and by the points.
     #[inline(always)]
     pub fn held_at<R: Real, N: Lift<R>>(&self, x: N, q: &[R]) -> N {
         self.value_at(x, q, None)
@@ -52,27 +101,29 @@ impl Table {
             #[inline(always)]
             |x| self.value(self.line(x, period)),
         );
-        if N::IS_PLAIN || self.first.is_none() { value } else { self.with_values(value, x, q, period) }
+        if R::IS_DUAL && self.first.is_some() { self.with_points(value, x, q, period) } else { value }
     }
 
-    /// A value with what its own values' derivatives add to it, by the share that each has in it.
-    fn with_values<R: Real, N: Lift<R>>(&self, value: N, x: N, q: &[R], period: Option<f64>) -> N {
-        let end = |of: fn(&Line) -> usize| x.map(|x| (of(&self.line(x, period)) as f64, 0.0));
-        let [from, to] = [end(|line| line.from), end(|line| line.to)];
+    /// A value with what its points' derivatives add to it, by the share that each has in it. A point that goes ahead by
+    /// itself takes its line along: there it lowers the value by the slope, as going down by that much would.
+    fn with_points<R: Real, N: Lift<R>>(&self, value: N, x: N, q: &[R], period: Option<f64>) -> N {
+        let read = |of: fn(&Self, Line) -> f64| x.map(|x| (of(self, self.line(x, period)), 0.0));
+        let [from, to] = [read(|_, line| line.from as f64), read(|_, line| line.to as f64)];
+        let slope = read(|table, line| table.value(line).1);
         let together = |ends: N| -(-ends).max_lane() == ends.max_lane();
-        let moved = |sum: N, (i, slot): (usize, usize)| {
+        let moved = |sum: N, i: usize| {
             let share = x.map(|x| Self::share(i, &self.line(x, period)));
+            let [place, height] = self.point(i, q).map(N::lift);
             // Zero but for its derivatives.
-            (N::lift(q[slot]) - self.y[i]).mul_add(share, sum)
+            let rise = (height - self.y[i]) - (place - self.x[i]) * slope;
+            rise.mul_add(share, sum)
         };
-        let all = self.parameters().enumerate();
         if !(together(from) && together(to)) {
-            return all.fold(value, moved);
+            return (0..self.x.len()).fold(value, moved);
         }
         let ends = [from, to].map(|ends| ends.max_lane() as usize);
         let count = if ends[0] == ends[1] { 1 } else { 2 };
-        let slots = self.parameters();
-        ends[..count].iter().map(|&i| (i, slots.start + i)).fold(value, moved)
+        ends[..count].iter().copied().fold(value, moved)
     }
 
     /// Share of the value of a knot in that on a line, and its slope.
@@ -176,9 +227,38 @@ mod tests {
             let (value, d1) = (sum(at, Some(4.0)), slopes(at, Some(4.0)));
             assert!((value - turned).abs() < 1e-14 && (d1 - slope_turned).abs() < 1e-14, "{at} of a turn");
         }
-        let q = [0.0, 0.0, 1.0, 3.0, -1.0].map(|value| Dual { value, d: f64::from(value == 3.0) });
-        let beside = table.held_at(Dual { value: 2.0, d: 0.0 }, &q);
-        assert!((beside.value - 1.0).abs() < 1e-15 && (beside.d - 0.5).abs() < 1e-15, "{beside:?}");
+    }
+
+    /// Beside each end of a line in turn, and where it closes: what differences of tables with other points say, also of the
+    /// slope, which duals of duals carry.
+    #[test]
+    fn points_move_a_value_as_differences_do() {
+        let (x, y) = ([0.5, 1.0, 3.0], [1.0, 3.0, -1.0]);
+        let start: Vec<f64> = [9.0].into_iter().chain(x).chain(y).collect();
+        let of = |q: &[f64]| Table::new(&q[1..4], &q[4..]).expect("increasing knots").with_parameters(1);
+        for (at, period) in [0.2, 0.7, 2.0, 3.4].into_iter().flat_map(|at| [(at, None), (at, Some(4.0))]) {
+            for way in 1..start.len() {
+                let (mut low, mut high) = (start.clone(), start.clone());
+                (low[way], high[way]) = (low[way] - 1e-6, high[way] + 1e-6);
+                let [low, high] = [low, high].map(|q| match period {
+                    Some(period) => of(&q).periodic(at, period),
+                    None => of(&q).held(at),
+                });
+                let mut q: Vec<Dual<f64>> = start.iter().copied().map(Dual::constant).collect();
+                q[way].d = 1.0;
+                let there = Dual::variable(Dual::constant(at));
+                let found: Dual<Dual<f64>> = of(&start).value_at(there, &q, period);
+                for (d, low, high) in [(found.value.d, low.0, high.0), (found.d.d, low.1, high.1)] {
+                    assert!(
+                        (d - (high - low) / 2e-6).abs() < 1e-8,
+                        "{d} by {way} at {at}, period {period:?}"
+                    );
+                }
+            }
+        }
+        let knots: Vec<f64> = of(&start).moving_knots().map(|knot| knot.number(&start)).collect();
+        assert_eq!(knots, x);
+        assert_eq!(of(&start).points(&start).map(|[_, y]| y).collect::<Vec<_>>(), y);
     }
 
     #[test]

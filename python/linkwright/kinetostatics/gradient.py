@@ -252,15 +252,15 @@ class Kinks:
         along = compiled.kinks_along(program.values, self.angles) * program.sizes
         self.moves: Bools = np.abs(along) > _ROUNDING
 
-    def on(self, angle: float) -> Bools:
-        """Which kinks are at a crank angle [rad]."""
+    def on(self, angle: float, near: float = _ON_KINK) -> Bools:
+        """Which kinks are at a crank angle that is known to an angle `near` [rad]."""
         half = 0.5 * self.cycle
         apart = np.abs((self.angles - angle + half) % self.cycle - half)
-        return np.asarray(apart <= _ON_KINK)
+        return np.asarray(apart <= near)
 
-    def moved_at(self, angle: float) -> Bools:
+    def moved_at(self, angle: float, near: float = _ON_KINK) -> Bools:
         """Which variables move a kink at a crank angle [rad], (variables,)."""
-        return np.asarray(self.moves[self.on(angle)].any(axis=0))
+        return np.asarray(self.moves[self.on(angle, near)].any(axis=0))
 
     def beside(self, angles: Floats) -> Floats:
         """Both sides of the kinks that lie on some crank angles and that a variable moves, increasing."""
@@ -270,10 +270,10 @@ class Kinks:
         moved = [angle for angle in on.tolist() if self.moved_at(angle).any()]
         return np.sort(np.mod([angle + side for angle in moved for side in (-_BESIDE, _BESIDE)], self.cycle))
 
-    def words(self, angle: float, moving: Bools) -> str:
+    def words(self, angle: float, moving: Bools, near: float = _ON_KINK) -> str:
         """Which entries have no derivative there."""
         names = [name for name, moves in zip(self.variables, moving, strict=True) if moves]
-        kink = float(self.angles[self.on(angle)][0])
+        kink = float(self.angles[self.on(angle, near)][0])
         return (
             f"it is reached at {np.degrees(kink):.4g}°, at a kink of loads or motion; there is no derivative "
             f"by the entries that move this kink: {', '.join(names)}"

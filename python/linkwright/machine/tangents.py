@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import Translation, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
+from linkwright.machine.program.core import Element
 from linkwright.machine.program.mechanism import MechanismProgram
 
 # What tells that an entry is not followed.
@@ -70,8 +71,10 @@ def _of_group(
 
 
 def _reason(name: str, error: Exception) -> str:
+    if isinstance(error, LinkwrightError):
+        return " ".join(str(error).split())
     if name.rsplit(".", 1)[-1].isdecimal():
-        return "the place of a point of a table has no derivative; its value has"
+        return "the place of a point of this table has no derivative; its value has"
     if isinstance(error, TypeError):
         return "the machine does not follow it by plain arithmetic (a count, a motion law, a searched length)"
     return str(error)
@@ -124,6 +127,19 @@ class Directions:
         object.__setattr__(self, "values", np.ascontiguousarray(self.values))
 
 
+# Numbers of one form agree but for rounding: to this share, or to this number in SI.
+_ALIKE, _NOTHING = 1e-6, 1e-9
+
+_OTHER_FORM = (
+    "the machine is of another form beside this value: a part of a motion law, or of a table, has no length "
+    "or no size here"
+)
+
+_PARTING = (
+    "it moves a section of one cam away from that of another, and velocity or acceleration of both followers "
+    "jump at their common angle"
+)
+
 _CHANGE_POINTS = (
     "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
     "that keep it clear of them"
@@ -148,21 +164,46 @@ def directions(
         kept: Directions = last[1]
         return kept
     refused: dict[str, str] = {}
-    derivatives = columns(machine, variables, lambda machine: program(machine).parameters, refused)
+    parameters = program(machine).parameters
+    derivatives = columns(
+        machine, variables, lambda along: _of_form(parameters, program(along).parameters), refused
+    )
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
         n_own = program(machine).n_own
         moved = [name for name, column in derivatives.items() if column[:n_own].any()]
         refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
+    if sum(isinstance(element, Element.Programme) for element in compiled.elements) > 1:
+        refused.update(dict.fromkeys(_parting(compiled, derivatives), _PARTING))
     known = tuple(name for name in variables if name in derivatives and name not in refused)
-    # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
-    values = np.zeros((len(compiled.parameters), len(known)))
-    for place, name in enumerate(known):
-        values[: len(derivatives[name]), place] = derivatives[name]
+    values = _columns_of(compiled, [derivatives[name] for name in known])
     sizes = np.array([abs(float(entry_of(machine, name))) or 1.0 for name in known])
     directions = Directions(known, values, sizes, refused)
     # Several analyses of a machine ask for the same ones.
     compiled.kept["directions"] = asked, directions
     return directions
+
+
+def _of_form(parameters: Sequence[float], along: Sequence[Any]) -> Sequence[Any]:
+    """Parameters with tangents, which have to be one by one those of the machine. Raises InputError."""
+    values = [*map(primal, along)]
+    if len(values) != len(parameters) or not np.allclose(values, parameters, rtol=_ALIKE, atol=_NOTHING):
+        raise InputError(_OTHER_FORM)
+    return along
+
+
+def _columns_of(compiled: CompiledMachine, derivatives: Sequence[Floats]) -> Floats:
+    """Derivatives of all parameters by some entries, (parameters, entries)."""
+    # Numbers that follow from the motion, at the end, are series at change points: nothing here moves them.
+    values = np.zeros((len(compiled.parameters), len(derivatives)))
+    for place, column in enumerate(derivatives):
+        values[: len(column), place] = column
+    return values
+
+
+def _parting(compiled: CompiledMachine, derivatives: Mapping[str, Floats]) -> list[str]:
+    """Entries that move apart angles at which two motion laws jump together."""
+    along = compiled.kinks_along(_columns_of(compiled, [*derivatives.values()]), compiled.kinks())
+    return [name for name, lost in zip(derivatives, np.isnan(along).any(axis=0), strict=True) if lost]
 
 
 @dataclass(frozen=True)
@@ -210,15 +251,23 @@ def followed(
     return known, work(seeded(machine, known))
 
 
+def _is_of_law(machine: Machine, name: str) -> bool:
+    """Whether an entry belongs to the motion that the law of a cam is made of."""
+    place = known_place(machine, name)
+    return place[:2] == ("mechanism", "cams") and place[3] in ("sections", "train")
+
+
 def seeded(machine: Machine, names: Sequence[str]) -> Machine:
     """The machine with arrays of tangents by some of its entries, for what is worked out in arrays.
 
     An entry that follows from others keeps its derivatives by these, beside that by itself with all entries
-    of the file held.
+    of the file held. What the law of a cam is made of are tangents: its pieces are numbers, which then meet
+    arrays.
     """
     units = dict(zip(names, np.eye(len(names)), strict=True))
     seeds: dict[str, Any] = {
-        name: TangentArray(float(entry_of(machine, name)), unit) for name, unit in units.items()
+        name: (Tangent if _is_of_law(machine, name) else TangentArray)(float(entry_of(machine, name)), unit)
+        for name, unit in units.items()
     }
     following = {name: known_place(machine, name) for name in names if not is_given(machine, name)}
     given = exchanged(machine, {name: seeds[name] for name in names if name not in following})

@@ -127,7 +127,7 @@ def gradient(
     Returns
     -------
     Gradient
-        Derivatives in SI. An entry without a derivative (a count, a number of a table) is listed in
+        Derivatives in SI. An entry without a derivative (a count, a cycle) is listed in
         ``refused`` if it was not asked for.
 
     Raises

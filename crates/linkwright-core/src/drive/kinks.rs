@@ -20,13 +20,14 @@ use crate::kernel::formula::Variable;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use crate::kernel::table::{Knot, Table};
 use crate::linkage::mechanism::Element;
 use crate::linkage::motion::{Motion, stretch};
 use std::f64::consts::TAU;
 
 /// A quantity whose zeros over the revolution are kinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Watch {
+pub(super) enum Watch {
     /// The slide turns back.
     SlideTurns(usize),
     /// The link turns back.
@@ -36,11 +37,11 @@ enum Watch {
     /// The point turns back in the direction of x, or of y.
     PointTurns(usize, Axis),
     /// The slide passes a knot of a table.
-    SlideAt(usize, f64),
+    SlideAt(usize, Knot),
     /// Two points stop parting or nearing each other.
     StretchTurns(usize, usize),
     /// The distance of two points passes a knot of a table.
-    StretchAt(usize, usize, f64),
+    StretchAt(usize, usize, Knot),
     /// A spring of this free length passes, or nearly passes, through its own anchor.
     Anchor(usize, usize, Slot),
     /// A switch of a formula.
@@ -49,7 +50,7 @@ enum Watch {
 
 /// An axis of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Axis {
+pub(super) enum Axis {
     X,
     Y,
 }
@@ -102,12 +103,7 @@ struct Dip {
 const SHIFT: f64 = 0.37;
 
 /// A crank angle this near to a zero \[rad\] is on the kink.
-const ON_KINK: f64 = 1e-9;
-
-/// A zero is simple where the slope is more than this share \[rad\] of its own change with the angle, which is
-/// measured over the second number \[rad\].
-const TOUCHES: f64 = 1e-6;
-const BESIDE: f64 = 1e-2;
+pub(super) const ON_KINK: f64 = 1e-9;
 
 /// Zeros closer than this \[rad\] to the end of the revolution count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
@@ -139,7 +135,8 @@ impl Plan {
         watches
     }
 
-    fn all_watches(&self) -> Vec<Watch> {
+    /// The same as often as loads ask for them: each with what moves it.
+    pub(super) fn all_watches(&self) -> Vec<Watch> {
         let mut watches = Vec::new();
         let switches = self.still_switches().into_iter();
         watches.extend(switches.map(|(load, at)| Watch::Switch(load, at)));
@@ -150,8 +147,8 @@ impl Plan {
         }
         for load in &self.force_elements {
             if let ForceElement::SpringTable { from, to, table } = *load {
-                let knots = self.tables[table].knots().iter();
-                watches.extend(knots.map(|&knot| Watch::StretchAt(from, to, knot)));
+                let knots = self.tables[table].moving_knots();
+                watches.extend(knots.map(|knot| Watch::StretchAt(from, to, knot)));
             }
         }
         for load in &self.loads {
@@ -166,8 +163,9 @@ impl Plan {
                 }
                 Load::ForcePosition { slide, forward, back } => {
                     watches.push(Watch::SlideTurns(slide));
-                    let knots = self.tables[forward].knots().iter().chain(self.tables[back].knots());
-                    watches.extend(knots.map(|&knot| Watch::SlideAt(slide, knot)));
+                    let knots =
+                        [forward, back].into_iter().flat_map(|table| self.tables[table].moving_knots());
+                    watches.extend(knots.map(|knot| Watch::SlideAt(slide, knot)));
                 }
                 _ => {}
             }
@@ -211,16 +209,24 @@ impl Plan {
         !self.rests().is_empty() || self.may_be_steep()
     }
 
-    /// Knots of tables over the crank angle, within the cycle.
+    /// Tables over the crank angle, with the revolutions after which each repeats.
+    pub(super) fn angle_tables(&self) -> impl Iterator<Item = (&Table, u32)> {
+        self.loads.iter().filter_map(|load| match *load {
+            Load::TorqueAngle { table, turns } | Load::ForceAngle { table, turns, .. } => {
+                Some((&self.tables[table], turns))
+            }
+            _ => None,
+        })
+    }
+
+    /// Their knots within the cycle.
     fn angle_knots(&self) -> Vec<f64> {
         let mut knots = Vec::new();
-        for load in &self.loads {
-            if let Load::TorqueAngle { table, turns } | Load::ForceAngle { table, turns, .. } = *load {
-                for first in (0..self.turns).step_by(turns as usize) {
-                    let start = TAU * f64::from(first);
-                    let within = |knot: &f64| start + knot.rem_euclid(TAU * f64::from(turns));
-                    knots.extend(self.tables[table].knots().iter().map(within));
-                }
+        for (table, turns) in self.angle_tables() {
+            for first in (0..self.turns).step_by(turns as usize) {
+                let start = TAU * f64::from(first);
+                let within = |knot: &f64| start + knot.rem_euclid(TAU * f64::from(turns));
+                knots.extend(table.knots().iter().map(within));
             }
         }
         knots
@@ -243,7 +249,7 @@ fn stretch_turns<R: Real>(from: usize, to: usize, m: &Motion<R>) -> (R, R) {
 impl<R: Real> Machine<'_, R> {
     /// The watched quantity and its derivative by φ.
     #[inline(always)]
-    fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
+    pub(super) fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
         match watch {
             Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
             Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
@@ -256,11 +262,11 @@ impl<R: Real> Machine<'_, R> {
                 let (d1, d2) = (m.points[point].d1, m.points[point].d2);
                 if axis == Axis::X { (d1.x, d2.x) } else { (d1.y, d2.y) }
             }
-            Watch::SlideAt(slide, knot) => (m.slides[slide].s - R::splat(knot), m.slides[slide].d1),
+            Watch::SlideAt(slide, knot) => (m.slides[slide].s - knot.number(self.q), m.slides[slide].d1),
             Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
             Watch::StretchAt(from, to, knot) => {
                 let (length, length1) = stretch(m, from, to);
-                (length - R::splat(knot), length1)
+                (length - knot.number(self.q), length1)
             }
             Watch::Switch(load, at) => self.plan.switch_over_angle((load, at), self.q, phi, m),
         }
@@ -544,7 +550,7 @@ impl<R: Real> Machine<'_, R> {
 
     /// Positive where a zero of the watched quantity is a kink.
     #[inline(always)]
-    fn room(&self, watch: Watch, m: &Motion<R>) -> R {
+    pub(super) fn room(&self, watch: Watch, m: &Motion<R>) -> R {
         match watch {
             // Where the spring stays long its extremes are smooth.
             Watch::Anchor(from, to, free_length) => self.q[free_length] * SHORT - stretch(m, from, to).0,
@@ -593,64 +599,6 @@ impl Dip {
             },
             Bracket { low: bottom, high, guess: guess(high, self.values[1]), sign: -self.values[0].signum() },
         ]
-    }
-}
-
-impl<R: Real> Machine<'_, Dual<R>> {
-    /// Crank angles with their derivatives: one on a kink moves with it, others stay.
-    #[inline(always)]
-    pub fn moving(&self, angles: &[f64], m: &mut Motion<Dual<R>>) -> Vec<Dual<R>> {
-        let watches = self.plan.watches();
-        let mut moving = Vec::with_capacity(angles.len());
-        for &angle in angles {
-            let mut d = R::splat(0.0);
-            let beside = self.watched_at(&watches, angle + BESIDE, m);
-            for ([value, slope, room], [_, next, _]) in
-                self.watched_at(&watches, angle, m).into_iter().zip(beside)
-            {
-                let bend = (next.value - slope.value) * (1.0 / BESIDE);
-                let is_zero = (value.value.abs() - slope.value.abs() * ON_KINK).max_lane() <= 0.0
-                    && room.max_lane() > 0.0;
-                // Where the quantity only touches zero, a change of the machine makes two kinks, or none.
-                let is_simple = (bend.abs() * TOUCHES - slope.value.abs()).max_lane() < 0.0;
-                if is_zero && is_simple {
-                    d = -value.d / slope.value;
-                }
-            }
-            for (joint, moves) in self.joints() {
-                let apart = (joint.max_lane() - angle).rem_euclid(TAU);
-                d = if apart.min(TAU - apart) < ON_KINK { moves } else { d };
-            }
-            moving.push(Dual { value: R::splat(angle), d });
-        }
-        moving
-    }
-
-    /// All watched quantities with their slopes at a crank angle, and whether zeros are kinks there ([`Machine::room`]).
-    #[inline(always)]
-    fn watched_at(&self, watches: &[Watch], angle: f64, m: &mut Motion<Dual<R>>) -> Vec<[Dual<R>; 3]> {
-        let phi = Dual::splat(angle);
-        self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
-        let mut values = Vec::with_capacity(watches.len());
-        for &watch in watches {
-            let (value, slope) = self.watched(watch, phi, m);
-            values.push([value, slope, self.room(watch, m)]);
-        }
-        values
-    }
-
-    /// Joints of motion laws in pieces, with their derivatives.
-    #[inline(always)]
-    fn joints(&self) -> Vec<(R, R)> {
-        let mut joints = Vec::new();
-        for element in &self.plan.mechanism.elements {
-            let Element::Programme(programme) = element else { continue };
-            for piece in programme.law.pieces() {
-                let joint = self.q[programme.phase] + piece.start;
-                joints.push((joint.value, joint.d));
-            }
-        }
-        joints
     }
 }
 

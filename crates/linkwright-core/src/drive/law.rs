@@ -14,6 +14,7 @@ use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Formula, Inputs, Switch, Variable};
 use crate::kernel::plane::Vec2;
 use crate::kernel::real::{Lift, Real};
+use crate::kernel::table::Knot;
 use crate::linkage::mechanism::Element;
 use crate::linkage::motion::{Motion, stretch};
 use std::f64::consts::TAU;
@@ -46,7 +47,7 @@ enum KinkPlace {
     /// In front of this instruction of the formula.
     Switch(usize),
     /// Where the speed passes this knot.
-    Knot(f64),
+    Knot(Knot),
 }
 
 /// The machine at one place of a motion, with derivatives along it. The angle goes on from revolution to revolution.
@@ -347,8 +348,8 @@ impl Plan {
                     found.extend(moving.map(|s| SpeedKink { law, at: KinkPlace::Switch(s.at) }));
                 }
                 Law::Damper { table, .. } => {
-                    let knots = self.tables[table].knots().iter().filter(|&&knot| knot != 0.0);
-                    found.extend(knots.map(|&knot| SpeedKink { law, at: KinkPlace::Knot(knot) }));
+                    let knots = self.tables[table].moving_knots().filter(|knot| knot.x != 0.0);
+                    found.extend(knots.map(|knot| SpeedKink { law, at: KinkPlace::Knot(knot) }));
                 }
             }
         }
@@ -369,7 +370,7 @@ impl Plan {
             (KinkPlace::Switch(at), Law::Formula(load)) => {
                 self.formulas[load.formula].switch(at, q, &geometry.inputs(omega, time))
             }
-            (KinkPlace::Knot(knot), _) => geometry.g * omega - knot,
+            (KinkPlace::Knot(knot), _) => geometry.g * omega - knot.number(q),
             (KinkPlace::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),
         }
     }

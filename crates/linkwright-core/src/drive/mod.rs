@@ -10,6 +10,7 @@
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
+//! | `moving_kinks` | how those places move with the numbers of the machine |
 //! | `steep` | where along a motion a formula is steep |
 //! | `pulses` | ends of steps there |
 //! | [`layout`] | what the lanes of a revolution hold: machines or steps |
@@ -58,6 +59,7 @@ pub mod mesh;
 pub mod motions;
 pub mod motor;
 pub mod motor_extremes;
+mod moving_kinks;
 mod nested;
 mod peaks;
 mod pulses;

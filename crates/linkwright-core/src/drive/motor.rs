@@ -123,7 +123,7 @@ impl Drive {
     /// Crank speeds at which [`Drive::torque_turning`] has a kink.
     pub fn kinks_turning(&self, tables: &[Table], q: &[f64], along: f64) -> Vec<f64> {
         let motor = self.motor_kinks(tables, q).into_iter().map(|speed| along * speed);
-        positive_in_order(motor.chain(self.load_kinks::<f64>(tables)).collect())
+        positive_in_order(motor.chain(self.load_kinks(tables, q)).collect())
     }
 
     /// Crank speeds at which the drive's torque has a kink: points of tables, breakdown where the catalogue
@@ -137,14 +137,14 @@ impl Drive {
     #[inline(always)]
     pub(super) fn kinks_of_lanes<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
         let mut kinks = self.motor_kinks(tables, q);
-        kinks.extend(self.load_kinks::<R>(tables));
+        kinks.extend(self.load_kinks(tables, q));
         kinks
     }
 
     /// Points of the loads over speed.
-    fn load_kinks<R: Real>(&self, tables: &[Table]) -> impl Iterator<Item = R> {
-        let knots = self.speed_loads.iter().flat_map(|&table| tables[table].knots());
-        knots.map(|&knot| R::splat(knot))
+    fn load_kinks<R: Real>(&self, tables: &[Table], q: &[R]) -> impl Iterator<Item = R> {
+        let knots = self.speed_loads.iter().flat_map(|&table| tables[table].moving_knots());
+        knots.map(|knot| knot.number(q))
     }
 
     /// Those of the motor, as crank speeds.
@@ -168,8 +168,8 @@ impl Drive {
             }
             Motor::Table { table } => {
                 let table = &tables[*table];
-                for &knot in table.knots() {
-                    at_motor.push(R::splat(knot));
+                for knot in table.moving_knots() {
+                    at_motor.push(knot.number(q));
                 }
                 at_motor.extend(zeros(table, q).into_iter().map(if_apart));
             }
@@ -193,12 +193,13 @@ fn positive_in_order<R: Real>(mut speeds: Vec<R>) -> Vec<R> {
 /// Zeros of a table between its knots.
 #[inline(always)]
 fn zeros<R: Real>(table: &Table, q: &[R]) -> Vec<R> {
-    let crossing = |pair: &[f64]| {
-        let [y0, y1] = [pair[0], pair[1]].map(|knot| table.held_at(R::splat(knot), q));
-        let crosses = table.held(pair[0]).0 * table.held(pair[1]).0 < 0.0;
-        crosses.then(|| R::splat(pair[0]) - y0 * (pair[1] - pair[0]) / (y1 - y0))
+    let points: Vec<[R; 2]> = table.points(q).collect();
+    let crossing = |(ends, pair): (&[f64], &[[R; 2]])| {
+        let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
+        let crosses = table.held(ends[0]).0 * table.held(ends[1]).0 < 0.0;
+        crosses.then(|| x0 - y0 * (x1 - x0) / (y1 - y0))
     };
-    table.knots().windows(2).filter_map(crossing).collect()
+    table.knots().windows(2).zip(points.windows(2)).filter_map(crossing).collect()
 }
 
 /// Kloss, multiplied out so that s = 0 needs no special case.

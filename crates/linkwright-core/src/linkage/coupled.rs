@@ -97,7 +97,7 @@ pub struct Programme {
 
 #[inline(always)]
 pub(super) fn programme<R: Real>(e: &Programme, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
-    let [s, d1, d2] = e.law.at(angle.phi - q[e.phase]);
+    let [s, d1, d2] = e.law.at_numbers(angle.phi - q[e.phase], q);
     m.slides[e.slide].set(s, d1, d2);
 }
 

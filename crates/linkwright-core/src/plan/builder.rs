@@ -7,6 +7,7 @@ use crate::kernel::formula::Formula;
 use crate::kernel::slot::Slot;
 use crate::kernel::table::Table;
 use crate::linkage::mechanism::Mechanism;
+use std::ops::Range;
 
 /// Link of a line that is fixed to the frame, until it is known how many links there are.
 pub const FRAME: usize = usize::MAX;
@@ -104,10 +105,12 @@ impl Builder {
 
     pub(super) fn tables(&self, tables: &[usize]) -> Result<(), PlanError> {
         all_below(tables, self.tables.len(), "table")?;
-        tables.iter().try_for_each(|&table| {
-            let last = self.tables[table].parameters().next_back();
-            last.map_or(Ok(()), |slot| self.slots(&[slot]))
-        })
+        tables.iter().try_for_each(|&table| self.last_of(self.tables[table].parameters()))
+    }
+
+    /// Parameters that follow one another exist if the last one does.
+    pub(super) fn last_of(&self, mut parameters: Range<usize>) -> Result<(), PlanError> {
+        parameters.next_back().map_or(Ok(()), |slot| self.slots(&[slot]))
     }
 
     pub(super) fn check_formula(&self, formula: &Formula) -> Result<(), PlanError> {

@@ -146,6 +146,7 @@ impl Builder {
             }
             Element::Programme(e) => {
                 self.slots(&[e.phase])?;
+                self.last_of(e.law.parameters())?;
                 self.makes(&[], &[], &[e.slide], &[])
             }
         }

@@ -16,7 +16,7 @@ pub(crate) struct Knots(pub(crate) CoreTable);
 
 #[pymethods]
 impl Knots {
-    /// `first`: the first of the parameters that the values are as well.
+    /// `first`: the first of the parameters that the points are as well, all places before all values.
     #[new]
     #[pyo3(signature = (x, y, first=None))]
     fn new(x: Vec<f64>, y: Vec<f64>, first: Option<usize>) -> PyResult<Self> {
@@ -111,8 +111,10 @@ pub(crate) struct MotionLaw(pub(crate) CoreLaw);
 
 #[pymethods]
 impl MotionLaw {
+    /// `first`: the first of the parameters that the numbers of the pieces are as well.
     #[new]
-    fn new(pieces: Vec<Piece>) -> PyResult<Self> {
+    #[pyo3(signature = (pieces, first=None))]
+    fn new(pieces: Vec<Piece>, first: Option<usize>) -> PyResult<Self> {
         let piece = |Piece { start, length, polynomial, harmonics }| CorePiece {
             start,
             length,
@@ -120,6 +122,10 @@ impl MotionLaw {
             harmonics: harmonics.iter().map(|wave| [wave.frequency, wave.cosine, wave.sine]).collect(),
         };
         let law = CoreLaw::new(pieces.into_iter().map(piece).collect());
+        let law = law.map(|law| match first {
+            Some(first) => law.with_parameters(first),
+            None => law,
+        });
         law.map(MotionLaw).ok_or_else(|| plan_error(PlanError::MotionLaw))
     }
 }

@@ -26,6 +26,9 @@ from linkwright.kinetostatics.gradient import drive_forces_along, tied
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, columns
 
+# How far beside a joint the place of an extreme may be found that is reached on a side of it [rad].
+_NEAR = 1e-5
+
 _PLACES = {
     "force_max": "force_max_angle",
     "force_min": "force_min_angle",
@@ -51,9 +54,9 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
         places["shear_max"] = places["pressure_max"]
     tangents, ties = {}, {}
     for key, slope in slopes.items():
-        moving = kinks.moved_at(places[key])
+        moving = kinks.moved_at(places[key], _NEAR)
         tangents[key] = Tangent(float(getattr(loaded, key)), np.where(moving, np.nan, slope))
-        words = [_tied(loaded, key), kinks.words(places[key], moving) if moving.any() else ""]
+        words = [_tied(loaded, key), kinks.words(places[key], moving, _NEAR) if moving.any() else ""]
         if any(words):
             ties[key] = "; ".join(filter(None, words))
     derivatives = Derivatives(program.variables, tangents, ties, {}, refused, lost)

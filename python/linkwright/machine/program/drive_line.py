@@ -20,7 +20,6 @@ from linkwright.kernel.errors import ShapeError
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.loads import table_of
 from linkwright.machine.program.mechanism import MechanismProgram
-from linkwright.machine.program.numbers import table
 
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
@@ -49,7 +48,7 @@ def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Mot
         case ConstantTorqueMotor():
             return _core.Motor.Constant(torque=program.slot(motor.torque))
         case DcMotor(torque_max=most) if most is not None:
-            return _core.Motor.Table(table=_limited(motor))
+            return _core.Motor.Table(table=_limited(program, motor))
         case DcMotor(torque_stall=stall, speed_no_load=no_load):
             return _core.Motor.Line(torque=program.slot(stall), inverse_speed=program.slot(1.0 / no_load))
         case InductionMotor():
@@ -60,7 +59,7 @@ def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Mot
     return None
 
 
-def _limited(motor: DcMotor) -> _core.Table:
+def _limited(program: MechanismProgram, motor: DcMotor) -> _core.Table:
     """A straight characteristic between its ends, constant beyond them. Raises ShapeError: they vary."""
     speeds, torques = zip(*motor.limited(), strict=True)
     if any(np.ndim(value) for value in (*speeds, *torques)):
@@ -68,7 +67,7 @@ def _limited(motor: DcMotor) -> _core.Table:
             "drive.motor: a characteristic with torque_max cannot vary from machine to machine in a batch; "
             "compute machines with others one by one"
         )
-    return table(speeds, torques)
+    return program.table(speeds, torques)
 
 
 def _induction(program: MechanismProgram, motor: Any) -> _core.Motor:

@@ -22,7 +22,6 @@ from linkwright.linkages.model.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.program.numbers import core_law
 from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
 
 _RADIAN = 2 * np.pi
@@ -102,7 +101,8 @@ class Elements(Places):
         """A coordinate that follows the lift of a cam."""
         slide = self._slide(f"{name}.lift")
         phase = self.slot(cam.phase)
-        self.elements.append(_core.Element.Programme(slide=slide, phase=phase, law=core_law(cam.lift)))
+        law = self.motion_law(cam.lift)
+        self.elements.append(_core.Element.Programme(slide=slide, phase=phase, law=law))
         return slide
 
     # -- dyads -------------------------------------------------------------------------------------------

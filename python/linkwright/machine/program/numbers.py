@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from linkwright.cam.laws.motion_law import MotionLaw
 
 
-def core_law(law: MotionLaw) -> _core.MotionLaw:
-    """A motion law as the core has it."""
+def core_law(law: MotionLaw, first: int | None = None) -> _core.MotionLaw:
+    """A motion law as the core has it.
+
+    `first`: the first of the parameters that its numbers are as well.
+    """
     pieces = [
         _core.Piece(
             start=low,
@@ -28,7 +31,7 @@ def core_law(law: MotionLaw) -> _core.MotionLaw:
         )
         for (low, high), piece in zip(pairwise(law.breaks), law.pieces, strict=True)
     ]
-    return _core.MotionLaw(pieces)
+    return _core.MotionLaw(pieces, first)
 
 
 class Numbers:
@@ -46,11 +49,19 @@ class Numbers:
         return len(self.parameters) - 1
 
     def table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
-        """Straight lines between points, whose values are parameters as well."""
+        """Straight lines between points, whose places and values are parameters as well."""
         first = len(self.parameters)
-        for value in y:
-            self.slot(value)
-        return _core.Table(list(x), [primal(value) for value in y], first)
+        for number in (*x, *y):
+            self.slot(number)
+        return _core.Table([primal(place) for place in x], [primal(value) for value in y], first)
+
+    def motion_law(self, law: MotionLaw) -> _core.MotionLaw:
+        """A motion law, the numbers of whose pieces are parameters as well."""
+        first = len(self.parameters)
+        for (low, high), piece in zip(pairwise(law.breaks), law.pieces, strict=True):
+            for number in (low, high - low, *piece.numbers):
+                self.slot(number)
+        return core_law(law.primal, first)
 
     def formula(self, term: formula.Node, constants: dict[str, int]) -> _core.Formula:
         """A formula, whose constants have their slots."""

@@ -38,7 +38,8 @@ const INSIDE_MAX: f64 = 0.05;
 
 /// Angle \[rad\] that the crank turns by at its working speed in the time by which the sides of an event are apart at least: steps
 /// that close in on a jump become as short as rounding. A motion may change in less than that, but not in less than the share
-/// [`INSIDE`] of the time that it took so far.
+/// [`INSIDE`] of the time that it took so far. Where it is slower the sides of a kink over the angle are that angle apart, which
+/// steps miss the kink by less.
 const ASIDE: f64 = 1e-8;
 
 /// A crank angle this near to a kink \[rad\], and a speed this near, as a share, is on it.
@@ -369,13 +370,26 @@ impl<R: Real> Along<'_, R> {
     /// Time by which the sides of an instant of a step are apart from it.
     fn aside(&self, k: usize) -> f64 {
         let Machine { plan, q, .. } = self.plain.machine;
-        let [begin, from, to] = [0, k, k + 1].map(|i| self.motion.t[i]);
-        (INSIDE * (to - from)).max((ASIDE / q[plan.drive.speed_start]).min(INSIDE * (to - begin)))
+        self.aside_at(k, q[plan.drive.speed_start])
     }
 
-    /// The acceleration at an instant of a step, read before it or behind it and carried on to it.
-    fn beside(&mut self, k: usize, t: f64, way: f64) -> f64 {
-        let [near, far] = [1.0, 2.0].map(|times| self.state_at(t + times * way * self.aside(k)));
+    /// The same at a speed at which the angle counts.
+    fn aside_at(&self, k: usize, speed: f64) -> f64 {
+        let [begin, from, to] = [0, k, k + 1].map(|i| self.motion.t[i]);
+        (INSIDE * (to - from)).max((ASIDE / speed).min(INSIDE * (to - begin)))
+    }
+
+    /// The same beside an event.
+    fn aside_of(&self, k: usize, event: EventPlace) -> f64 {
+        match event {
+            EventPlace::Angle(_) => self.aside(k).max(self.aside_at(k, self.motion.omega[k + 1].abs())),
+            EventPlace::Speed(_) | EventPlace::Rest | EventPlace::Law(_) => self.aside(k),
+        }
+    }
+
+    /// The acceleration at an instant, read before it or behind it by a time, with its sign, and carried on to it.
+    fn beside(&mut self, t: f64, by: f64) -> f64 {
+        let [near, far] = [1.0, 2.0].map(|times| self.state_at(t + times * by));
         2.0 * self.plain.acceleration(near) - self.plain.acceleration(far)
     }
 
@@ -426,7 +440,7 @@ impl<R: Real> Along<'_, R> {
         found.phi.extend(&self.now[0]);
         found.omega.extend(&self.now[1]);
         let way = if t > self.motion.t[0] { -1.0 } else { 1.0 };
-        found.epsilon.push(self.beside(k, t, way));
+        found.epsilon.push(self.beside(t, way * self.aside(k)));
     }
 
     /// Past an event at the end of a step, if there is one. Of several ends beside it the nearest counts.
@@ -461,7 +475,8 @@ impl<R: Real> Along<'_, R> {
     /// Past an event at an instant of a step.
     #[inline(always)]
     fn pass(&mut self, k: usize, t: f64, event: EventPlace) {
-        let [before, behind] = [-1.0, 1.0].map(|way| self.beside(k, t, way));
+        let aside = self.aside_of(k, event);
+        let [before, behind] = [-1.0, 1.0].map(|way| self.beside(t, way * aside));
         if (behind - before).abs() <= NO_JUMP * before.abs().max(behind.abs()) {
             return;
         }

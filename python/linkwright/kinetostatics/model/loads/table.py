@@ -11,6 +11,9 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.tangent import moves
+from linkwright.kernel.numerics.tangent_array import variables_of
 from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
 
@@ -70,11 +73,11 @@ class TorqueSwing(Load):
         for torques, sense in ((self.forward, "-step(psi_dot)"), (self.return_, "step(-psi_dot)")):
             if torques is None:
                 continue
-            if torques[0]:
+            if moves(torques[0]):
                 yield f"{sense}*first", {"first": torques[0]}
             pieces = zip(pairwise(self.angle), pairwise(torques), strict=True)
             for (low, high), (before, after) in pieces:
-                if after != before:
+                if moves(after - before):
                     slope = (after - before) / (high - low)
                     ends = {"low": low - middle, "high": high - middle}
                     yield f"{sense}*{_PIECE}", {"slope": slope, "middle": middle, **ends}
@@ -99,7 +102,13 @@ class OverCrankAngle(Load):
 
     def points(self, values: Sequence[float]) -> tuple[Sequence[float], Sequence[float]]:
         """Angles [rad] and values without the repetition of the first point at the end of the cycle."""
-        closes = self.angle[-1] - self.angle[0] >= self.cycle * (1 - _ROUNDED)
+        ends = self.angle[0], self.angle[-1]
+        closes = ends[1] - ends[0] >= self.cycle * (1 - _ROUNDED)
+        if closes and variables_of(ends) is not None:
+            raise InputError(
+                "the table closes: its first and its last angle are one cycle apart, and neither can move "
+                "without the other"
+            )
         return (self.angle[:-1], values[:-1]) if closes else (self.angle, values)
 
     def _table_faults(self, key: str, unit: str) -> Iterator[InitErrorDetails]:
