@@ -60,6 +60,7 @@ _HOME = {
     "shown_in": "kernel.page.out_units",
     "circuits": "linkages.circuits",
     "coupler_curve": "linkages.coupler_curve",
+    "path_error": "linkages.path_error",
     "centrodes": "linkages.centrodes",
     "period_turns": "linkages.period",
     "pose": "linkages.pose",
@@ -240,6 +241,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.circuits import circuits as circuits
     from linkwright.linkages.closure import closure as closure
     from linkwright.linkages.coupler_curve import coupler_curve as coupler_curve
+    from linkwright.linkages.path_error import path_error as path_error
     from linkwright.linkages.cycle import linkage as linkage
     from linkwright.linkages.kinematics import kinematics as kinematics
     from linkwright.linkages.kinematics import motions as motions

@@ -9,8 +9,9 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import MachineError, SynthesisError
+from linkwright.linkages.nearest_places import disorder
 from linkwright.synthesis.four_bar import FourBar, turn_spare, type_of
-from linkwright.synthesis.path_model import SPARE, Linkages, PathModel, disorder, shape
+from linkwright.synthesis.path_model import SPARE, Linkages, PathModel, shape
 from linkwright.synthesis.path_search import starts
 from linkwright.synthesis.task import Box, PathTask
 from linkwright.synthesis.verification import transmission_caution

@@ -16,7 +16,9 @@
 | `law` | Laws of the driver: the crank angle over time with three derivatives |
 | `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
 | `motion` | Where is everything under a law of time? |
+| `nearest_places` | Where on a curve are the places nearest to given points, in their order? |
 | `obstacle` | Why an element does not close, in words, and what to change |
+| `path_error` | How far does a point pass from given points of a path? |
 | `period` | After how many revolutions of the crank a mechanism is again where it was |
 | `pose` | Where is everything at one crank angle? |
 | `scene` | Sketch of a mechanism: points, links, slides, gears, bodies, springs over the crank angle |

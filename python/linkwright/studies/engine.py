@@ -18,13 +18,17 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import rows as rows_of_numbers
-from linkwright.linkages.kinematics import motions
 from linkwright.machine.address import get, outside, replace
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import require_places, variant
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import ENTRY, MOTION, SAMPLES, StudyResponse, analysis, entry_number, taken
-from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, OPEN, SOLVED, Rows
+from linkwright.studies.point_responses import point_numbers, require_numbers, why_open
+from linkwright.studies.responses import analysis, entry_number
+from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, SOLVED, Rows
+from linkwright.studies.study_response import ENTRY, MOTION, PATH, StudyResponse
+
+# Rows whose points are in memory at once.
+_TOGETHER = 2000
 
 
 @public
@@ -133,8 +137,8 @@ def _solve(
     batch = [asked for asked in plan.asked if asked.is_batch and entries]
     single = [asked for asked in plan.asked if asked not in batch]
     own = {address: column[members] for address, column in entries.items()}
-    for name, solve in (("steady_state", _steady), (MOTION, _motion), (ENTRY, _entry_numbers)):
-        wanted = [asked for asked in batch if asked.analysis == name]
+    for names, solve in ((("steady_state",), _steady), ((MOTION, PATH), _points), ((ENTRY,), _entry_numbers)):
+        wanted = [asked for asked in batch if asked.analysis in names]
         if wanted:
             try:
                 solve(machine, own, wanted, rows, members)
@@ -175,23 +179,22 @@ def _steady(
         rows.fail(members[status == code], FAILED, STATUS[int(code)])
 
 
-def _motion(
+def _points(
     machine: Machine,
     entries: dict[str, Floats],
     wanted: list[StudyResponse],
     rows: Rows,
     members: Indices,
 ) -> None:
-    """Points of all rows at once."""
-    machines = replace(machine, _with_first(machine, entries))
-    turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
-    for asked in wanted:
-        angles = turn if asked.at is None else np.array([asked.at])
-        table = motions(machines, angles, points=asked.of)[1:, "xy".index(asked.quantity), :]
-        values = taken(table, asked.extreme) if asked.extreme else table[:, 0]
-        rows.columns[asked.name][members] = values
-        open_rows = members[~np.isfinite(values)]
-        rows.fail(open_rows, FAILED, OPEN)
+    """Points of all rows at once, so many at a time as fit into memory."""
+    for start in range(0, len(members), _TOGETHER):
+        part = slice(start, start + _TOGETHER)
+        own = {address: column[part] for address, column in entries.items()}
+        table = point_numbers(replace(machine, _with_first(machine, own)), wanted)
+        for asked in wanted:
+            values = table[asked.name][1:]
+            rows.columns[asked.name][members[part]] = values
+            rows.fail(members[part][~np.isfinite(values)], FAILED, why_open(asked))
 
 
 def _entry_numbers(
@@ -245,10 +248,11 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
     have.
     """
     results: dict[Any, Any] = {}
+    of_points = require_numbers(machine, [one for one in wanted if one.analysis in (MOTION, PATH)])
     answers = []
     for asked in wanted:
-        if asked.analysis == MOTION:
-            answers.append(_place(machine, asked))
+        if asked.name in of_points:
+            answers.append(of_points[asked.name])
             continue
         if asked.analysis == ENTRY:
             answers.append(entry_number(machine, *asked.of))
@@ -257,17 +261,6 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
             results[asked.key] = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
         answers.append(asked.number(results[asked.key]))
     return answers
-
-
-def _place(machine: Machine, asked: StudyResponse) -> float:
-    """A number of the motion of a point of one machine."""
-    turn = np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False)
-    angles = turn if asked.at is None else np.array([asked.at])
-    curve = motions(machine, angles, points=asked.of)[0, "xy".index(asked.quantity), :]
-    place = float(taken(curve, asked.extreme) if asked.extreme else curve[0])
-    if not np.isfinite(place):
-        raise FindingError("the links do not close at every required crank angle")
-    return place
 
 
 def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> None:

@@ -17,6 +17,7 @@ from linkwright.kernel.description.base import CheckedDescription, Description, 
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import SWEEP_ROWS
 from linkwright.kernel.units import Angle, Speed
+from linkwright.linkages.model.path_points import PathPoints
 
 # A number, or a text with a unit, read when it is known what it stands for.
 Value = Annotated[float, Field(strict=True)] | str
@@ -169,6 +170,15 @@ def _as_derived(value: object) -> object:
     return {"formula": value} if isinstance(value, str) else value
 
 
+class StudyPath(PathPoints, CheckedDescription):
+    """Points of a path, and the point of the machine whose distances from them are responses."""
+
+    point: str = Field(description="Point of the machine that shall pass them.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from self._faults_of_points(1)
+
+
 class Constraint(CheckedDescription):
     """Limits of a response, in its unit or with one."""
 
@@ -240,6 +250,9 @@ class StudyFile(WholeDescription):
     variables: dict[Name, Variable] = Field(default_factory=dict, description="Variables, by name.")
     derived: dict[Name, Annotated[DerivedNumber, BeforeValidator(_as_derived)]] = Field(
         default_factory=dict, description="Derived numbers, by name."
+    )
+    paths: dict[Name, StudyPath] = Field(
+        default_factory=dict, description="Paths whose errors are responses, by name."
     )
     responses: dict[Name, Annotated[Response, BeforeValidator(_as_response)]] = Field(
         default_factory=dict, description="Responses, by name."

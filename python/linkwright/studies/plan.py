@@ -26,10 +26,12 @@ from linkwright.kernel.units import KINDS, Kind, parse_any
 from linkwright.kernel.units import parse as parse_quantity
 from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis, require_places
 from linkwright.studies.model import WAYS, StudyFile, Sweep
-from linkwright.studies.responses import StudyResponse, asked
+from linkwright.studies.responses import asked
+from linkwright.studies.study_response import StudyResponse
 
 T = TypeVar("T")
 
@@ -178,7 +180,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     derived = gather(study.derived.items(), lambda name, entry: _derived(machine, known, name, entry))
     direct = [(name, response) for name, response in study.responses.items() if response.formula is None]
     made = [(name, response) for name, response in study.responses.items() if response.formula is not None]
-    responses = gather(direct, lambda name, response: asked(machine, name, response))
+    responses = gather(direct, lambda name, response: asked(machine, name, response, study.paths))
     known += [*study.derived, *(name for name, _ in direct)]
     formulas = gather(
         made, lambda name, response: _formula(known, f"responses.{name}", name, response.formula or "")
@@ -192,7 +194,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
         if name in sound or name not in study.responses
     ]
     limits = gather(limited, lambda name, constraint: (name, _limits(study, units, name, constraint)))
-    problems += _other_problems(study, listed)
+    problems += [*_lost_points(machine, study), *_other_problems(study, listed)]
     if problems:
         raise MachineError(problems)
     if listed is not None:
@@ -201,6 +203,15 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
     _check_rows(ready)
     return ready
+
+
+def _lost_points(machine: Machine, study: StudyFile) -> Iterable[Problem]:
+    """Paths of points that the machine does not have."""
+    points = compile_machine(machine).points if study.paths else {}
+    for name, path in study.paths.items():
+        if path.point not in points:
+            remedy = suggestion(path.point, points) or f"one of {', '.join(points)}"
+            yield Problem(f"paths.{name}.point", show(path.point), "a point of the machine", remedy)
 
 
 def _other_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem]:

@@ -37,9 +37,8 @@ FastStarts = Annotated[
     About("What becomes of fast starts that do not settle to the steady motion → of how many rows."),
 ]
 
-# What a row says that has no finite number, or whose mechanism does not close.
+# What a row says that has no finite number.
 NO_NUMBER = "{} is no finite number"
-OPEN = "The links do not close at every required crank angle."
 
 
 @dataclass

@@ -1,14 +1,14 @@
 """Derivatives of responses by the variables of a study: exact where the analysis has them.
 
 A variable reaches a response through its entries of the machine, of which the derivatives are those of
-`linkwright.sensitivity`, and through derived numbers and formulas, which tangents go through. What has no
-exact derivative, such as an extreme of a sampled curve, is differenced over four places within the range, to
-fourth order.
+`linkwright.sensitivity` and of places of points, and through derived numbers and formulas, which tangents go
+through. What has no exact derivative, such as an extreme of a sampled speed, is differenced over four places
+within the range, to fourth order.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,7 +25,9 @@ from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
-from linkwright.studies.responses import ENTRY, StudyResponse, entry_number
+from linkwright.studies.point_slopes import point_tangents
+from linkwright.studies.responses import entry_number
+from linkwright.studies.study_response import ENTRY, StudyResponse
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,11 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
     sources: dict[str, Source | None] = {}
     tangents: dict[str, Tangent] = {}
     ties: dict[str, str] = {}
+    of_points, kinks = point_tangents(machine, plan.asked, tuple(entries))
+    for name, tangent in of_points.items():
+        d = _by_variables(tuple(entries), tangent.d, entries, len(plan.axes))
+        tangents[name] = Tangent(tangent.value, d)
+    ties |= kinks
     for asked in plan.asked:
         if asked.analysis == ENTRY:
             given = entries.get(*asked.of)
@@ -168,15 +175,17 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
             continue
         name = named[0]
         tangent = own.tangents[name]
-        tangents[asked.name] = Tangent(tangent.value, _by_variables(own, tangent.d, entries, len(plan.axes)))
+        tangents[asked.name] = Tangent(
+            tangent.value, _by_variables(own.variables, tangent.d, entries, len(plan.axes))
+        )
         if name in own.ties:
             ties[asked.name] = own.ties[name]
     return tangents, ties
 
 
-def _by_variables(own: Source, slopes: Floats, entries: Mapping[str, Any], n: int) -> Floats:
-    """Derivatives by entries as those by n variables; NaN where one moves an entry that has none."""
-    table = np.array([entries[place].d for place in own.variables]).reshape(-1, n)
+def _by_variables(places: Sequence[str], slopes: Floats, entries: Mapping[str, Any], n: int) -> Floats:
+    """Derivatives by entries at places as those by n variables; NaN where one moves an entry without any."""
+    table = np.array([entries[place].d for place in places]).reshape(-1, n)
     is_known = np.isfinite(slopes)
     lost = (table[~is_known] != 0).any(axis=0)
     return np.where(lost, np.nan, slopes[is_known] @ table[is_known])

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import require_place, write_file
-from linkwright.kernel.units import Kind, is_number, to_text
+from linkwright.kernel.units import ANGLE, LENGTH, Kind, is_number, to_text
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
@@ -32,6 +32,7 @@ def study_text(plan: StudyPlan, machine: str) -> str:
     tables = {
         "variables": {name: _variable(plan, name, entry) for name, entry in given["variables"].items()},
         "derived": {name: _derived(entry) for name, entry in given.get("derived", {}).items()},
+        "paths": {name: _path(entry) for name, entry in given.get("paths", {}).items()},
         "responses": {name: _response(entry) for name, entry in given["responses"].items()},
         "constraints": {
             name: {key: _worded(limit, kind_of(plan.units[name])) for key, limit in limits.items()}
@@ -40,7 +41,7 @@ def study_text(plan: StudyPlan, machine: str) -> str:
     }
     for key, entry in given.items():
         if isinstance(entry, Mapping) and entry:
-            document.add(key, _table(tables.get(key, entry), is_deep=key == "variables"))
+            document.add(key, _table(tables.get(key, entry), is_deep=key in ("variables", "paths")))
     return tomlkit.dumps(document)
 
 
@@ -128,6 +129,15 @@ def _derived(given: Mapping[str, Any]) -> Any:
 def _addresses(addresses: Sequence[str]) -> str | list[str]:
     """One address as a text, several as a list."""
     return addresses[0] if len(addresses) == 1 else list(addresses)
+
+
+def _path(given: Mapping[str, Any]) -> dict[str, Any]:
+    """A path, numbers with their unit."""
+    kinds = {"x": LENGTH, "y": LENGTH, "crank_angle": ANGLE}
+    return {
+        key: [to_text(value, kinds[key]) for value in entry] if key in kinds else entry
+        for key, entry in given.items()
+    }
 
 
 def _response(given: Mapping[str, Any]) -> Any:

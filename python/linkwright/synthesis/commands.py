@@ -11,6 +11,7 @@ from linkwright.kernel.command.console import bar
 from linkwright.kernel.command.out import Force, out_option
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
+from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
     from linkwright.kernel.result import Result
@@ -116,6 +117,7 @@ def path(
     task_file: TaskOption = None,
     set: Sets = None,
     allow_outside: Outside = False,
+    study: ToStudy = None,
     json: Json = False,
     curves: Curves = False,
     out: OutFile = None,
@@ -126,9 +128,15 @@ def path(
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
-    read = read_as(PathTask, _task(task, task_file), set or (), allow_outside=allow_outside)
+    file = _task(task, task_file)
+    read = read_as(PathTask, file, set or (), allow_outside=allow_outside)
     with bar("refinement") as watch:
         generator = path_generator(read, track=lambda done, total: watch(done / total))
+    if study is not None:
+        from linkwright.studies.paths import path_study
+
+        plan = path_study(read, generator)
+        hand_over_study(plan, study, file, None, force=force, quiet=json, out=out)
     _finish("path_generator", generator, json, out, force, curves=curves)
 
 

@@ -31,6 +31,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
+from linkwright.linkages.nearest_places import TURN, disorder
 from linkwright.synthesis.four_bar import FourBar, worst_transmission
 from linkwright.synthesis.task import PathTask
 
@@ -175,6 +176,21 @@ class PathModel:
         count = 9 + (self.timed is not None)
         self.free = np.array([i for i in range(count) if i not in held])
 
+    @property
+    def longest(self) -> float:
+        """Longest link that is allowed, and largest offset of the coupler point [m]."""
+        return self._longest * self.size
+
+    @property
+    def region(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Ends of the region of the pivots along x and y [m]."""
+        middle = (self.middle.real, self.middle.imag)
+        x, y = (
+            (m + self.size * low, m + self.size * high)
+            for m, (low, high) in zip(middle, self._box, strict=True)
+        )
+        return x, y
+
     def _given_pivots(self) -> tuple[complex, complex] | None:
         """s and t of given pivots, over the size of the path."""
         crank, rocker = self.task.crank_pivot, self.task.rocker_pivot
@@ -268,7 +284,7 @@ class PathModel:
     def violation(self, rows: Linkages) -> Floats:
         """Sum of what is broken of all constraints, the order of the points among them, (m,)."""
         broken = np.maximum(self.excess(rows.p, rows.is_double), 0.0).sum(axis=1)
-        return broken if self.timed is not None else np.asarray(broken + disorder(rows.phi, 2 * np.pi))
+        return broken if self.timed is not None else np.asarray(broken + disorder(rows.phi, TURN))
 
     def errors(self, rows: Linkages) -> Floats:
         """Root of the mean square of the distances, over the size of the path, (m,)."""
@@ -285,14 +301,3 @@ class PathModel:
         bar = FourBar(A0, A0 + s, crank, coupler, rocker, "left" if row.side[0] > 0 else "right", turned)
         angles = self.timed if self.timed is not None else row.phi[0] + way
         return bar, z * s.conjugate() / abs(s), angles
-
-
-def disorder(at: Floats, turn: float) -> Floats:
-    """How many revolutions too many the curve must be run through to meet its points in order, (m,).
-
-    `at` (m, n): where on the closed curve each point is; `turn`: length of the closed curve in the same
-    measure. Returns: (m,) 0 where one revolution, in either direction, meets them all.
-    """
-    steps = np.diff(at, axis=1, append=at[:, :1])
-    turns = [np.round(np.mod(sign * steps, turn).sum(axis=1) / turn) for sign in (1, -1)]
-    return np.asarray(np.maximum(np.minimum(*turns) - 1, 0))

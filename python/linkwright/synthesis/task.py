@@ -28,6 +28,7 @@ from linkwright.kernel.units import (
     not_negative,
     positive,
 )
+from linkwright.linkages.model.path_points import PathPoints, same_length, values
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 Ratios = Annotated[tuple[float, ...], QuantityList(RATIO)]
@@ -222,15 +223,12 @@ class Box(Description):
     y: Lengths = Field(description="Lower and upper end.")
 
 
-class PathTask(Task):
-    """Points that a coupler point shall pass in their order while the crank turns round."""
+class PathTask(PathPoints, Task):
+    """Points that a coupler point shall pass in their order while the crank turns round.
 
-    x: Lengths = Field(description="To the right, one value a point.")
-    y: Lengths = Field(description="Up, one value a point.")
-    crank_angle: Angles | None = Field(
-        None,
-        description="Crank angle at each point, from any zero. Default: timing is free.",
-    )
+    Crank angles count from any zero: the crank is fixed on its shaft as fits best.
+    """
+
     pivots: Box | None = Field(
         None,
         description="Region of the fixed pivots. Default: within four sizes of the path around it.",
@@ -266,17 +264,13 @@ class PathTask(Task):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         n = len(self.x)
-        if n < 3:
-            yield fault("x", found=values(n), expected="at least 3 values, one a point")
-        yield from same_length(("y",), len(self.y), n, "point")
+        yield from self._faults_of_points(3)
         if n * self.population > PATH_POINTS.most:
             found = f"{self.population} linkages at {n} points"
             yield fault("population", found=found, expected=PATH_POINTS.words)
         if self.population * self.generations > TRIALS.most:
             found = f"{self.generations} generations of {self.population} linkages"
             yield fault("generations", found=found, expected=TRIALS.words)
-        if self.crank_angle is not None:
-            yield from same_length(("crank_angle",), len(self.crank_angle), n, "point")
         if len(self.y) == n and n and max(self.x) == min(self.x) and max(self.y) == min(self.y):
             yield fault("x", found="points at one place", expected="points at different places")
         yield from self._pivot_faults()
@@ -299,14 +293,3 @@ class PathTask(Task):
             yield fault("rocker_pivot", found="the place of crank_pivot", expected="another place")
         if self.pivots is not None:
             yield fault("pivots", found="a table", expected="nothing beside crank_pivot and rocker_pivot")
-
-
-def same_length(place: tuple[str, ...], length: int, wanted: int, what: str) -> Iterator[InitErrorDetails]:
-    """The fault of a list that has not one value for each of something."""
-    if length != wanted:
-        yield fault(*place, found=values(length), expected=f"{values(wanted)}, one a {what}")
-
-
-def values(n: int) -> str:
-    """A number of values in words."""
-    return "1 value" if n == 1 else f"{n} values"

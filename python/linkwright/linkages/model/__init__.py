@@ -9,6 +9,7 @@
 | `guide_faults` | What is wrong with guides and gears |
 | `mechanism` | All elements by name |
 | `mobility` | How many independent motions a mechanism has by the count of its links and pairs |
+| `path_points` | Points of a path in their order, with crank angles or without |
 | `structure` | The structure of a mechanism |
 | `topology` | Names in a mechanism: what refers to what, in which order it is built |
 """

@@ -1,0 +1,125 @@
+"""Path generation as a study: the linkage of a task, and the error of its path to be made small.
+
+The variables are those of the search (`linkwright.synthesis.path_model`) as entries of the machine: lengths,
+pivots, the place of the coupler point and, with given crank angles, the direction of the crank at angle zero.
+The limits follow from the lengths in closed form, so that they have exact derivatives.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from linkwright.linkages.model.path_points import PathPoints
+from linkwright.studies.plan import StudyPlan
+from linkwright.studies.read import new_study
+from linkwright.synthesis.path import PathGenerator
+from linkwright.synthesis.path_model import SPARE, PathModel
+from linkwright.synthesis.task import PathTask
+
+# Shortest link over the longest that is allowed: beyond all ratios that are asked for.
+_SHORTEST = 1e-3
+
+# Rows of a sweep, unless others are asked for: a power of two.
+_ROWS = 1024
+
+# Lengths as entries of the machine that is synthesised.
+_LENGTHS = {
+    "crank": "mechanism.cranks.A.radius",
+    "coupler": "mechanism.rockers.B.coupler",
+    "rocker": "mechanism.rockers.B.rocker",
+}
+_POINT = {key: f"mechanism.rigid_points.P.{key}" for key in ("along", "across")}
+_PHASE = "mechanism.cranks.A.phase"
+
+# Grashof's condition, ratio of lengths and minimum transmission angle in closed form; the crank turns fully if
+# coupler and rocker meet at both ends of the range of the distance that they span.
+_OF_LENGTHS = {
+    "rotation_margin": "min(coupler + rocker - frame - crank, abs(frame - crank) - abs(coupler - rocker))/frame",
+    "crank_over_frame": "crank/frame",
+    "length_ratio": "max(frame, crank, coupler, rocker)/min(frame, crank, coupler, rocker)",
+    "transmission_angle_min": (
+        "acos(min(1, max(abs(coupler^2 + rocker^2 - (frame - crank)^2), "
+        "abs(coupler^2 + rocker^2 - (frame + crank)^2))/(2*coupler*rocker)))"
+    ),
+}
+
+
+def path_study(task: PathTask, generator: PathGenerator) -> StudyPlan:
+    """Make a study of path generation about the linkage of a task, for `optimise`, `sweep` and `tolerance`.
+
+    Parameters
+    ----------
+    task : PathTask
+        Points, timing and limits.
+    generator : PathGenerator
+        The linkage that `path_generator` found for it; its assembly mode is kept.
+
+    Returns
+    -------
+    StudyPlan
+        Variables ``crank``, ``coupler``, ``rocker``, ``along``, ``across``, those of the pivots ``A0_x`` to
+        ``B0_y`` where they are free, and with crank angles ``phase``; responses ``error_rms`` [m],
+        ``error_max`` [m], ``transmission_angle_min`` [rad], ``length_ratio``, ``rotation_margin`` and
+        ``crank_over_frame`` [–]; limits of the task; goal ``error_rms``.
+    """
+    path = {key: getattr(task, key) for key in PathPoints.model_fields if getattr(task, key) is not None}
+    tables: dict[str, Any] = {
+        "name": f"Path of {generator.machine.name}",
+        "variables": _variables(task, generator),
+        "derived": {"frame": _frame(task)},
+        "paths": {"given": {"point": "P", **path}},
+        "responses": {
+            "error_rms": "path.given.error_rms",
+            "error_max": "path.given.error_max",
+            **{name: {"formula": formula} for name, formula in (_OF_LENGTHS | _of_frame(task)).items()},
+        },
+        "constraints": _limits(task),
+        "goals": {"error_rms": "minimise"},
+        "sweep": {"method": "sobol", "rows": _ROWS},
+    }
+    return new_study(generator.machine, tables)
+
+
+def _variables(task: PathTask, found: PathGenerator) -> dict[str, Any]:
+    """Lengths, the coupler point, pivots and the direction of the crank, within the limits of the task."""
+    model = PathModel(task)
+    longest = model.longest
+    ranges = {name: (address, _SHORTEST * longest, longest) for name, address in _LENGTHS.items()}
+    ranges |= {name: (address, -longest, longest) for name, address in _POINT.items()}
+    if task.crank_pivot is None:
+        for pivot in ("A0", "B0"):
+            for axis, ends in zip("xy", model.region, strict=True):
+                ranges[f"{pivot}_{axis}"] = (f"mechanism.points.{pivot}.{axis}", *ends)
+    if task.crank_angle is not None:
+        phase = found.machine.mechanism.cranks["A"].phase
+        ranges["phase"] = (_PHASE, phase - math.pi, phase + math.pi)
+    return {name: {"address": address, "range": [low, high]} for name, (address, low, high) in ranges.items()}
+
+
+def _frame(task: PathTask) -> dict[str, str]:
+    """Distance of the pivots, by their variables or given."""
+    if task.crank_pivot is None or task.rocker_pivot is None:
+        return {"formula": "sqrt((B0_x - A0_x)^2 + (B0_y - A0_y)^2)"}
+    crank, rocker = task.crank_pivot, task.rocker_pivot
+    return {"formula": repr(math.hypot(rocker.x - crank.x, rocker.y - crank.y))}
+
+
+def _of_frame(task: PathTask) -> dict[str, str]:
+    """The length of the frame as a response, where it is limited and free."""
+    return {"frame_length": "frame"} if task.length_max is not None and task.crank_pivot is None else {}
+
+
+def _limits(task: PathTask) -> dict[str, Any]:
+    """Limits of the responses."""
+    limits: dict[str, Any] = {
+        "rotation_margin": {"min": SPARE},
+        "length_ratio": {"max": task.length_ratio_max},
+    }
+    limits |= {name: {"max": task.length_max} for name in _of_frame(task)}
+    if task.transmission_angle_min > 0:
+        limits["transmission_angle_min"] = {"min": task.transmission_angle_min}
+    if task.linkage != "any":
+        is_double = task.linkage == "double-crank"
+        limits["crank_over_frame"] = {"min": 1 + 2 * SPARE} if is_double else {"max": 1 - 2 * SPARE}
+    return limits
