@@ -228,7 +228,7 @@ def test_a_curve_of_several_revolutions_needs_crank_angles() -> None:
         ('"path.tool.error_rms"', '"path.tool.eror_rms"', "responses.rms.quantity", "error_rms"),
         ("index = 1", "index = 6", "responses.second.index", "the path has 6 points"),
         ("index = 1", "extreme = 'max', level = 0.9", "responses.second.level", "nothing beside a path"),
-        ('[paths.tool]', '[paths.tool]\nspeed = 1', "paths.tool.speed", "unknown key"),
+        ("[paths.tool]", "[paths.tool]\nspeed = 1", "paths.tool.speed", "unknown key"),
         ("crank_angle = [", "crank_angle = [0.1, ", "paths.tool.crank_angle", "6 values, one a point"),
         ("y = [", "y = [0.1, ", "paths.tool.y", "6 values, one a point"),
         ("crank_angle = [", 'crank_angle = ["3 mm", ', "paths.tool.crank_angle", "angle"),
@@ -251,7 +251,9 @@ def test_wrong_arguments_of_path_error() -> None:
     machine = lw.read("four_bar_coupler_curve")
     with pytest.raises(MachineError, match="one of O, B, A, C, K"):
         lw.path_error(machine, "k", [0.0], [0.0])
-    with pytest.raises(InputError, match=r"crank_angle: found an array of shape \(2,\), expected a list of 1"):
+    with pytest.raises(
+        InputError, match=r"crank_angle: found an array of shape \(2,\), expected a list of 1"
+    ):
         lw.path_error(machine, "K", [0.0], [0.0], [0.0, 1.0])
     with pytest.raises(InputError, match="x: found an array of shape"):
         lw.path_error(machine, "K", [], [])

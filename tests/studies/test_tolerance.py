@@ -380,7 +380,7 @@ def test_intervals_of_indices_in_a_study(tmp_path: Path) -> None:
 
 
 def test_blocks_with_a_failed_row_are_dropped_whole(tmp_path: Path) -> None:
-    """Of a sum where b has to stay below its mean + σ: the indices are those of the sum with b cut off there."""
+    """Of a sum where b has to stay below its mean + σ: its indices are those with b cut off there."""
     plan = plan_of(tmp_path, TEXT.replace("1e6*(a - 0.8)^2", "3*a + b + 0*sqrt(0.802 - b)"))
     # Variance of a standard normal number below 1: 1 − φ(1)/Φ(1) − (φ(1)/Φ(1))².
     ratio = norm.pdf(1.0) / norm.cdf(1.0)

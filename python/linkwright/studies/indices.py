@@ -1,23 +1,23 @@
 r"""Sobol indices of responses, first and total, with confidence intervals.
 
-A block has two independent machines A and B, and for each variable i one, A_i, that is A with the value of B in
-this variable. With responses f about their mean and their variance V,
+A block has two independent machines A and B, and for each variable i one, A_i, that is A with the value of B
+in this variable. With responses f about their mean and their variance V,
 
 .. math::
 
     S_i = \frac{\overline{f_B (f_{A_i} - f_A)}}{V}, \qquad T_i = \frac{\overline{(f_A - f_{A_i})^2}}{2V}
 
-by the estimators of Saltelli and of Jansen [1]_. Both are ratios of means over independent blocks. By the delta
-method [2]_ such a ratio R = ū/v̄ scatters as the mean of (u − R v)/v̄; the mean of f, which is estimated too,
-does not count to first order. The interval is R ± t s/√n with Student's t of n − 1 and the standard deviation s
-of these numbers. A block in which a row fails is dropped whole.
+by the estimators of Saltelli and of Jansen [1]_. Both are ratios of means over independent blocks. By the
+delta method [2]_ such a ratio R = ū/v̄ scatters as the mean of (u − R v)/v̄; the mean of f, which is estimated
+too, does not count to first order. The interval is R ± t s/√n with Student's t of n − 1 and the standard
+deviation s of these numbers. A block in which a row fails is dropped whole.
 
 References
 ----------
 .. [1] Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181
    (2010) 259, table 2 (b) and (f).
-.. [2] Janon et al., *Asymptotic normality and efficiency of two Sobol index estimators*, ESAIM: Probability and
-   Statistics 18 (2014) 342.
+.. [2] Janon et al., *Asymptotic normality and efficiency of two Sobol index estimators*, ESAIM: Probability
+   and Statistics 18 (2014) 342.
 """
 
 from __future__ import annotations

@@ -420,10 +420,7 @@ class _Search:
 
 
 def _given(plan: StudyPlan, shares: Floats) -> Floats | None:
-    """The machine of a study as shares, (variables,); None if it stands outside of its ranges.
-
-    `shares`: those of what is enumerated, which stay, in their places.
-    """
+    """The machine of a study as shares, those of choices as they are; None outside of its ranges."""
     given = shares.copy()
     for i, axis in enumerate(plan.axes):
         if axis.choices:

@@ -32,14 +32,16 @@ _LENGTHS = {
 _POINT = {key: f"mechanism.rigid_points.P.{key}" for key in ("along", "across")}
 _PHASE = "mechanism.cranks.A.phase"
 
-# Grashof's condition, ratio of lengths and minimum transmission angle in closed form; the crank turns fully if
-# coupler and rocker meet at both ends of the range of the distance that they span.
+# Grashof's condition, ratio of lengths and minimum transmission angle in closed form; the crank turns fully
+# if coupler and rocker meet at both ends of the range of the distance that they span.
 _COSINE = (
     "max(abs(coupler^2 + rocker^2 - (frame - crank)^2), abs(coupler^2 + rocker^2 - (frame + crank)^2))"
     "/(2*coupler*rocker)"
 )
 _OF_LENGTHS = {
-    "rotation_margin": "min(coupler + rocker - frame - crank, abs(frame - crank) - abs(coupler - rocker))/frame",
+    "rotation_margin": (
+        "min(coupler + rocker - frame - crank, abs(frame - crank) - abs(coupler - rocker))/frame"
+    ),
     "crank_over_frame": "crank/frame",
     "length_ratio": "max(frame, crank, coupler, rocker)/min(frame, crank, coupler, rocker)",
     # The cosine is limited: where the crank does not turn fully it is above 1, and leads back.
@@ -85,7 +87,7 @@ def path_study(task: PathTask, generator: PathGenerator) -> StudyPlan:
     return new_study(generator.machine, tables)
 
 
-def _variables(task: PathTask, found: PathGenerator) -> dict[str, Any]:
+def _variables(task: PathTask, generator: PathGenerator) -> dict[str, Any]:
     """Lengths, the coupler point, pivots and the direction of the crank, within the limits of the task."""
     model = PathModel(task)
     longest = model.longest
@@ -96,7 +98,7 @@ def _variables(task: PathTask, found: PathGenerator) -> dict[str, Any]:
             for axis, ends in zip("xy", model.region, strict=True):
                 ranges[f"{pivot}_{axis}"] = (f"mechanism.points.{pivot}.{axis}", *ends)
     if task.crank_angle is not None:
-        phase = found.machine.mechanism.cranks["A"].phase
+        phase = generator.machine.mechanism.cranks["A"].phase
         ranges["phase"] = (_PHASE, phase - math.pi, phase + math.pi)
     return {name: {"address": address, "range": [low, high]} for name, (address, low, high) in ranges.items()}
 

@@ -84,7 +84,9 @@ def _contributions(tolerance: Tolerance) -> Table:
     for name, parts in tolerance.contributions.items():
         for variable, share in parts.items():
             slope = number(tolerance.slopes[name][variable])
-            rows.append((name, "", variable, f"{100 * share:.3g} %", slope, *_indices(tolerance, name, variable)))
+            rows.append(
+                (name, "", variable, f"{100 * share:.3g} %", slope, *_indices(tolerance, name, variable))
+            )
     heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
     return Table("contributions", "Contributions", heads, rows)
 

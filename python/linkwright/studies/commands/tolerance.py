@@ -173,5 +173,7 @@ def _head(plan: StudyPlan, scatter: Tolerance) -> str:
             f"level of {100 * scatter.level:g} %"
         )
     if scatter.indices:
-        lines.append(f"Sobol indices ± half the width of their intervals at a level of {100 * scatter.level:g} %")
+        lines.append(
+            f"Sobol indices ± half the width of their intervals at a level of {100 * scatter.level:g} %"
+        )
     return "\n".join(lines)
