@@ -89,7 +89,7 @@ def _by_path(machine: Machine, asked: StudyResponse, ways: Directions) -> Floats
 
 
 def _off(machine: Machine, path: StudyPath) -> tuple[Complexes, Floats]:
-    """From the points of a path to the places of the machine's point, and the crank angles there, (n,) each."""
+    """From the points of a path to the places of the machine's point, and the crank angles, (n,) each."""
     targets = np.array(path.x) + 1j * np.array(path.y)
     angles = None if path.crank_angle is None else np.array(path.crank_angle)
     places, phi = places_near(machine, path.point, targets, angles)
