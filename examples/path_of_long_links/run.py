@@ -1,6 +1,6 @@
 """Do longer links still draw a more accurate path once their lengths have tolerances?
 
-A coupler point shall pass ten points of an ellipse, 200 mm by 100 mm, in their order. Longer links come nearer.
+A coupler point shall pass ten points of an ellipse, 200 by 100 mm, in order. Longer links come nearer to it.
 study.toml gives all lengths ± 0.1 mm; each linkage that is found takes the place of its machine.
 """
 
