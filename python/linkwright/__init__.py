@@ -241,12 +241,12 @@ if TYPE_CHECKING:
     from linkwright.linkages.circuits import circuits as circuits
     from linkwright.linkages.closure import closure as closure
     from linkwright.linkages.coupler_curve import coupler_curve as coupler_curve
-    from linkwright.linkages.path_error import path_error as path_error
     from linkwright.linkages.cycle import linkage as linkage
     from linkwright.linkages.kinematics import kinematics as kinematics
     from linkwright.linkages.kinematics import motions as motions
     from linkwright.linkages.model.mobility import mobility as mobility
     from linkwright.linkages.motion import motion as motion
+    from linkwright.linkages.path_error import path_error as path_error
     from linkwright.linkages.period import period_turns as period_turns
     from linkwright.linkages.pose import pose as pose
     from linkwright.linkages.zero import zero_angle as zero_angle

@@ -445,3 +445,45 @@ def test_no_machine_is_computed_between_whole_numbers(
     optimum(tmp_path, text, 100, "both")
     assert seen
     assert all(number.is_integer() for number in seen)
+
+
+@pytest.mark.parametrize("method", ["both", "global", "gradient"])
+def test_no_result_is_worse_than_the_machine_of_the_study(method: str, tmp_path: Path) -> None:
+    """A valley so narrow that a search of so few machines misses it, about the rods of the machine."""
+    study = """
+machine = "roller_two_carts"
+[variables.a]
+address = "mechanism.sliders.cart1.rod"
+range = ["0.5 m", "2.0 m"]
+[variables.b]
+address = "mechanism.sliders.cart2.rod"
+range = ["0.5 m", "2.0 m"]
+scale = "log"
+[responses]
+deep = { formula = "1 - exp(-1e8*((a - 0.8)^2 + (b - 0.8)^2))" }
+[goals]
+deep = "minimise"
+"""
+    (tmp_path / "study.toml").write_text(study, encoding="utf-8")
+    plan = lw.read_study(tmp_path / "study.toml")
+    best = lw.optimise(plan, 20, method=method, starts=1)
+    assert best.responses["deep"] == pytest.approx(0.0, abs=1e-12)
+    # A machine outside of the ranges is none of the study.
+    (tmp_path / "study.toml").write_text(study.replace('"0.5 m"', '"0.9 m"'), encoding="utf-8")
+    assert (
+        lw.optimise(lw.read_study(tmp_path / "study.toml"), 20, method=method, starts=1).responses["deep"]
+        > 0.9
+    )
+
+
+@pytest.mark.parametrize(
+    "entries", ["range = [1, 5]", 'range = [1, 5]\nscale = "log"', "range = [1, 5]\nwhole = true"]
+)
+def test_the_share_of_a_value_gives_it_back(entries: str, tmp_path: Path) -> None:
+    study = 'machine = "roller_two_carts"\n[variables.r]\naddress = "drive.gearbox.ratio"\n'
+    (tmp_path / "study.toml").write_text(f'{study}{entries}\n[responses]\ny = {{ formula = "r" }}\n')
+    (one,) = lw.read_study(tmp_path / "study.toml").axes
+    for value in (1.0, 3.0, 5.0):
+        share = one.share(value)
+        assert 0 <= share <= 1
+        assert one.values(np.array([share]))[0] == pytest.approx(value, rel=1e-14)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +14,10 @@ from scipy.stats import norm
 
 import linkwright as lw
 from linkwright.app.application import application
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.studies.axes import axis
+from linkwright.studies.indices import intervals, of_blocks
 from linkwright.studies.model import Distribution, Variable
 from linkwright.studies.plan import StudyPlan
 
@@ -327,3 +331,76 @@ tolerance = "SIZE ± 1 rpm"
     assert told is not None
     plan = plan_of(tmp_path, text.replace("SIZE", told[1]))
     assert plan.axes[0].low < 104.72 < plan.axes[0].high
+
+
+def covered(f: Callable[[Floats], Floats], truth: list[tuple[float, float]], blocks: int) -> Floats:
+    """Share of 2000 repetitions whose intervals at 95 % hold the closed-form indices, (variables, 2)."""
+    n, d = 2000, len(truth)
+    hits = np.zeros((d, 2))
+    for seed in range(n):
+        z = np.random.default_rng(seed).normal(size=(2, d, blocks))
+        rows = [z[0], z[1], *(np.where(np.eye(d)[i][:, None] > 0, z[1], z[0]) for i in range(d))]
+        names = [str(i) for i in range(d)]
+        found = intervals(of_blocks(names, np.array([f(row) for row in rows]), 0.95))
+        for i, name in enumerate(names):
+            hits[i] += [low <= one <= high for one, (low, high) in zip(truth[i], found[name], strict=True)]
+    return hits / n
+
+
+@pytest.mark.parametrize("shift", [0.0, 100.0])
+def test_intervals_of_indices_hold_the_truth_at_their_level(shift: float) -> None:
+    """3 z₁ + z₂: 9/10 and 1/10. (1 + z₁)(1 + z₂): of the variance 3 each alone has 1, both together 1."""
+    # 2000 repetitions scatter by 0.005; four of them, and 0.015 for intervals that hold to first order.
+    sums = covered(lambda z: shift + 3 * z[0] + z[1], [(0.9, 0.9), (0.1, 0.1)], 500)
+    np.testing.assert_allclose(sums, 0.95, atol=0.02)
+    products = covered(lambda z: shift + (1 + z[0]) * (1 + z[1]), [(1 / 3, 2 / 3)] * 2, 1000)
+    np.testing.assert_allclose(products, 0.95, atol=0.035)
+
+
+def test_intervals_of_indices_in_a_study(tmp_path: Path) -> None:
+    """A sum and a product by formulas; in four fifths of the blocks all rows have an answer."""
+    product = "(1 + (a - 0.8)/1e-3)*(1 + (b - 0.8)/2e-3)"
+    plan = plan_of(tmp_path, TEXT.replace("1e6*(a - 0.8)^2", product))
+    truth = {"sum": {"a": (9 / 13, 9 / 13), "b": (4 / 13, 4 / 13)}}
+    truth["square"] = dict.fromkeys("ab", (1 / 3, 2 / 3))
+    hits = []
+    for seed in range(40):
+        found = lw.tolerance(plan, 50, seed=seed, indices=400)
+        hits += [
+            low <= one <= high
+            for name, variables in truth.items()
+            for variable, pair in variables.items()
+            for one, (low, high) in zip(pair, found.index_intervals[name][variable], strict=True)
+        ]
+    # Eight intervals of a run share its blocks: 40 independent runs scatter by 0.034 at most.
+    assert np.mean(hits) == pytest.approx(0.95, abs=4 * 0.034 / np.sqrt(2))
+    wide = lw.tolerance(plan, 50, indices=400, level=0.99).index_intervals["sum"]["a"][0]
+    close = lw.tolerance(plan, 50, indices=400, level=0.9).index_intervals["sum"]["a"][0]
+    assert (wide[1] - wide[0]) / (close[1] - close[0]) == pytest.approx(2.576 / 1.645, rel=0.01)
+
+
+def test_blocks_with_a_failed_row_are_dropped_whole(tmp_path: Path) -> None:
+    """Of a sum where b has to stay below its mean + σ: its indices are those with b cut off there."""
+    plan = plan_of(tmp_path, TEXT.replace("1e6*(a - 0.8)^2", "3*a + b + 0*sqrt(0.802 - b)"))
+    # Variance of a standard normal number below 1: 1 − φ(1)/Φ(1) − (φ(1)/Φ(1))².
+    ratio = norm.pdf(1.0) / norm.cdf(1.0)
+    share = 9 / (9 + 4 * (1 - ratio - ratio**2))
+    hits = []
+    for seed in range(60):
+        found = lw.tolerance(plan, 50, seed=seed, indices=400)
+        assert found.n_dropped > 0
+        hits += [low <= share <= high for low, high in found.index_intervals["square"]["a"]]
+        assert set(found.failure_index_intervals) == {"a", "b"}
+    # 60 runs scatter by 0.028; four of them.
+    assert np.mean(hits) == pytest.approx(0.95, abs=0.11)
+
+
+def test_the_table_gives_half_the_intervals(tmp_path: Path) -> None:
+    plan_of(tmp_path, TEXT)
+    words = ["tolerance", str(tmp_path / "study.toml"), "--rows", "100", "--indices", "500"]
+    told = CliRunner().invoke(application(), words)
+    assert "at a level of 95 %" in told.stdout
+    assert re.search(r"0\.\d+ ± 0\.\d+ +0\.\d+ ± 0\.\d+", told.stdout), told.stdout
+    found = json.loads(CliRunner().invoke(application(), [*words, "--json"]).stdout)["results"]["tolerance"]
+    (low, high), _ = found["index_intervals"]["sum"]["a"]
+    assert low < found["indices"]["sum"]["a"][0] < high

@@ -113,6 +113,8 @@ EDGES = {
     ("topping.model", "linkages.model"),
     # What is found is verified by analysis.
     ("synthesis", "linkages"),
+    # A path of a task and of a study is described alike.
+    ("synthesis", "linkages.model"),
     ("sizing", "drive"),
     ("sizing", "drive.model"),
     ("sizing", "linkages"),

@@ -68,7 +68,7 @@ class ClosedCurves:
     @property
     def step(self) -> float:
         """Crank angle between two of them [rad]."""
-        return TURN / self.place.shape[1]
+        return TURN / float(self.place.shape[1])
 
     def row(self, row: int) -> ClosedCurves:
         """One of the curves."""
@@ -81,12 +81,12 @@ class ClosedCurves:
     def at(self, phi: Floats) -> tuple[Complexes, Complexes, Complexes]:
         """Place and two derivatives at crank angles, (rows, n) each."""
         h, n = self.step, self.place.shape[1]
-        whole = np.floor(phi / h)
-        low = whole.astype(np.intp) % n
+        count = np.floor(phi / h)
+        low = count.astype(np.intp) % n
         ends = (low, (low + 1) % n)
         scaled = (self.place, h * self.first, h * h * self.second)
         known = np.stack([np.take_along_axis(part, end, axis=1) for end in ends for part in scaled], axis=-1)
-        powers = (phi / h - whole)[..., None] ** _POWERS
+        powers = (phi / h - count)[..., None] ** _POWERS
         place, first, second = ((known * (powers @ table.T)).sum(-1) for table in (_HERMITE, _FIRST, _SECOND))
         return place, first / h, second / h**2
 
@@ -160,11 +160,8 @@ def _ordered(curve: ClosedCurves, targets: Complexes) -> Floats:
 
 
 def _in_steps(squares: Floats) -> Floats:
-    """Steps that do not go back within one revolution, of the minimum sum of squares, (n,).
-
-    `squares` (n, m): squared distance of each point at each step. Returns: counted on beyond the last step.
-    """
-    n, m = squares.shape
+    """Steps (n,) that do not go back within one revolution, of the minimum sum of squares (n, m)."""
+    m = squares.shape[1]
     start = np.arange(m)
     place = (start[:, None] + np.arange(m + 1)) % m
     # Sums by the step of the first point and the number of steps from it to the last of the points so far.

@@ -20,7 +20,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, MachineError, Problem, ShapeError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
-from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_closed
 from linkwright.linkages.kinematics import checked_angles, motions, rows_along

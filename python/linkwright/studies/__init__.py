@@ -13,6 +13,8 @@
 | `choices` | Names of the values of a list |
 | `iso286` | Limit deviations of sizes by classes such as H7 |
 | `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
+| `study_response` | One response: where it comes from, and one number out of a result |
+| `point_responses` | Responses that follow from places of points: motions, errors of paths |
 | `responses` | What is asked: analyses, and one number of each result |
 | `rows` | Rows of a study: numbers, why rows fail, what becomes of fast starts |
 | `engine` | Responses of many machines, in batches or one by one |
@@ -23,8 +25,11 @@
 | `cams` | Studies of cams: sizes, lift and laws within limits |
 | `knives` | Studies of the knife of a topper over a field of roots |
 | `best_knives` | The best knife of a topper as a study |
+| `paths` | Path generation as a study |
+| `point_slopes` | Derivatives of responses that follow from places of points |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
-| `tolerance` | Scatter of responses, contributions, yield, Sobol indices |
+| `tolerance` | Scatter of responses, contributions, yield |
+| `indices` | Sobol indices with their confidence intervals |
 | `allocation` | The cheapest tolerances for a wanted yield |
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside, or by a cluster |

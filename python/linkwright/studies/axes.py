@@ -108,6 +108,16 @@ class Axis:
             return values
         return self.low * (1 - shares) + self.high * shares
 
+    def share(self, value: float) -> float:
+        """The share of a value of a range [SI]; outside of 0 to 1 or NaN if it is none of its values."""
+        if self.is_whole:
+            return (
+                (value - self.low + 0.5) / (self.high - self.low + 1) if value == round(value) else math.nan
+            )
+        if self.is_log:
+            return math.log(value / self.low) / math.log(self.high / self.low) if value > 0 else math.nan
+        return (value - self.low) / (self.high - self.low)
+
     def moments(self) -> tuple[float, float]:
         """Mean and standard deviation [SI] of its values, cut off as they are."""
         values = self.values(_middles(_STRATA))

@@ -4,7 +4,7 @@ Sequential quadratic programming (SLSQP of SciPy [1]_) goes down where goal and 
 of a motion are not where two of them tie, and best machines often stand there; so cutting planes [2]_
 follow: the goal is taken as the largest of its tangents at the places nearby, a linear programme finds the
 lowest point of these within a radius, and the radius is halved where that is no better. Where two branches
-cross, they meet as Newton's method does.
+cross, they meet as Newton's method does. In a smooth valley they creep; SLSQP goes on from there.
 
 At the place that is found the multipliers λ ≥ 0 of the active limits c are those of
 
@@ -44,6 +44,10 @@ _PENALTY = 1e3
 
 # First radius of the cutting planes and the last, as shares of the ranges, and how many tangents are kept.
 _FIRST, _LAST, _KEPT = 0.02, 1e-10, 30
+
+# Cutting planes that gain less than this share in so many steps creep along a smooth valley, where SLSQP is
+# faster once the limits are kept; so often at most.
+_PATIENCE, _CREEPS, _ROUNDS = 60, 0.01, 6
 
 # A promised gain below this share of the goal ends the search: results are computed to 1e-11.
 _GAIN = 1e-11
@@ -101,8 +105,12 @@ class Descent:
         size = max(abs(first.goal), 1e-300)
         scaled = replace(first, goal=first.goal / size, goal_slope=first.goal_slope / size)
         self.size, self._known = size, {first.share.tobytes(): scaled}
-        best = self._planes(self._slsqp(start[self.free]))
-        end[self.free] = best.share
+        share = start[self.free]
+        for _ in range(_ROUNDS):
+            best, is_slow = self._planes(self._slsqp(share))
+            end[self.free] = share = best.share
+            if not is_slow:
+                break
         return end
 
     def at(self, share: Floats) -> _Place:
@@ -166,13 +174,15 @@ class Descent:
         """The best place so far."""
         return min(self._known.values(), key=lambda point: point.merit)
 
-    def _planes(self, best: _Place) -> _Place:
-        """The best place by cutting planes about one."""
-        near, radius = [best], _FIRST
+    def _planes(self, best: _Place) -> tuple[_Place, bool]:
+        """The best place by cutting planes about one, and whether they only creep on from there."""
+        near, radius, merits = [best], _FIRST, [best.merit]
         while radius > _LAST:
             trial, gain = self._lowest(near, best, radius)
             if gain < _GAIN:
-                return best
+                return best, False
+            if len(merits) > _PATIENCE and merits[-_PATIENCE] - best.merit < _CREEPS * abs(best.merit):
+                return best, True
             moved = float(np.abs(trial - best.share).max())
             try:
                 there = self.at(trial)
@@ -181,14 +191,15 @@ class Descent:
                 radius /= 4
                 continue
             except _SpentError:
-                return best
+                return best, False
             near = [*near, there][-_KEPT:]
             if there.merit < best.merit:
                 best = there
                 radius = min(radius, 4 * moved)
             else:
                 radius = min(radius, moved) / 2
-        return best
+            merits.append(best.merit)
+        return best, False
 
     def _lowest(self, near: list[_Place], best: _Place, radius: float) -> tuple[Floats, float]:
         """Lowest point of the tangents nearby, within a radius of the best, and by how much it is lower."""

@@ -33,6 +33,8 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.kernel.units import is_number
+from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, variant
@@ -245,12 +247,14 @@ class _Search:
         free = [i for i, axis in enumerate(self.plan.axes) if not axis.choices]
         shares = np.array([fixed.get(axis.name, 0.5) for axis in self.plan.axes])
         before, self.best = self.best, None
+        given = _given(self.plan, shares)
         if not free:
             self._ranked(shares[None])
         elif method == "gradient":
-            self._descend(self._started(shares, free, seed, starts))
+            self._descend([*self._sound(given), *self._started(shares, free, seed, starts)])
         else:
             last = self.log.count + evaluations
+            self._sound(given)
             is_both = method == "both"
             self._evolve(shares, free, evaluations - int(_KEPT * evaluations) * is_both, seed)
             if is_both and self.best is not None and self.best[0][0] < 2:
@@ -283,6 +287,10 @@ class _Search:
             order = {key: float(rank) for rank, key in enumerate(sorted(set(keys)))}
             strategy.tell([(shares[1], order[key]) for shares, key in zip(asked, keys, strict=True)])
             used += many
+
+    def _sound(self, given: Floats | None) -> list[Floats]:
+        """The machine of the study itself, if it is one of those sought and has an answer."""
+        return [given] if given is not None and self._ranked(given[None])[0][0] < 2 else []
 
     def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
         """The best of many places that fill the ranges."""
@@ -409,6 +417,21 @@ class _Search:
             )
         most = max(self.reasons, key=self.reasons.__getitem__, default="")
         return f"none of {self.count} machines has an answer; most often: {most}"
+
+
+def _given(plan: StudyPlan, shares: Floats) -> Floats | None:
+    """The machine of a study as shares, those of choices as they are; None outside of its ranges."""
+    given = shares.copy()
+    for i, axis in enumerate(plan.axes):
+        if axis.choices:
+            continue
+        entries = {get(plan.machine, address) for address in axis.addresses}
+        value = entries.pop()
+        share = axis.share(value) if is_number(value) and not entries else math.nan
+        if not 0.0 <= share <= 1.0:
+            return None
+        given[i] = share
+    return given
 
 
 def numbers_alone(plan: StudyPlan, shares: Floats) -> tuple[StudyPlan, list[int]]:

@@ -32,16 +32,21 @@ _LENGTHS = {
 _POINT = {key: f"mechanism.rigid_points.P.{key}" for key in ("along", "across")}
 _PHASE = "mechanism.cranks.A.phase"
 
-# Grashof's condition, ratio of lengths and minimum transmission angle in closed form; the crank turns fully if
-# coupler and rocker meet at both ends of the range of the distance that they span.
+# Grashof's condition, ratio of lengths and minimum transmission angle in closed form; the crank turns fully
+# if coupler and rocker meet at both ends of the range of the distance that they span.
+_COSINE = (
+    "max(abs(coupler^2 + rocker^2 - (frame - crank)^2), abs(coupler^2 + rocker^2 - (frame + crank)^2))"
+    "/(2*coupler*rocker)"
+)
 _OF_LENGTHS = {
-    "rotation_margin": "min(coupler + rocker - frame - crank, abs(frame - crank) - abs(coupler - rocker))/frame",
+    "rotation_margin": (
+        "min(coupler + rocker - frame - crank, abs(frame - crank) - abs(coupler - rocker))/frame"
+    ),
     "crank_over_frame": "crank/frame",
     "length_ratio": "max(frame, crank, coupler, rocker)/min(frame, crank, coupler, rocker)",
-    "transmission_angle_min": (
-        "acos(min(1, max(abs(coupler^2 + rocker^2 - (frame - crank)^2), "
-        "abs(coupler^2 + rocker^2 - (frame + crank)^2))/(2*coupler*rocker)))"
-    ),
+    # The cosine is limited: where the crank does not turn fully it is above 1, and leads back.
+    "transmission_cosine_max": _COSINE,
+    "transmission_angle_min": f"acos(min(1, {_COSINE}))",
 }
 
 
@@ -60,8 +65,9 @@ def path_study(task: PathTask, generator: PathGenerator) -> StudyPlan:
     StudyPlan
         Variables ``crank``, ``coupler``, ``rocker``, ``along``, ``across``, those of the pivots ``A0_x`` to
         ``B0_y`` where they are free, and with crank angles ``phase``; responses ``error_rms`` [m],
-        ``error_max`` [m], ``transmission_angle_min`` [rad], ``length_ratio``, ``rotation_margin`` and
-        ``crank_over_frame`` [–]; limits of the task; goal ``error_rms``.
+        ``error_max`` [m], ``transmission_angle_min`` [rad], the cosine of this angle, by which it is
+        limited, ``length_ratio``, ``rotation_margin`` and ``crank_over_frame`` [–]; limits of the task; goal
+        ``error_rms``.
     """
     path = {key: getattr(task, key) for key in PathPoints.model_fields if getattr(task, key) is not None}
     tables: dict[str, Any] = {
@@ -81,7 +87,7 @@ def path_study(task: PathTask, generator: PathGenerator) -> StudyPlan:
     return new_study(generator.machine, tables)
 
 
-def _variables(task: PathTask, found: PathGenerator) -> dict[str, Any]:
+def _variables(task: PathTask, generator: PathGenerator) -> dict[str, Any]:
     """Lengths, the coupler point, pivots and the direction of the crank, within the limits of the task."""
     model = PathModel(task)
     longest = model.longest
@@ -92,7 +98,7 @@ def _variables(task: PathTask, found: PathGenerator) -> dict[str, Any]:
             for axis, ends in zip("xy", model.region, strict=True):
                 ranges[f"{pivot}_{axis}"] = (f"mechanism.points.{pivot}.{axis}", *ends)
     if task.crank_angle is not None:
-        phase = found.machine.mechanism.cranks["A"].phase
+        phase = generator.machine.mechanism.cranks["A"].phase
         ranges["phase"] = (_PHASE, phase - math.pi, phase + math.pi)
     return {name: {"address": address, "range": [low, high]} for name, (address, low, high) in ranges.items()}
 
@@ -118,7 +124,7 @@ def _limits(task: PathTask) -> dict[str, Any]:
     }
     limits |= {name: {"max": task.length_max} for name in _of_frame(task)}
     if task.transmission_angle_min > 0:
-        limits["transmission_angle_min"] = {"min": task.transmission_angle_min}
+        limits["transmission_cosine_max"] = {"max": math.cos(task.transmission_angle_min)}
     if task.linkage != "any":
         is_double = task.linkage == "double-crank"
         limits["crank_over_frame"] = {"min": 1 + 2 * SPARE} if is_double else {"max": 1 - 2 * SPARE}

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, MachineError
+from linkwright.kernel.errors import FindingError
 from linkwright.kernel.quantities import shown
 from linkwright.linkages.kinematics import motions
 from linkwright.linkages.path_error import PathError, places_near
@@ -27,8 +27,8 @@ SAMPLES = 360
 # What a row says whose mechanism does not close.
 OPEN = "The links do not close at every required crank angle."
 OPEN_PATH = (
-    "The links do not close at every crank angle, or the curve does not close after one revolution: for a path "
-    "without crank_angle they have to."
+    "The links do not close at every crank angle, or the curve does not close after one revolution: for a "
+    "path without crank_angle they have to."
 )
 
 # Distances of all points of a path, and scalars of them: what is taken.

@@ -5,9 +5,9 @@ distance d from a point of a path has
 
 .. math:: dd = \operatorname{Re}\, \overline{(P - w)}\, dP / d,
 
-where the crank angle is given, and where it is that of the nearest place, across which the curve passes. Points
-that share an angle in order not to pass each other are nearest together only: their root mean square has this
-derivative, single distances are left to differences.
+where the crank angle is given, and where it is that of the nearest place, across which the curve passes.
+Points that share an angle in order not to pass each other are nearest together only: their root mean square
+has this derivative, single distances are left to differences.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from linkwright.studies.study_response import MOTION, PATH, StudyResponse
 # Slope along the curve over speed times distance that is rounding: the place is the foot of its point.
 _ACROSS = 1e-6
 
-# Distances over the size of the path that are rounding, so that they have no direction; shares by which maxima
-# differ that are equal.
+# Distances over the size of the path that are rounding, so that they have no direction; shares by which
+# maxima differ that are equal.
 _NOTHING, _EQUAL = 1e-9, 1e-6
 
 _ON_PATH = "the point meets the path, where a distance has no derivative"
@@ -67,7 +67,7 @@ def _by_motion(machine: Machine, asked: StudyResponse, ways: Directions) -> Floa
     along = places_along(machine, point, angles, ways.values)
     slopes: Floats = along.imag if part else along.real
     if asked.extreme is None:
-        return slopes[0]
+        return np.asarray(slopes[0])
     return _weights(asked, motions(machine, angles, points=[point])[0, part]) @ slopes
 
 
@@ -77,7 +77,11 @@ def _by_path(machine: Machine, asked: StudyResponse, ways: Directions) -> Floats
     assert path is not None
     off, angles = _off(machine, path)
     weights = _weights(asked, np.abs(off))
-    if path.crank_angle is None and asked.extreme != "rms" and not _is_across(machine, path, off, angles, weights):
+    if (
+        path.crank_angle is None
+        and asked.extreme != "rms"
+        and not _is_across(machine, path, off, angles, weights)
+    ):
         return np.full(len(ways.variables), np.nan)
     along = places_along(machine, path.point, angles, ways.values)
     way = off / np.maximum(np.abs(off), 1e-300)
@@ -85,7 +89,7 @@ def _by_path(machine: Machine, asked: StudyResponse, ways: Directions) -> Floats
 
 
 def _off(machine: Machine, path: StudyPath) -> tuple[Complexes, Floats]:
-    """From the points of a path to the places of the machine's point, and the crank angles there, (n,) each."""
+    """From the points of a path to the places of the machine's point, and the crank angles, (n,) each."""
     targets = np.array(path.x) + 1j * np.array(path.y)
     angles = None if path.crank_angle is None else np.array(path.crank_angle)
     places, phi = places_near(machine, path.point, targets, angles)

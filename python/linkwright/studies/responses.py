@@ -67,9 +67,7 @@ def analysis(name: str) -> Callable[..., Result]:
     return analyse
 
 
-def asked(
-    machine: Machine, name: str, response: Response, paths: Mapping[str, StudyPath]
-) -> StudyResponse:
+def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, StudyPath]) -> StudyResponse:
     """A response of a study, checked against what there is; `paths`: those of the study.
 
     Raises `MachineError`: no such analysis or quantity, a curve where a number belongs, or the reverse.

@@ -16,8 +16,8 @@ from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import declared
 from linkwright.studies.model import StudyPath
 
-# What is no analysis: the motion of a point, which needs no drive, its distance from a path, and what stands in
-# the machine.
+# What is no analysis: the motion of a point, which needs no drive, its distance from a path, and what stands
+# in the machine.
 MOTION, PATH, ENTRY = "motion", "path", "entry"
 
 # Analyses of one part of the machine, by its name.

@@ -83,13 +83,22 @@ def _contributions(tolerance: Tolerance) -> Table:
     rows: list[Row] = []
     for name, parts in tolerance.contributions.items():
         for variable, share in parts.items():
-            first, total = tolerance.indices.get(name, {}).get(variable, (None, None))
             slope = number(tolerance.slopes[name][variable])
             rows.append(
-                (name, "", variable, f"{100 * share:.3g} %", slope, number(first, 3), number(total, 3))
+                (name, "", variable, f"{100 * share:.3g} %", slope, *_indices(tolerance, name, variable))
             )
     heads = ("response", "", "variable", "share of the variance", "derivative [SI]", "Sobol index", "total")
     return Table("contributions", "Contributions", heads, rows)
+
+
+def _indices(tolerance: Tolerance, name: str, variable: str) -> list[str]:
+    """First and total Sobol index with half the width of their intervals."""
+    both = tolerance.indices.get(name, {}).get(variable, (None, None))
+    ends = tolerance.index_intervals.get(name, {}).get(variable, ((0.0, 0.0),) * 2)
+    return [
+        number(index, 3) + ("" if index is None else f" ± {number(0.5 * (high - low), 2)}")
+        for index, (low, high) in zip(both, ends, strict=True)
+    ]
 
 
 def allocation_tables(allocation: Allocation, units: dict[str, str]) -> list[Table]:

@@ -8,20 +8,16 @@ With the values x of the variables, their middles and standard deviations σ, to
 where t are half widths of the tolerances, and to second order the mean is shifted by ½ Σ f″σ². First
 derivatives are exact where the analysis has them (`linkwright.studies.slopes`), and otherwise extrapolated
 differences, as `Tolerance.exact` says; second ones are central differences over a quarter of a standard
-deviation. Sobol indices, first and total, are by the estimators of Saltelli and of Jansen [2]_; a block in
-which a row fails is dropped whole.
+deviation. Sobol indices are those of `linkwright.studies.indices`.
 
 References
 ----------
 .. [1] JCGM 100:2008, *Guide to the expression of uncertainty in measurement*, section 5.1.
-.. [2] Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun. 181
-   (2010) 259, table 2 (b) and (f).
-.. [3] Clopper, Pearson, *The use of confidence or fiducial limits*, Biometrika 26 (1934) 404.
+.. [2] Clopper, Pearson, *The use of confidence or fiducial limits*, Biometrika 26 (1934) 404.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
@@ -35,6 +31,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.engine import evaluate
+from linkwright.studies.indices import NONE, Interval, intervals, sobol_indices, values
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
 from linkwright.studies.slopes import slopes
@@ -95,6 +92,16 @@ class Tolerance(Result):
             "Variable → first and total Sobol index of whether a machine has no result; empty if all have."
         ),
     ]
+    index_intervals: Annotated[
+        dict[str, dict[str, Interval]],
+        About(
+            "Response → variable → lower and upper end of the confidence intervals of both indices, to first "
+            "order in 1/√blocks; a part may lie outside of 0 to 1."
+        ),
+    ]
+    failure_index_intervals: Annotated[
+        dict[str, Interval], About("Variable → the same of the indices of failures.")
+    ]
     n_dropped: Annotated[
         int, Label("blocks dropped from the Sobol indices", "", "", "Some row of each failed.")
     ]
@@ -123,7 +130,9 @@ class Tolerance(Result):
             "contributions",
             "slopes",
             "indices",
+            "index_intervals",
             "failure_indices",
+            "failure_index_intervals",
             "ties",
             "fast_starts",
             "one_by_one",
@@ -146,7 +155,7 @@ def tolerance(
     seed : int
         Seed of the random generator.
     level : float
-        Probability that the interval of the yield holds the truth.
+        Probability that the interval of the yield, or of a Sobol index, holds the truth.
     indices : int
         Blocks for Sobol indices, each of as many machines as variables and two; 0 for none.
 
@@ -173,7 +182,7 @@ def tolerance(
         raise FindingError(
             f"only {int(solved.sum())} of {rows} machines have an answer; most often: {reason}"
         )
-    sobol = _indices(plan, seed, indices) if indices else _Indices({}, {}, 0, Counter[str]())
+    sobol = sobol_indices(plan, seed, indices, level) if indices else NONE
     names, deviations = scatters.names, scatters.deviations
     return Tolerance(
         n_rows=rows,
@@ -190,8 +199,10 @@ def tolerance(
         },
         exact=tuple(name for name in plan.responses if name in place.exact),
         ties=place.ties,
-        indices=sobol.responses,
-        failure_indices=sobol.failures,
+        indices={name: values(of) for name, of in sobol.responses.items()},
+        failure_indices=values(sobol.failures),
+        index_intervals={name: intervals(of) for name, of in sobol.responses.items()},
+        failure_index_intervals=intervals(sobol.failures),
         n_dropped=sobol.n_dropped,
         **yield_of(plan, drawn, level),
         level=level,
@@ -300,50 +311,6 @@ def yield_of(plan: StudyPlan, drawn: Rows, level: float) -> dict[str, float | No
         "share_low": float(betaincinv(k, n - k + 1, tail)) if k else 0.0,
         "share_high": float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0,
     }
-
-
-@dataclass(frozen=True)
-class _Indices:
-    """First and total Sobol indices by variable."""
-
-    responses: dict[str, dict[str, tuple[float, float]]]
-    failures: dict[str, tuple[float, float]]  # of whether a machine has no result; empty if all have
-    n_dropped: int  # blocks with a row without a result
-    one_by_one: Counter[str]  # why rows were computed one by one
-
-
-def _indices(plan: StudyPlan, seed: int, n: int) -> _Indices:
-    """Sobol indices of n blocks."""
-    d = len(plan.axes)
-    both = sampling.random(2 * d, seed + 1, 0, n)
-    a, b = both[:, :d], both[:, d:]
-    mixed = np.repeat(a[None], d, axis=0)
-    for i in range(d):
-        mixed[i, :, i] = b[:, i]
-    rows = evaluate(plan, plan.values(np.vstack([a, b, mixed.reshape(d * n, d)])))
-    solved = (rows.status == SOLVED).reshape(d + 2, n)
-    kept = solved.all(axis=0)
-    if kept.sum() < 2:
-        raise FindingError("too few blocks of the Sobol indices have an answer in all their rows")
-    names = [axis.name for axis in plan.axes]
-    return _Indices(
-        {name: _of_blocks(names, rows.columns[name].reshape(d + 2, n)[:, kept]) for name in plan.responses},
-        {} if solved.all() else _of_blocks(names, 1.0 - solved),
-        int((~kept).sum()),
-        rows.one_by_one,
-    )
-
-
-def _of_blocks(names: list[str], f: Floats) -> dict[str, tuple[float, float]]:
-    """First and total index of each variable; f: ndarray, shape (variables + 2, blocks)."""
-    # A shift leaves the indices, and takes away rounding.
-    f = f - f[:2].mean()
-    variance = f[:2].var()
-    if not variance > 0:
-        return dict.fromkeys(names, (0.0, 0.0))
-    first = (f[1] * (f[2:] - f[0])).mean(axis=1) / variance
-    total = 0.5 * ((f[0] - f[2:]) ** 2).mean(axis=1) / variance
-    return {name: (float(s), float(t)) for name, s, t in zip(names, first, total, strict=True)}
 
 
 def _is_bent(row: Mapping[str, float], n: int) -> bool:

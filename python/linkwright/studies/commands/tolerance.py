@@ -172,4 +172,8 @@ def _head(plan: StudyPlan, scatter: Tolerance) -> str:
             f"yield {100 * scatter.share_within:.4g} % within the limits, {low:.4g} to {high:.4g} % at a "
             f"level of {100 * scatter.level:g} %"
         )
+    if scatter.indices:
+        lines.append(
+            f"Sobol indices ± half the width of their intervals at a level of {100 * scatter.level:g} %"
+        )
     return "\n".join(lines)
