@@ -505,8 +505,8 @@ def _failure(
         )
     if not reached > accuracy:
         return ConvergenceError(
-            f"steady motion needs more than {MESH_STEPS_MAX} steps a revolution to see all that is steep in the "
-            "formulas of the loads; write fewer, or wider, pulses and switches",
+            f"steady motion needs more than {MESH_STEPS_MAX} steps a revolution to see all that is steep in "
+            "the formulas of the loads; write fewer, or wider, pulses and switches",
             method="collocation",
             iterations=MESH_STEPS_MAX,
         )

@@ -203,8 +203,7 @@ def _columns_of(compiled: CompiledMachine, derivatives: Sequence[Floats]) -> Flo
 def _parting(compiled: CompiledMachine, derivatives: Mapping[str, Floats]) -> list[str]:
     """Entries that move apart angles at which two motion laws jump together."""
     along = compiled.kinks_along(_columns_of(compiled, [*derivatives.values()]), compiled.kinks())
-    lost: list[bool] = np.isnan(along).any(axis=0).tolist()
-    return [name for name, is_lost in zip(derivatives, lost, strict=True) if is_lost]
+    return [name for name, moves in zip(derivatives, along.T, strict=True) if np.isnan(moves).any()]
 
 
 @dataclass(frozen=True)
