@@ -107,8 +107,8 @@ class FormulaLaw(Law):
         if text is None:
             return None
         start, end = self._taylor(text, np.array([0.0, 1.0]), angle)[0]
-        # A formula without values is refused by its law, in its own words.
-        return float(end - start) if np.isfinite([start, end]).all() else math.nan
+        # Ends without a value are an infinite lift, which its law refuses in its own words.
+        return float(end - start) if np.isfinite([start, end]).all() else math.inf
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if (self.lift is None) == (self.swing is None):
