@@ -27,6 +27,10 @@ _SLACK = 1e-9
 # How the finding about a follower begins.
 LEAVES = "The follower leaves cam"
 
+# What keeps a follower on its cam that would have to be pulled, and a cable tight that would have to push.
+KEEPS = "a spring that presses with so much more, a lower speed, or a groove keeps it on the cam."
+TIGHTENS = "increase the load on its end, or reduce the speed."
+
 # Kinds of models that are no pairs.
 _DRIVES = ("torque", "force", "contact")
 
@@ -234,7 +238,7 @@ class Collector:
                 at = np.degrees(self.scene.motion.crank_angle[worst])
                 slack.append(
                     f"The cable {pair.second} is slack: at crank angle {at:.4g}° it would have to push with "
-                    f"{-normal[worst]:.4g} N; increase the load on its end, or reduce the speed."
+                    f"{-normal[worst]:.4g} N; {TIGHTENS}"
                 )
         return slack
 
@@ -251,8 +255,7 @@ class Collector:
                 left.append(
                     f"{LEAVES} {name}: at crank angle {at:.4g}° and {primal(motion.speed)[worst]:.4g} "
                     f"rad/s it would have to be pulled with {-force[worst]:.4g} N; these forces hold for a "
-                    "follower that stays; a spring that presses with so much more, a lower speed, or a "
-                    "groove keeps it on the cam."
+                    f"follower that stays; {KEEPS}"
                 )
         return left
 

@@ -19,7 +19,7 @@ from linkwright.kernel.numerics.zeros import zero as zero_of
 from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.public import public
-from linkwright.kinetostatics.collect import LEAVES
+from linkwright.kinetostatics.collect import KEEPS, LEAVES, TIGHTENS
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.machine import Machine
@@ -75,12 +75,11 @@ class ContactLoss(NamedTuple):
         if self.kind == "cam":
             return (
                 f"{LEAVES} {self.name} {at}; {most} pulled with {number(self.pull)} N; this motion holds for "
-                "a follower that stays; a spring that presses with so much more, a lower speed, or a groove "
-                "keeps it on the cam."
+                f"a follower that stays; {KEEPS}"
             )
         return (
             f"The cable {self.name} becomes slack {at}; {most} pushed with {number(self.pull)} N; this "
-            "motion holds for a cable that stays tight; increase the load on its end, or reduce the speed."
+            f"motion holds for a cable that stays tight; {TIGHTENS}"
         )
 
 

@@ -164,13 +164,12 @@ def directions(
         kept: Directions = last[1]
         return kept
     refused: dict[str, str] = {}
-    parameters = program(machine).parameters
+    unvaried = program(machine)
     derivatives = columns(
-        machine, variables, lambda along: _of_form(parameters, program(along).parameters), refused
+        machine, variables, lambda along: _of_form(unvaried.parameters, program(along).parameters), refused
     )
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
-        n_own = program(machine).n_own
-        moved = [name for name, column in derivatives.items() if column[:n_own].any()]
+        moved = [name for name, column in derivatives.items() if column[: unvaried.n_own].any()]
         refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
     if sum(isinstance(element, Element.Programme) for element in compiled.elements) > 1:
         refused.update(dict.fromkeys(_parting(compiled, derivatives), _PARTING))
