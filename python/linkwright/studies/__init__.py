@@ -33,9 +33,12 @@
 | `allocation` | The cheapest tolerances for a wanted yield |
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside, or by a cluster |
-| `optimise` | The best machine, by CMA-ES over batches |
+| `optimise` | The best machine, what it touches and what wider limits would be worth |
+| `search` | The search for it, by CMA-ES over batches and by derivatives |
+| `chosen` | The machine that shares of the variables describe |
 | `search_log` | The log of a search, which goes on by replaying it |
-| `local` | Down to the nearest best machine by exact derivatives, and what its limits cost |
+| `local` | Down to the nearest best machine by exact derivatives |
+| `limits` | Limits that a machine touches, and what they cost |
 | `fit` | Numbers of a machine from a measured record |
 | `fit_search` | Where that search begins, and how noise is weighed |
 | `record` | A measured record |

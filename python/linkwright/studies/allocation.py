@@ -35,7 +35,7 @@ from linkwright.machine.address import get
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate
-from linkwright.studies.local import limits
+from linkwright.studies.limits import limits
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import FastStarts, OneByOne
 from linkwright.studies.slopes import slopes

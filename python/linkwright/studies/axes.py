@@ -118,6 +118,10 @@ class Axis:
             return math.log(value / self.low) / math.log(self.high / self.low) if value > 0 else math.nan
         return (value - self.low) / (self.high - self.low)
 
+    def rate(self, value: float) -> float:
+        """Derivative of a value of a range by its share [SI]."""
+        return value * math.log(self.high / self.low) if self.is_log else self.high - self.low
+
     def moments(self) -> tuple[float, float]:
         """Mean and standard deviation [SI] of its values, cut off as they are."""
         values = self.values(_middles(_STRATA))

@@ -25,9 +25,10 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.studies.optimise import Method, Optimum, check, searched
+from linkwright.studies.optimise import Optimum, check, searched
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import OneByOne
+from linkwright.studies.search import Method
 from linkwright.studies.search_log import SearchLog
 
 # Machines whose goals differ by less, relative to the range of the front, are one.

@@ -1,16 +1,10 @@
-r"""Down to the nearest best machine by exact derivatives, and what its limits cost.
+"""Down to the nearest best machine by exact derivatives.
 
 Sequential quadratic programming (SLSQP of SciPy [1]_) goes down where goal and limits are smooth. Extremes
 of a motion are not where two of them tie, and best machines often stand there; so cutting planes [2]_
 follow: the goal is taken as the largest of its tangents at the places nearby, a linear programme finds the
 lowest point of these within a radius, and the radius is halved where that is no better. Where two branches
 cross, they meet as Newton's method does. In a smooth valley they creep; SLSQP goes on from there.
-
-At the place that is found the multipliers λ ≥ 0 of the active limits c are those of
-
-.. math:: \min_\lambda \Bigl\| \nabla f + \sum \lambda_i \nabla c_i \Bigr\|
-
-so that a limit which is wider by one unit makes the goal better by λ.
 
 References
 ----------
@@ -23,18 +17,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
-from linkwright.studies.axes import Axis
+from linkwright.studies.limits import free, limits
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.search_log import SearchLog
-from linkwright.studies.slopes import Slopes, n_beside
+from linkwright.studies.slopes import n_beside
 
 # Limits are kept by this share of their size: batches, which judge in the end, are computed to 1e-9.
 _MARGIN = 3e-9
@@ -51,12 +44,6 @@ _PATIENCE, _CREEPS, _ROUNDS = 60, 0.01, 6
 
 # A promised gain below this share of the goal ends the search: results are computed to 1e-11.
 _GAIN = 1e-11
-
-# Steps of differences as a share of the range, where there are no exact derivatives.
-_STEP = 1e-4
-
-# A residual of the multipliers above this share of the goal's gradient: they explain nothing.
-_EXPLAINED = 0.05
 
 
 @dataclass(frozen=True)
@@ -86,7 +73,7 @@ class Descent:
         self, plan: StudyPlan, goal: str, sign: float, log: SearchLog, most: float = math.inf
     ) -> None:
         self.plan, self.goal, self.sign, self.log, self.most = plan, goal, sign, log, most
-        self.free = _free(plan)
+        self.free = free(plan)
         # Why machines on the way had no answer.
         self.reasons: Counter[str] = Counter()
         self.size = 1.0
@@ -127,7 +114,7 @@ class Descent:
         """Goal and limits at a place."""
         shares = self.base.copy()
         shares[self.free] = np.clip(share, 0.0, 1.0)
-        _, rates, slopes = _slopes(self.plan, shares, self.log)
+        _, rates, slopes = self.log.slopes(self.plan, shares)
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -234,108 +221,3 @@ class Descent:
             return best.share, 0.0
         passed = _PENALTY * (np.maximum(best.over, 0.0).sum() - radius * solution.x[n + 1 :].sum())
         return np.clip(best.share + radius * solution.x[:n], 0.0, 1.0), float(passed - radius * solution.x[n])
-
-
-def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
-    """Finite limits: response, value [SI], 1 of a maximum and −1 of a minimum."""
-    return [
-        (name, limit, way)
-        for name, (low, high) in plan.limits.items()
-        for limit, way in ((low, -1.0), (high, 1.0))
-        if np.isfinite(limit)
-    ]
-
-
-def _free(plan: StudyPlan) -> list[int]:
-    """Places of the variables that have derivatives."""
-    return [i for i, axis in enumerate(plan.axes) if axis.is_continuous]
-
-
-def _slopes(plan: StudyPlan, share: Floats, log: SearchLog) -> tuple[Floats, Floats, Slopes]:
-    """Variables [SI] and their derivatives by the shares, (variables,) each; responses there."""
-    values = np.array([float(axis.values(share[i : i + 1])[0]) for i, axis in enumerate(plan.axes)])
-    rates = np.array([_rate(axis, x) for axis, x in zip(plan.axes, values, strict=True)])
-    return values, rates, log.slopes(plan, values, _STEP * np.abs(rates))
-
-
-def _rate(axis: Axis, value: float) -> float:
-    """Derivative of a variable by its share."""
-    if axis.is_log:
-        return float(value * np.log(axis.high / axis.low))
-    return axis.high - axis.low
-
-
-@dataclass(frozen=True)
-class Price:
-    """What an active limit of a response or variable costs: `multiplier` [goal per unit of the limit, SI]."""
-
-    what: str
-    of: str
-    limit: float
-    is_upper: bool
-    multiplier: float
-
-
-def prices(
-    plan: StudyPlan, goal: str, sign: float, share: Floats, near: float, log: SearchLog
-) -> tuple[list[Price], str]:
-    """Multipliers of the active limits of a place, or why there are none.
-
-    `share`: (variables,); `near`: distance from a limit over its size, up to which it is active.
-    """
-    from scipy.optimize import nnls
-
-    free = _free(plan)
-    if not free:
-        return [], "no variable has derivatives"
-    values, rates, slopes = _slopes(plan, share, log)
-    listed = list(_active(plan, slopes.values, values, rates, slopes.slopes, near))
-    if goal in slopes.ties:
-        return [], f"{goal} has a kink there: {slopes.ties[goal]}"
-    if not listed:
-        return [], ""
-    down = -(sign * slopes.slopes[goal] * rates)[free]
-    ways = np.array([limit.outward[free] for limit in listed]).T
-    found_lambda, rest = nnls(ways, down)
-    if rest > _EXPLAINED * np.linalg.norm(down):
-        return [], "the machine is not yet at the very minimum; more evaluations get closer"
-    return [
-        Price(limit.what, limit.of, limit.limit, limit.is_upper, float(x / limit.unit))
-        for limit, x in zip(listed, found_lambda, strict=True)
-    ], ""
-
-
-class _ActiveLimit(NamedTuple):
-    """Words, response or variable, value [SI], outward slope by the shares, unit of an active limit."""
-
-    what: str
-    of: str
-    limit: float
-    is_upper: bool
-    outward: Floats
-    unit: float
-
-
-def _active(
-    plan: StudyPlan,
-    row: dict[str, float],
-    values: Floats,
-    rates: Floats,
-    slope: dict[str, Floats],
-    near: float,
-) -> Iterator[_ActiveLimit]:
-    """Active limits of responses and of ranges."""
-    for name, limit, way in limits(plan):
-        if abs(row[name] - limit) <= near * max(abs(limit), abs(row[name])):
-            word = "maximum" if way > 0 else "minimum"
-            yield _ActiveLimit(f"{word} of {name}", name, limit, way > 0, way * slope[name] * rates, 1.0)
-    for i, axis in enumerate(plan.axes):
-        if not axis.is_continuous:
-            continue
-        for limit, way, word in ((axis.low, -1.0, "lower"), (axis.high, 1.0, "upper")):
-            if abs(values[i] - limit) <= near * (axis.high - axis.low):
-                # A unit of the variable is 1/rate of its share.
-                outward = way * np.eye(len(values))[i]
-                yield _ActiveLimit(
-                    f"{word} end of {axis.name}", axis.name, limit, way > 0, outward, abs(rates[i])
-                )

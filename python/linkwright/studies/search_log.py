@@ -32,6 +32,9 @@ from linkwright.studies.slopes import Slopes, slopes
 # Layout of the lines of a log: 2 with how many machines derivatives took.
 _LINES = 2
 
+# Steps of differences as a share of the range, where there are no exact derivatives.
+_STEP = 1e-4
+
 
 class SearchLog:
     """Computations of a search, each made once; from a file as far as they stand there.
@@ -95,8 +98,14 @@ class SearchLog:
         alone = Counter(line["one_by_one"])
         return Rows(columns, status, reason, list(line["reasons"]), fast_starts, alone)
 
-    def slopes(self, plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
-        """Responses with derivatives, as `slopes.slopes`."""
+    def slopes(self, plan: StudyPlan, shares: Floats) -> tuple[Floats, Floats, Slopes]:
+        """Variables [SI] and their derivatives by the shares, (variables,) each; responses and slopes."""
+        pairs = list(zip(plan.axes, shares, strict=True))
+        at = np.array([axis.values(np.array([share]))[0] for axis, share in pairs], dtype=float)
+        rates = np.array([axis.rate(value) for axis, value in zip(plan.axes, at, strict=True)])
+        return at, rates, self._slopes(plan, at, _STEP * np.abs(rates))
+
+    def _slopes(self, plan: StudyPlan, at: Floats, steps: Floats) -> Slopes:
 
         def computed() -> dict[str, Any]:
             there = slopes(plan, at, steps, machines.append)
