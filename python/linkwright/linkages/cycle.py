@@ -16,7 +16,7 @@ point there.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -32,7 +32,7 @@ from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import Closure, closure_error, closure_of, limiter_at
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.period import turns_to_repeat
-from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, sweep
+from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, outputs_of, sweep
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -201,13 +201,21 @@ class Linkage(Result):
         tuple[DeadPoint, ...], About("Limits, change points and reversals, by crank angle.")
     ]
 
+    @property
+    def names(self) -> list[str]:
+        """Names of the entries of `elements`, each once."""
+        return names_of([(element.element, element.output) for element in self.elements])
+
     @public
     def element(self, name: str) -> ElementMotion:
-        """The first entry of an element, or of the link or slide with this name; else an `InputError`."""
-        for element in self.elements:
-            if name in (element.element, element.output):
+        """The first entry of an element, or of the link or slide with this name; else an `InputError`.
+
+        The slot of a lever is called ``LEVER.slot``.
+        """
+        for own, element in zip(self.names, self.elements, strict=True):
+            if name in (own, element.element, element.output):
                 return element
-        known = [word for element in self.elements for word in (element.element, element.output)]
+        known = [*self.names, *(element.output for element in self.elements)]
         hint = suggestion(name, known) or "look at those of .elements"
         raise InputError(f"name: found {shown(name)}, expected an element, a link or a slide; {hint}")
 
@@ -215,13 +223,12 @@ class Linkage(Result):
         """Whether the crank turns fully, period, elements by name and dead points, ready for JSON. Returns:
         SI numbers. An element with two outputs has the second under that one's name.
         """
-        elements: dict[str, Any] = {}
-        for element in self.elements:
-            elements[element.output if element.element in elements else element.element] = element.to_dict()
         results: dict[str, Any] = {
             "turns_fully": self.closure.turns_fully,
             "period_turns": self.period_turns,
-            "elements": elements,
+            "elements": {
+                name: element.to_dict() for name, element in zip(self.names, self.elements, strict=True)
+            },
             "dead_points": [point._asdict() for point in self.dead_points],
         }
         if curves:
@@ -232,9 +239,8 @@ class Linkage(Result):
         """The curves by name: ``R.transmission_angle``, ``R.rocker.velocity_ratio``, ``S.stroke_ratio``."""
         curves = {"crank_angle": self.crank_angle}
         curves |= {f"{name}.transmission_angle": curve for name, curve in self.transmission_angles.items()}
-        slides = {element.output for element in self.elements if element.stroke is not None}
-        for name, curve in self.velocity_ratios.items():
-            curves[f"{name}.stroke_ratio" if name in slides else f"{name}.velocity_ratio"] = curve
+        for element, (name, curve) in zip(self.elements, self.velocity_ratios.items(), strict=True):
+            curves[f"{name}.velocity_ratio" if element.stroke is None else f"{name}.stroke_ratio"] = curve
         return curves
 
     @public
@@ -242,6 +248,29 @@ class Linkage(Result):
         """SI unit of an attribute or a curve by its name."""
         of, _, last = name.rpartition(".")
         return _UNITS.get(last, "") if of else super().unit_of(name)
+
+
+def elements_of(machine: Machine) -> list[str]:
+    """Names of the entries that `linkage` has for a machine, without computing them."""
+    moved = outputs_of(compile_machine(machine).first(), machine.linkage)
+    return names_of([(output.element, output.name) for output in moved])
+
+
+def names_of(moved: Sequence[tuple[str, str]]) -> list[str]:
+    """Names of what elements move, `moved`: (element, output): the element's, for a second output its own."""
+    elements = [element for element, _ in moved]
+    return apart(
+        element if elements.index(element) == place else output
+        for place, (element, output) in enumerate(moved)
+    )
+
+
+def apart(names: Iterable[str]) -> list[str]:
+    """Names one by one; the slot of a lever, which has the lever's name, with ``.slot`` behind it."""
+    listed: list[str] = []
+    for name in names:
+        listed.append(f"{name}.slot" if name in listed else name)
+    return listed
 
 
 # Units of the curves of elements and outputs, by the last word of their name.
@@ -272,26 +301,30 @@ def linkage(machine: Machine) -> Linkage:
     .. [1] Norton, Design of Machinery: transmission angle, mechanical advantage, time ratio.
     .. [2] VDI 2123: transmission angle.
     """
-    compiled = compile_machine(machine).first()
-    where = closure_of(compiled)
-    if not where.moves:
-        raise closure_error(where, machine)
-    period = turns_to_repeat(compiled) if where.turns_fully else None
-    cycle = Cycle.of(where, period)
-    swept = sweep(compiled, machine.linkage, cycle)
+    compiled, where, swept = swept_cycle(machine)
     loops = {bar.element: bar for bar in four_bars(compiled)}
     return Linkage(
-        crank_angle=cycle.angles,
+        crank_angle=swept.cycle.angles,
         transmission_angles={dyad.name: swept.mu[k] for k, dyad in enumerate(swept.dyads)},
-        velocity_ratios={output.name: swept.d1[k] for k, output in enumerate(swept.outputs)},
+        velocity_ratios=dict(zip(apart(output.name for output in swept.outputs), swept.d1, strict=True)),
         elements=tuple(
             _element(swept, k, output, _parallel(loops.get(output.element), swept.d1[k]))
             for k, output in enumerate(swept.outputs)
         ),
         closure=where,
-        period_turns=period,
+        period_turns=swept.cycle.period,
         dead_points=tuple(dead_points(compiled, swept, where)),
     )
+
+
+def swept_cycle(machine: Machine) -> tuple[CompiledMachine, Closure, LinkageSweep]:
+    """Program of a machine, where it closes, and the sweep over its cycle. Raises what `linkage` raises."""
+    compiled = compile_machine(machine).first()
+    where = closure_of(compiled)
+    if not where.moves:
+        raise closure_error(where, machine)
+    period = turns_to_repeat(compiled) if where.turns_fully else None
+    return compiled, where, sweep(compiled, machine.linkage, Cycle.of(where, period))
 
 
 def _parallel(loop: FourBar | None, rate: Floats) -> FourBar | None:

@@ -93,47 +93,49 @@ def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel
     return []
 
 
-def transmission(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> Floats:
-    """Transmission angle from 0 to π, (n,) [rad]. `values`: motion of `transmission_channels`."""
+def transmission(q: Floats, dyad: Dyad, values: Sequence[Rows]) -> Floats:
+    """Transmission angle from 0 to π, (n,) [rad]. `q`: the program's numbers; `values`: motion of
+    `transmission_channels`; both with derivatives or without.
+    """
     if isinstance(dyad.element, Element.SlottedLever):
-        (slot,), offset = values, compiled.parameters[dyad.element.offset]
+        (slot,), offset = values, q[dyad.element.offset]
         assert isinstance(slot, SlideRows)
         swing: Floats = np.arctan2(np.abs(slot.position), offset)
         return swing
-    (e, _), (f, _) = _directions(compiled, dyad, values)
+    (e, _), (f, _) = _directions(q, dyad, values)
     cross, dot = e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]
     between: Floats = np.arctan2(np.abs(cross), dot)
     return between
 
 
-def transmission_slope(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> Floats:
+def transmission_slope(q: Floats, dyad: Dyad, values: Sequence[Rows]) -> Floats:
     """A smooth function with the sign changes of the derivative of the transmission angle, up to the sign.
 
-    ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot, (n,) or (1,); NaN at a limit of crank rotation.
+    ±dμ/dφ, for a dyad RPR ±ds/dφ of its slot, (n,) or (1,); NaN at a limit of crank rotation. It is linear in
+    the rates of the motion.
     """
     if isinstance(dyad.element, Element.SlottedLever):
-        (slot,), offset = values, compiled.parameters[dyad.element.offset]
+        (slot,), offset = values, q[dyad.element.offset]
         assert isinstance(slot, SlideRows)
         return slot.d1 * float(offset != 0)
-    (_, e1), (_, f1) = _directions(compiled, dyad, values)
+    (_, e1), (_, f1) = _directions(q, dyad, values)
     # At a limit of crank rotation both rates are infinite, and their difference is no number.
     with np.errstate(invalid="ignore"):
         return f1 - e1
 
 
-def _directions(compiled: CompiledMachine, dyad: Dyad, values: Sequence[Rows]) -> list[tuple[Floats, Floats]]:
+def _directions(q: Floats, dyad: Dyad, values: Sequence[Rows]) -> list[tuple[Floats, Floats]]:
     """The two directions between which μ lies, with the rates of their angles."""
-    q = compiled.parameters
     links = [link for link in values if isinstance(link, LinkRows)]
     match dyad.element:
         case Element.SliderRod(cos=cos, sin=sin):
-            return [(links[0].direction, links[0].d1), (np.array([[-q[sin]], [q[cos]]]), np.zeros(1))]
+            return [(links[0].direction, links[0].d1), (np.stack([-q[sin], q[cos]])[:, None], np.zeros(1))]
         case Element.GuidedRod(line=line):
             rod = links.pop(0)
-            along, rate = _guide(compiled, line, links)
+            along, rate = _guide(q, line, links)
             return [(rod.direction, rod.d1), (np.stack([-along[1], along[0]]), rate)]
         case Element.Crossing(lines=lines):
-            return [_guide(compiled, line, links) for line in lines]
+            return [_guide(q, line, links) for line in lines]
     return [(link.direction, link.d1) for link in links]
 
 
@@ -142,11 +144,11 @@ def _carrier(line: Line) -> list[Channel]:
     return [] if line.link is None else [Channel.Link(line.link)]
 
 
-def _guide(compiled: CompiledMachine, line: Line, links: list[LinkRows]) -> tuple[Floats, Floats]:
+def _guide(q: Floats, line: Line, links: list[LinkRows]) -> tuple[Floats, Floats]:
     """Direction of a guide and the rate of its angle; takes its link from what was found."""
-    cos, sin = (compiled.parameters[slot] for slot in (line.cos, line.sin))
+    cos, sin = q[line.cos], q[line.sin]
     if line.link is None:
-        return np.array([[cos], [sin]]), np.zeros(1)
+        return np.stack([cos, sin])[:, None], np.zeros(1)
     carrier = links.pop(0)
     x, y = carrier.direction
     return np.stack([x * cos - y * sin, x * sin + y * cos]), carrier.d1

@@ -120,7 +120,7 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
     for dyad in dyads_of(compiled):
         if dyad.kind != "group":
             channels = transmission_channels(compiled, dyad)
-            mu[dyad.name] = float(transmission(compiled, dyad, compiled.motion(channels, at))[0])
+            mu[dyad.name] = float(transmission(compiled.parameters, dyad, compiled.motion(channels, at))[0])
     return Pose(
         crank_angle=float(crank_angle),
         speed=float(speed),

@@ -46,7 +46,7 @@ class Cycle:
 
     angles: Floats  # (n,): [rad]
     ends: Floats  # (2,): the first and the last; of a linkage with limits those themselves [rad]
-    repeats: bool  # whether the motion at the last is that at the first
+    period: int | None  # revolutions after which the motion repeats; None if it does not, or has limits
 
     @classmethod
     def of(cls, where: Closure, period: int | None) -> Cycle:
@@ -54,11 +54,16 @@ class Cycle:
         if where.turns_fully:
             turns = period or 1
             angles = np.linspace(_OFFSET, _OFFSET + 2 * np.pi * turns, _INTERVALS * turns + 1)
-            return cls(angles, angles[[0, -1]], period is not None)
+            return cls(angles, angles[[0, -1]], period)
         low, high = where.ranges[0]
         margin = min(_MARGIN, 0.01 * (high - low))
         angles = np.linspace(low + margin, high - margin, _INTERVALS + 1)
-        return cls(angles, np.array([low, high]), False)
+        return cls(angles, np.array([low, high]), None)
+
+    @property
+    def repeats(self) -> bool:
+        """Whether the motion at the last is that at the first."""
+        return self.period is not None
 
     @property
     def span(self) -> float:
@@ -125,7 +130,7 @@ class LinkageSweep:
         values = self.compiled.motion(self._channels, angles)
         mu, place = np.empty((len(self.dyads), len(angles))), np.empty((len(self.outputs), len(angles)))
         for k, (dyad, part) in enumerate(self._by_dyad(values)):
-            mu[k] = transmission(self.compiled, dyad, part)
+            mu[k] = transmission(self.compiled.parameters, dyad, part)
         for k, rows in enumerate(values[self._ends[-1] :]):
             assert not isinstance(rows, PointRows)
             place[k] = np.arctan2(*rows.direction[::-1]) if isinstance(rows, LinkRows) else rows.position
@@ -139,7 +144,7 @@ class LinkageSweep:
         dyads, outputs = len(self.dyads), len(self.outputs)
         slopes = np.empty((dyads + 2 * outputs, n))
         for k, (dyad, part) in enumerate(self._by_dyad(values)):
-            slopes[k] = transmission_slope(self.compiled, dyad, part)
+            slopes[k] = transmission_slope(self.compiled.parameters, dyad, part)
         for k, rows in enumerate(values[self._ends[-1] :]):
             assert not isinstance(rows, PointRows)
             slopes[dyads + k], slopes[dyads + outputs + k] = rows.d1, rows.d2
@@ -169,6 +174,10 @@ class LinkageSweep:
         """Crank angles at which an output turns back."""
         return self._zeros[len(self.dyads) + k]
 
+    def turns_of_transmission(self, k: int) -> Floats:
+        """Crank angles at which the transmission angle of a dyad turns back."""
+        return self._zeros[k]
+
     def travel(self, k: int) -> Travel:
         """Extreme positions of an output."""
         place, cycle, output = self.position[k], self.cycle, self.outputs[k]
@@ -180,13 +189,13 @@ class LinkageSweep:
         at = self.reversals(k)
         if not len(at) or not cycle.repeats:
             at = np.concatenate([at, cycle.ends, cycle.angles[[0, -1]]])
-        values = self._positions(k, at)
+        values = self.positions(k, at)
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-        ratio = _time_ratio(at, values, cycle.span) if cycle.repeats else None
+        ratio = time_ratio(at, values, cycle.span) if cycle.repeats else None
         angles = self.cycle.named(at[low]), self.cycle.named(at[high])
         return Travel(float(values[low]), float(values[high]), *angles, None, ratio)
 
-    def _positions(self, k: int, at: Floats) -> Floats:
+    def positions(self, k: int, at: Floats) -> Floats:
         """Positions of an output at angles; of a link on the revolution that the sweep has there."""
         values = self._seen(at)[1][k]
         if self.outputs[k].kind == "swing":
@@ -221,18 +230,42 @@ class LinkageSweep:
         return float(values[low]), float(values[high]), *angles
 
 
-def _time_ratio(at: Floats, values: Floats, span: float) -> float | None:
+def time_ratio(at: Floats, values: Floats, span: float) -> float | None:
     """Crank angle of the slower way between the extreme positions over that of the quicker one."""
-    # Over several revolutions an output may come to its extremes several times: the ways are those from one
-    # lowest position to the next highest, and on to the next lowest.
+    ways = ways_between(at, values, span)
+    if ways is None:
+        return None
+    up, down = ways[0][1], ways[1][1]
+    return max(up, down) / min(up, down)
+
+
+class Way(NamedTuple):
+    """A way between two extreme positions: places among the extremes where it ends, length [rad]."""
+
+    ends: tuple[int, int]
+    length: float
+
+
+def ways_between(at: Floats, values: Floats, span: float) -> tuple[Way, Way] | None:
+    """From a lowest position to the next highest, and on to the next lowest; None where there are none.
+
+    `at` (n,): crank angles of the extremes [rad]; `values` (n,); `span`: length of the cycle [rad]. Over
+    several revolutions an output may come to its extremes several times.
+    """
     same = _EQUAL * np.ptp(values)
-    lows = at[values <= values.min() + same]
-    highs = at[values >= values.max() - same]
-    start = lows[0]
-    up = float(np.min((highs - start) % span, initial=span))
-    again = (lows - start - up) % span
-    down = float(np.min(again))
-    return max(up, down) / min(up, down) if 0 < up < span and down > 0 else None
+    lows = np.flatnonzero(values <= values.min() + same)
+    highs = np.flatnonzero(values >= values.max() - same)
+    start = int(lows[0])
+    to_highs = (at[highs] - at[start]) % span
+    up = int(to_highs.argmin())
+    to_lows = (at[lows] - at[start] - to_highs[up]) % span
+    down = int(to_lows.argmin())
+    if not 0 < to_highs[up] < span or not to_lows[down] > 0:
+        return None
+    return (
+        Way((start, int(highs[up])), float(to_highs[up])),
+        Way((int(highs[up]), int(lows[down])), float(to_lows[down])),
+    )
 
 
 def sweep(compiled: CompiledMachine, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:

@@ -51,8 +51,8 @@ def sensitivity(
     """Derivatives of the results by the numbers of the file.
 
     Exact derivatives of every scalar result of the steady motion by every entry, per unit and as a share:
-    which dimension, mass or motor entry matters most, and in which direction. With --of also of natural
-    frequencies, mode shapes and torques of shafts.
+    which dimension, mass or motor entry matters most, and in which direction. Without a motor those of the
+    linkage. With --of also of strokes, forces, cams, natural frequencies and torques of shafts.
     """
     from linkwright.machine.read import read
     from linkwright.sensitivity.gradient import gradient

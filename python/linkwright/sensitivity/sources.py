@@ -13,6 +13,7 @@
 | ``topper.…`` | closed forms, and conditions of the worst head (`linkwright.topping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
 | ``cam_force.CAM.…`` | the same, and Hertz' formula (`linkwright.cam.dynamics.gradient`) |
+| ``linkage.ELEMENT.…`` | the motion at fixed crank angles (`linkwright.linkages.gradient`) |
 | ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
 """
 
@@ -66,7 +67,8 @@ def usual_analysis(machine: Machine) -> str:
         "pumping_unit": machine.pumping_unit,
         "cam": machine.mechanism.cams or None,
     }
-    return next((name for name, part in own.items() if part is not None), "steady_state")
+    last = "linkage" if motor is None else "steady_state"
+    return next((name for name, part in own.items() if part is not None), last)
 
 
 def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
@@ -208,6 +210,17 @@ def _forces(machine: Machine, variables: Sequence[str]) -> Source:
     return _of_scalars("forces", Forces, derived, words, dict.fromkeys(pairs, "N"))
 
 
+def _linkage(machine: Machine, variables: Sequence[str]) -> Source:
+    """Strokes, swings, time ratios and transmission angles."""
+    from linkwright.linkages.cycle import ElementMotion
+    from linkwright.linkages.gradient import linkage_tangents
+
+    derived = linkage_tangents(machine, variables)
+    marks = {name: shown(ElementMotion, name.rpartition(".")[2]) for name in derived.tangents}
+    words = {name: f"{mark.word} of {name.rpartition('.')[0]}" for name, mark in marks.items()}
+    return _of_scalars("linkage", ElementMotion, derived, words, {k: mark.unit for k, mark in marks.items()})
+
+
 def _turning(machine: Machine, variables: Sequence[str]) -> Source:
     """Fluctuation of energy, flywheel and rim of a turning-moment diagram."""
     from linkwright.turning.diagram import TurningMomentDiagram
@@ -314,6 +327,7 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "free_vibration": _free,
     "forced_vibration": _forced,
     "cam": _cams,
+    "linkage": _linkage,
     "forces": _forces,
     "turning_moment": _turning,
     "pumping_unit": _pumping,

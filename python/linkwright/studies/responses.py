@@ -3,7 +3,8 @@
 A response is named by its analysis and its quantity, ``steady_state.unevenness``; where a machine has several
 of a kind the name stands between, ``cam.valve.pressure_angle_max``. ``motion.C.x`` is the place of a point
 over the crank angle, ``motion.C.y`` likewise. ``path.tool.error_rms`` is how far a point passes from the path
-``tool`` of the study. ``forces.reaction_max.A`` is the largest force of a pair.
+``tool`` of the study. ``forces.reaction_max.A`` is the largest force of a pair, ``linkage.R.swing`` the swing
+of an element.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from linkwright.studies.model import Response, StudyPath
 from linkwright.studies.point_responses import of_motion, of_path
 from linkwright.studies.study_response import (
     ENTRY,
+    LINKAGE,
     MOTION,
     OF_ONE_CAM,
     PARTS,
@@ -85,6 +87,8 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         raise wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION, PATH)))
     if text.startswith(f"{PAIRS}."):
         return _of_pair(machine, name, key, text, response)
+    if first == LINKAGE and len(rest) > 1:
+        return _of_element(machine, name, key, text, response)
     owner = get_type_hints(analysis(first))["return"]
     known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
     *of, quantity = rest
@@ -156,6 +160,25 @@ def entry_number(machine: Machine, address: str) -> float:
     if not is_number(value):
         raise FindingError(f"{address} has no number in this machine")
     return float(value)
+
+
+def _of_element(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
+    """A number of one element of a linkage."""
+    from linkwright.linkages.cycle import ElementMotion, elements_of
+
+    element, _, quantity = text.removeprefix(f"{LINKAGE}.").rpartition(".")
+    if response.curve is not None:
+        raise wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
+    marks = {
+        attribute: mark for attribute, (_, mark) in declared(ElementMotion).items() if isinstance(mark, Label)
+    }
+    if quantity not in marks:
+        raise wrong(name, key, text, "a quantity of an element", suggestion(quantity, marks))
+    elements = elements_of(machine)
+    if element not in elements:
+        raise wrong(name, key, text, f"{LINKAGE}.ELEMENT.{quantity}", suggestion(element, elements))
+    word, unit = f"{marks[quantity].word} of {element}", marks[quantity].unit
+    return StudyResponse(name, LINKAGE, (element,), quantity, word, unit, otherwise=response.otherwise)
 
 
 def _of_pair(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:

@@ -20,6 +20,9 @@ from linkwright.studies.model import StudyPath
 # in the machine.
 MOTION, PATH, ENTRY = "motion", "path", "entry"
 
+# The linkage, whose elements have numbers of their own.
+LINKAGE = "linkage"
+
 # Analyses of one part of the machine, by its name.
 OF_ONE_CAM = ("cam", "cam_check", "cam_force")
 
@@ -36,7 +39,7 @@ class StudyResponse:
 
     name: str  # its name in the study
     analysis: str  # analysis that it comes from
-    # Name of the cam, the point, the pair, the path, or the part of a train, where there are several;
+    # Name of the cam, point, pair, path, element of a linkage, or part of a train, where there are several;
     # the address of an entry.
     of: tuple[str, ...]
     quantity: str  # attribute of the result; of a point `"x"` or `"y"`
@@ -76,6 +79,8 @@ class StudyResponse:
 
     def number(self, result: Any) -> float:
         """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
+        if self.analysis == LINKAGE and self.of:
+            result = result.element(*self.of)
         value = getattr(result, self.quantity)
         if isinstance(value, Mapping):
             value = value.get(*self.of)
