@@ -30,8 +30,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
     numbers = {"of_file": degrees(rocker.transmission_angle_worst), "ratio_of_file": rocker.time_ratio}
     for ratio in RATIOS:
         numbers[f"best_{ratio}"] = degrees(best(ratio).responses["rocker_transmission"])
-        cost = best(ratio).multipliers["minimum of time_ratio"]
-        numbers[f"cost_{ratio}"] = degrees(0.01 * cost)
+        numbers[f"cost_{ratio}"] = degrees(0.01 * best(ratio).multipliers["minimum of time_ratio"])
     return numbers
 
 

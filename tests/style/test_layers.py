@@ -121,6 +121,7 @@ EDGES = {
     # Results of a drive and of a train are differentiated.
     ("sensitivity", "drive"),
     ("sensitivity", "drive.model"),
+    ("sensitivity", "linkages"),
     ("sensitivity", "torsion.gradient"),
     ("sensitivity", "kinetostatics"),
     ("sensitivity", "turning"),

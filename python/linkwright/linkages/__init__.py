@@ -11,6 +11,7 @@
 | `dyads` | Dyads as the core has them, and the angle at which each passes on its force |
 | `figures` | Figures of a linkage over its cycle, with their captions |
 | `figures_of_motion` | A motion over time as tables and figures of a report |
+| `gradient` | Derivatives of strokes, swings, time ratios and transmission angles by the entries |
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |
 | `kinematics` | How do points, links and slides move? |
 | `law` | Laws of the driver: the crank angle over time with three derivatives |
