@@ -508,3 +508,19 @@ def test_dead_points_of_link_and_slide_of_one_name_are_told_apart() -> None:
         "angle",
         "position",
     }
+
+
+def test_a_slotted_lever_has_numbers_of_the_lever_and_of_its_slot() -> None:
+    """Link and slide have the lever's name: a table by names holds both."""
+    machine = lw.read(Path(__file__).parents[2] / "examples" / "quick_returns" / "machine.toml")
+    found = lw.linkage(machine)
+    elements = found.to_dict()["elements"]
+    assert len(elements) == len(found.elements)
+    assert elements["shaper"]["swing"] == found.element("shaper").swing
+    assert elements["shaper.slot"]["stroke"] == found.element("shaper.slot").stroke
+    # The crank of the lever turns 2 arcsin(r/d) less on the way back: the swing of the lever.
+    swing = elements["shaper"]["swing"]
+    assert elements["shaper"]["time_ratio"] == pytest.approx((np.pi + swing) / (np.pi - swing), rel=1e-12)
+    curves = found.curves()
+    assert {"shaper.velocity_ratio", "shaper.slot.stroke_ratio"} <= {*curves}
+    assert np.ptp(curves["shaper.velocity_ratio"]) > 0

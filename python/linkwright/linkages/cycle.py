@@ -221,7 +221,7 @@ class Linkage(Result):
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Whether the crank turns fully, period, elements by name and dead points, ready for JSON. Returns:
-        SI numbers. An element with two outputs has the second under that one's name.
+        SI numbers. Of two outputs of an element the second has its own name, a slot ``LEVER.slot``.
         """
         results: dict[str, Any] = {
             "turns_fully": self.closure.turns_fully,
