@@ -2,7 +2,8 @@
 //!
 //! The solved turn is exact at the ends of its steps, by order 9; inside them its quintics are not. Collocation at more
 //! nodes, one correction of Newton from these quintics, gives what lies between as exactly as the ends, to be read at any
-//! angle without solving anything. A line that is added keeps the ends as they are.
+//! angle without solving anything. Where a step ends on a kink of the drive, its last stage may lie behind it; no node does, so
+//! that the series are those of the step's side up to its end.
 //!
 //! There are no series where the solution changes too fast within a step for them, as behind a kink under a steep motor,
 //! or where laws keep to branches: there it is read by a step of its own ([`crate::drive::reading`]).
@@ -103,14 +104,7 @@ impl<R: Real> Turn<R> {
             }
         }
         let slope = terms(&f);
-        let mut u = integral(step.u, step.h, &slope);
-        let mut end = u[0];
-        for term in &u[1..] {
-            end = end + *term;
-        }
-        // All polynomials are 1 at the end of the step: the line from nothing to what the step's end has besides.
-        let rest = (step.end() - end) * 0.5;
-        (u[0], u[1]) = (u[0] + rest, u[1] + rest);
+        let u = integral(step.u, step.h, &slope);
         let mut pace = x;
         for i in 0..G {
             pace[i] = (x[i] * 2.0).sqrt().recip();
