@@ -111,7 +111,7 @@ impl SteadyMotion {
             torque_motor_min: motor.torque_min,
             torque_motor_max: motor.torque_max,
             power_motor_max: motor.power_max,
-            accuracy: found.reached,
+            accuracy: found.reached.max(found.rounding),
             sweeps: found.sweeps,
             steps: found.marks.len(),
             others: found.others.iter().map(other).collect(),

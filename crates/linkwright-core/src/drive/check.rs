@@ -47,6 +47,9 @@ pub struct Check {
     pub excess: Vec<Excess>,
     /// Largest relative error of all speeds, accelerations and integrals.
     pub reached: f64,
+    /// What rounding of the speed makes of accelerations under a steep drive, relative: no finer step takes it away, and halves
+    /// of a step may agree to more digits than either has.
+    pub rounding: f64,
 }
 
 impl Check {
@@ -130,6 +133,10 @@ impl<R: Real> Turn<R> {
                 .map(|(error, halvings)| Excess { error, halvings: halvings as u32 })
                 .collect(),
             reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
+            rounding: column(&|k| self.steps[k].steepness() * self.steps[k].u)
+                .into_iter()
+                .fold(0.0, f64::max)
+                * (2.0 * ROUNDING / limits.epsilon),
         };
         let growths = [column(&|k| differences[k].growths[0]), column(&|k| differences[k].growths[1])];
         let multiplier = add_growth(&mut check, &growths, limits.accuracy);

@@ -82,6 +82,8 @@ pub struct Steady {
     pub totals: Totals<f64>,
     /// Relative error as measured.
     pub reached: f64,
+    /// What rounding of the speed makes of accelerations, as [`Check::rounding`](crate::drive::check::Check::rounding).
+    pub rounding: f64,
     /// Sweeps over all meshes.
     pub sweeps: u32,
     /// Whether there may be faster, and slower, motions that repeat.
@@ -540,6 +542,7 @@ impl Job for Search<'_> {
                         .with_corners(&corners),
                     totals: turn.totals(&machine).first_lane(),
                     reached: off.map_or(reached, |off| reached.max(off)),
+                    rounding: check.rounding,
                     sweeps,
                     may_have: Rivals {
                         faster: first_lane(turn.may_have_faster(&machine)) > 0.5 || !hints[0].is_empty(),
