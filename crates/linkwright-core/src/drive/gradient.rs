@@ -18,6 +18,7 @@ use crate::drive::kinks::kinks;
 use crate::drive::law::LawGeometry;
 use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
+use crate::drive::mesh::Crossing;
 use crate::drive::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
@@ -243,6 +244,20 @@ impl Job for Gradient<'_> {
     }
 }
 
+/// The machine along some directions, read on the side of each step where its derivatives jump.
+#[inline(always)]
+fn machine_along<'a, R: Real>(of: &Gradient<'a>, q: &'a [Dual<R>]) -> Machine<'a, Dual<R>> {
+    let crossings = &of.steady.crossings;
+    let meet = |(i, one): (usize, &Crossing)| {
+        crossings[i + 1..].iter().any(|other| (one.phi - other.phi).abs() < AT_END)
+    };
+    let has_several = crossings.iter().enumerate().any(meet);
+    Machine::new(of.plan, q)
+        .keeping_sides_of_bends()
+        .keeping_sides_of_speeds(has_several)
+        .keeping_branch(of.plan.may_jump())
+}
+
 /// The solved revolution in dual numbers.
 struct DualRevolution<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
@@ -258,7 +273,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
         let (plan, steady) = (of.plan, of.steady);
-        let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
+        let machine = machine_along(of, q);
         let mut moved = R::out_of_line(
             #[inline(always)]
             || machine.moving(&solved.on_kinks, m),
@@ -283,7 +298,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, some: &[usize]) -> Self {
         let (values, d) = (&along.values, &along.d);
         let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
-        let machine = Machine::new(of.plan, q).keeping_sides_of_bends().keeping_branch(of.plan.may_jump());
+        let machine = machine_along(of, q);
         let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
         let mut turn = Turn::empty(Layout::Machines);
         for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
