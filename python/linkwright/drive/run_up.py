@@ -21,15 +21,9 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.core import SteadyCurves
 
 # Relative accuracy of a step, and of the steady motion that is approached: as in a study, which has it.
 _ACCURACY, _STEADY_ACCURACY = 1e-9, 1e-10
-
-# Steady speeds are read between angles at most so far apart [rad], and between so many where the motion
-# settles.
-_SPACING = np.radians(1.01)
-_NEAR = 9
 
 # Turns after which it is looked again whether the motion has settled; most drives settle in the first ten.
 _FIRST_TURNS = 10.0
@@ -103,8 +97,6 @@ def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
 def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> RunUp:
     """`run_up` of a machine that starts, with the relative accuracy of a step."""
     options = machine.run_up
-    if not _is_dense(steady):
-        steady = steady_state(machine, accuracy=_STEADY_ACCURACY)
     turns = min(_FIRST_TURNS, options.turns_max)
     while True:
         motion = transient(
@@ -121,7 +113,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
         if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
             break
         if turns >= options.turns_max:
-            raise StartError(_too_slow(motion, steady, options.settled))
+            raise StartError(_too_slow(machine, motion, steady))
         turns = min(3 * turns, options.turns_max)
     return RunUp(
         crank_time=motion.time,
@@ -182,8 +174,8 @@ def _why_not(motion: Transient) -> str:
     return f"stalls {after}: {balance}; {remedy}"
 
 
-def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
-    end = float(motion.speed[-1])
+def _too_slow(machine: Machine, motion: Transient, steady: SteadyState) -> str:
+    end, band = float(motion.speed[-1]), machine.run_up.settled
     for other in steady.others:
         if other.is_stable and (1 - band) * other.speed_min <= end <= (1 + band) * other.speed_max:
             return (
@@ -192,42 +184,19 @@ def _too_slow(motion: Transient, steady: SteadyState, band: float) -> str:
                 f"{other.speed_min:.4g} to {other.speed_max:.4g} rad/s; choose a motor with more torque at "
                 "low speed, or start at a higher run_up.speed_start"
             )
-    off = abs(motion.speed[-1] / _steady_speed(steady, motion.crank_angle[-1:])[0] - 1)
+    last = _steady_speed(machine, steady, motion.crank_angle[-1:], _STEADY_ACCURACY)[0]
+    off = abs(motion.speed[-1] / last - 1)
     return (
         f"has not settled after {motion.turns:.0f} revolutions ({motion.time[-1]:.1f} s): its speed still "
         f"differs from it by {100 * off:.2g} %, more than {100 * band:.2g} %; raise run_up.turns_max"
     )
 
 
-def _is_dense(steady: SteadyState) -> bool:
-    """Whether the curves go all round, with angles near enough to each other to read speeds between them."""
-    grid = steady.crank_angle
-    if len(grid) < 2 or grid[0] != 0 or grid[-1] < 2 * np.pi * steady.turns * (1 - 1e-12):
-        return False
-    steps = np.diff(grid)
-    return bool((steps > 0).all() and (steps <= _SPACING).all())
-
-
-def _steady_speed(steady: SteadyState, angle: Floats) -> Floats:
-    """Speed of steady motion at crank angles."""
-    return _speed_between(steady, steady.crank_angle, 2 * np.pi * steady.turns, angle)
-
-
-def _speed_between(steady: SteadyState | SteadyCurves, grid: Floats, cycle: float, angle: Floats) -> Floats:
-    """Speed at crank angles, by the cubic through speeds and slopes over a grid that begins anywhere."""
-    omega = steady.speed
-    phi = (angle - grid[0]) % cycle + grid[0]
-    k = grid[1:-1].searchsorted(phi, side="right")
-    h = grid[k + 1] - grid[k]
-    z = (phi - grid[k]) / h
-    slopes = [steady.acceleration[i] / omega[i] for i in (k, k + 1)]
-    value: Floats = (
-        (1 + 2 * z) * (1 - z) ** 2 * omega[k]
-        + z * (1 - z) ** 2 * h * slopes[0]
-        + z**2 * (3 - 2 * z) * omega[k + 1]
-        + z**2 * (z - 1) * h * slopes[1]
-    )
-    return value
+def _steady_speed(machine: Machine, steady: SteadyState, angle: Floats, accuracy: float) -> Floats:
+    """Speed of steady motion at crank angles, by its solution: a curve would miss what is narrow."""
+    phi, place = np.unique(angle % (2 * np.pi * steady.turns), return_inverse=True)
+    speed: Floats = steady_curves(machine, min(accuracy, _STEADY_ACCURACY), phi).speed[place]
+    return speed
 
 
 def _settled(
@@ -236,21 +205,16 @@ def _settled(
     """Turns and time at which the motion last enters the band about steady motion; None if never."""
     limit = machine.run_up.settled * steady.speed_mean_time
     looks, angle, speed = _looks(motion)
-    outside = np.flatnonzero(np.abs(speed - _steady_speed(steady, angle)) > limit)
+    outside = np.flatnonzero(np.abs(speed - _steady_speed(machine, steady, angle, accuracy)) > limit)
     if not len(outside):
         return 0.0, 0.0
     if outside[-1] == len(looks) - 1:
         return None
     low, high = looks[outside[-1:]], looks[outside[-1:] + 1]
-    first, last = motion.at(np.append(low, high))[0]
-    # A little beyond both ends, which rounding may leave.
-    grid = first + (last - first) * np.linspace(-0.1, 1.1, _NEAR)
-    cycle = 2 * np.pi * steady.turns
-    near = steady_curves(machine, min(accuracy, _STEADY_ACCURACY), grid % cycle)
 
     def excess(time: Floats) -> Floats:
         angle, speed = motion.at(time)
-        return np.abs(speed - _speed_between(near, grid, cycle, angle)) - limit
+        return np.abs(speed - _steady_speed(machine, steady, angle, accuracy)) - limit
 
     settled = np.maximum(*zeros(excess, low, high))
     turned = motion.at(settled)[0][0] - motion.crank_angle[0]
