@@ -242,3 +242,28 @@ def test_ends_of_a_table_that_closes_are_refused():
     assert {name for name in found.refused if ".angle." in name} == ends
     with pytest.raises(InputError, match="the table closes"):
         lw.gradient(machine, ["steady_state.unevenness"], ["loads.more.angle.0"])
+
+
+# The motor's curve has a point at 104 rad/s, the crank's speed there by the ratio of 9.8.
+AT_RATED = 104.0 / 9.8
+
+
+@pytest.mark.parametrize("measure", [_steady, _run_up, _forces])
+@pytest.mark.parametrize("others", [1, 2, "motor"])
+def test_several_tables_with_a_point_at_one_speed(others, measure):
+    """The place of one moves away from those of the others: their kinks part."""
+    described = _with_load({"kind": "torque_speed", "speed": [0.0, 8.5, 20.0], "torque": [10.0, 60.0, 300.0]})
+    described = described.model_dump(by_alias=True, exclude_unset=True)
+    speed = AT_RATED if others == "motor" else 10.6
+    table = {"kind": "torque_speed", "speed": [0.0, speed, 20.0], "torque": [0.0, 30.0, 400.0]}
+    if others == "motor":
+        described["drive"]["motor"] = MOTORS["curve"][0]
+    loads = {f"fan {n}": table for n in range(1 if others == "motor" else 1 + others)}
+    machine = lw.Machine.model_validate(described | {"loads": described["loads"] | loads})
+    state = lw.steady_state(machine)
+    assert state.speed_min < speed < state.speed_max
+    ways = [{f'loads."{name}".speed.1': speed} for name in loads]
+    ways += [{"drive.motor.speed.3": 104.0}] if others == "motor" else []
+    off = errors(machine, measure, [*ways, {"drive.flywheel.inertia": 1.0}][: len(ways)])
+    assert len(off) >= 3
+    assert max(off.values()) <= 1e-7, off
