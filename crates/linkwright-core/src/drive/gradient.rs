@@ -251,7 +251,8 @@ fn machine_along<'a, R: Real>(of: &Gradient<'a>, q: &'a [Dual<R>]) -> Machine<'a
     let meet = |(i, one): (usize, &Crossing)| {
         crossings[i + 1..].iter().any(|other| (one.phi - other.phi).abs() < AT_END)
     };
-    let has_several = crossings.iter().enumerate().any(meet);
+    let has_several =
+        of.plan.drive.has_shared_kinks(&of.plan.tables, of.q) || crossings.iter().enumerate().any(meet);
     Machine::new(of.plan, q)
         .keeping_sides_of_bends()
         .keeping_sides_of_speeds(has_several)
