@@ -8,7 +8,7 @@ import pytest
 from test_gradient_of_laws import _forces, _run_up, _steady, errors
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 
 CART = "machines/roller_one_cart.toml"
 
@@ -221,7 +221,7 @@ def test_places_of_points_move_as_differences_do(name, measure):
         ways = _places(machine, "drive.motor", key)
     off = errors(machine, measure, ways)
     assert len(off) >= 3
-    assert max(off.values()) <= 1e-7, off
+    assert max(off.values()) <= 1e-7, {k: f"{v:.1e}" for k, v in off.items() if v > 1e-7}
 
 
 def test_a_point_that_slides_along_its_line_changes_nothing():
@@ -248,12 +248,10 @@ def test_ends_of_a_table_that_closes_are_refused():
 AT_RATED = 104.0 / 9.8
 
 
-@pytest.mark.parametrize("measure", [_steady, _run_up, _forces])
-@pytest.mark.parametrize("others", [1, 2, "motor"])
-def test_several_tables_with_a_point_at_one_speed(others, measure):
-    """The place of one moves away from those of the others: their kinks part."""
-    described = _with_load({"kind": "torque_speed", "speed": [0.0, 8.5, 20.0], "torque": [10.0, 60.0, 300.0]})
-    described = described.model_dump(by_alias=True, exclude_unset=True)
+def _sharing(others):
+    """Tables with a point at one speed, and the addresses of their places there."""
+    fan = {"kind": "torque_speed", "speed": [0.0, 8.5, 20.0], "torque": [10.0, 60.0, 300.0]}
+    described = _with_load(fan).model_dump(by_alias=True, exclude_unset=True)
     speed = AT_RATED if others == "motor" else 10.6
     table = {"kind": "torque_speed", "speed": [0.0, speed, 20.0], "torque": [0.0, 30.0, 400.0]}
     if others == "motor":
@@ -262,8 +260,30 @@ def test_several_tables_with_a_point_at_one_speed(others, measure):
     machine = lw.Machine.model_validate(described | {"loads": described["loads"] | loads})
     state = lw.steady_state(machine)
     assert state.speed_min < speed < state.speed_max
-    ways = [{f'loads."{name}".speed.1': speed} for name in loads]
-    ways += [{"drive.motor.speed.3": 104.0}] if others == "motor" else []
-    off = errors(machine, measure, [*ways, {"drive.flywheel.inertia": 1.0}][: len(ways)])
+    places = [f'loads."{name}".speed.1' for name in loads]
+    return machine, [*places, "drive.motor.speed.3"] if others == "motor" else places
+
+
+@pytest.mark.parametrize("analysis", ["steady_state", "run_up", "forces"])
+@pytest.mark.parametrize("others", [1, 2, "motor"])
+def test_places_that_would_part_kinks_at_one_speed_are_refused(others, analysis):
+    """The place of one moves away from those of the others; the other entries move all of them together."""
+    machine, places = _sharing(others)
+    found = lw.gradient(machine, [analysis])
+    assert {*places} <= {*found.refused}
+    assert all("part" in found.refused[name] for name in places)
+    if others == "motor":
+        # The ratio moves the kink of the motor alone.
+        assert "drive.gearbox.ratio" in found.refused
+    with pytest.raises(FindingError, match="two kinks at one speed part"):
+        lw.gradient(machine, [analysis], places[:1])
+
+
+@pytest.mark.parametrize("measure", [_steady, _run_up, _forces])
+@pytest.mark.parametrize("others", [1, 2, "motor"])
+def test_values_beside_kinks_at_one_speed(others, measure):
+    machine, places = _sharing(others)
+    values = [name.replace("speed", "torque") for name in places]
+    off = errors(machine, measure, [{name: abs(lw.get(machine, name))} for name in values])
     assert len(off) >= 3
-    assert max(off.values()) <= 1e-7, off
+    assert max(off.values()) <= 1e-7, {key: f"{x:.1e}" for key, x in off.items() if x > 1e-7}

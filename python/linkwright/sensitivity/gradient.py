@@ -158,6 +158,8 @@ def gradient(
         raise InputError("responses: found an empty list, expected one response or more")
     sources = {name: source(machine, name, names) for name in dict.fromkeys(map(analysis_of, asked))}
     refused = {name: why for source in sources.values() for name, why in source.refused.items()}
+    if variables is None:
+        refused |= {name: _not_found(at) for of in sources.values() for name, at in of.lost.items()}
     if variables is not None and refused:
         name, reason = next(iter(refused.items()))
         raise InputError(f"variables: {name} has no derivative: {reason}; leave it out")
@@ -243,12 +245,19 @@ def _require_found(of: Source, name: str, variables: Sequence[str], row: Floats)
     unknown = [variable for variable, slope in zip(variables, row, strict=True) if not np.isfinite(slope)]
     lost = next((variable for variable in unknown if name not in of.ties or variable in of.lost), None)
     if lost is not None:
-        at = of.lost.get(lost)
-        place = "" if at is None else f" at {np.degrees(at):.4g}°"
+        why = _not_found(of.lost.get(lost))
         raise FindingError(
-            f"{name}: its derivative by {lost} was not found: how it moves the kink of the motion{place} "
-            "is as small as rounding; leave this entry out, or vary it in a sweep"
+            f"{name}: its derivative by {lost} was not found: {why}; leave this entry out, or vary it in a "
+            "sweep"
         )
+
+
+def _not_found(at: float | None) -> str:
+    """Why the move of a kink of the motion, at a crank angle [rad], is not known."""
+    place = "" if at is None else f" at {np.degrees(at):.4g}°"
+    return (
+        f"how it moves the kink of the motion{place} is as small as rounding, or two kinks at one speed part"
+    )
 
 
 def _unit(machine: Machine, address: str) -> str:

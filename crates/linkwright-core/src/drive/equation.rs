@@ -45,8 +45,6 @@ pub struct Machine<'a, R> {
     pub side: Option<(&'a [LawGeometry<R>], R)>,
     /// How far \[rad\] inside a step its ends are known to be on its side; 0 where they are read as they are.
     pub(super) inside: f64,
-    /// Whether the drive is read on the side of the step at its ends too, as laws are where `inside` is not 0.
-    pub(super) drive_keeps_side: bool,
 }
 
 /// So far \[rad\] inside a step its ends are on its side of an angle at which the machine jumps: that angle is known to the
@@ -58,7 +56,7 @@ impl<'a, R: Real> Machine<'a, R> {
     /// A machine that is evaluated as it is at every stage.
     pub fn new(plan: &'a Plan, q: &'a [R]) -> Self {
         let inside = if plan.jumps_over_angle() { AT_JUMP } else { 0.0 };
-        Machine { plan, q, keeps_branch: false, side: None, inside, drive_keeps_side: false }
+        Machine { plan, q, keeps_branch: false, side: None, inside }
     }
 
     /// A machine that is read on the side of the step also where it only bends at an angle, so that derivatives jump.
@@ -72,13 +70,6 @@ impl<'a, R: Real> Machine<'a, R> {
     #[must_use]
     pub fn keeping_sides(self) -> Self {
         Machine { inside: AT_JUMP, ..self }
-    }
-
-    /// A machine that is read on the side of the step where several kinks of the speed lie at one end of a step: only one of
-    /// them moves with the end, and derivatives by the others jump there.
-    #[must_use]
-    pub fn keeping_sides_of_speeds(self, has_several: bool) -> Self {
-        if has_several { Machine { inside: AT_JUMP, drive_keeps_side: true, ..self } } else { self }
     }
 
     /// A machine whose steps each keep to one branch, or not.
@@ -107,8 +98,7 @@ impl<'a, R: Real> Machine<'a, R> {
         free - taken * Dual::constant(row.inverse)
     }
 
-    /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous, and
-    /// its side counts for derivatives only.
+    /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous.
     #[inline(always)]
     pub fn acceleration_on_branch(
         &self,
@@ -117,16 +107,11 @@ impl<'a, R: Real> Machine<'a, R> {
         u: R,
         (known, at): (&[LawGeometry<R>], R),
     ) -> Dual<R> {
-        let on_side = OnBranch { value: Dual::variable(u), at };
-        let free = if self.drive_keeps_side {
-            self.drive_acceleration(row, on_side).value
-        } else {
-            self.drive_acceleration(row, on_side.value)
-        };
+        let free = self.drive_acceleration(row, Dual::variable(u));
         if geometry.is_empty() {
             return free;
         }
-        let u = on_side;
+        let u = OnBranch { value: Dual::variable(u), at };
         let taken = self.laws_on_branch(geometry, known, (u * 2.0).sqrt()).value;
         free - taken * Dual::constant(row.inverse)
     }
@@ -170,9 +155,6 @@ impl<'a, R: Real> Machine<'a, R> {
     /// What the slope ∂ε/∂u by the drive has on the branch of a reference besides that which rounding chose, on a kink.
     #[inline(always)]
     pub(super) fn slope_besides(&self, row: &Row<R>, u: R, reference: R) -> R {
-        if self.drive_keeps_side {
-            return R::splat(0.0);
-        }
         let on_branch = OnBranch { value: Dual::variable(u), at: reference };
         self.drive_acceleration(row, on_branch).value.d - self.drive_acceleration(row, on_branch.value).d
     }

@@ -18,7 +18,6 @@ use crate::drive::kinks::kinks;
 use crate::drive::law::LawGeometry;
 use crate::drive::layers::resolved;
 use crate::drive::layout::{Layout, bundle, unbundle};
-use crate::drive::mesh::Crossing;
 use crate::drive::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
 use crate::drive::reading::{Mark, State};
 use crate::drive::steady::Steady;
@@ -49,6 +48,9 @@ const MISSED: f64 = 1e-5;
 
 /// Change of u, as a share of u, that stands for none, for a change of the parameter by its own size: rounding.
 const NOTHING: f64 = 1e-13;
+
+/// Kinks are at one speed up to this share of it, and move together: rounding.
+const SHARED: f64 = 1e-9;
 
 /// Share of a step beside a peak of the speed at which the acceleration is read again.
 const ASIDE: f64 = 4e-3;
@@ -244,21 +246,6 @@ impl Job for Gradient<'_> {
     }
 }
 
-/// The machine along some directions, read on the side of each step where its derivatives jump.
-#[inline(always)]
-fn machine_along<'a, R: Real>(of: &Gradient<'a>, q: &'a [Dual<R>]) -> Machine<'a, Dual<R>> {
-    let crossings = &of.steady.crossings;
-    let meet = |(i, one): (usize, &Crossing)| {
-        crossings[i + 1..].iter().any(|other| (one.phi - other.phi).abs() < AT_END)
-    };
-    let has_several =
-        of.plan.drive.has_shared_kinks(&of.plan.tables, of.q) || crossings.iter().enumerate().any(meet);
-    Machine::new(of.plan, q)
-        .keeping_sides_of_bends()
-        .keeping_sides_of_speeds(has_several)
-        .keeping_branch(of.plan.may_jump())
-}
-
 /// The solved revolution in dual numbers.
 struct DualRevolution<'a, R: Real> {
     machine: Machine<'a, Dual<R>>,
@@ -274,7 +261,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
         let (plan, steady) = (of.plan, of.steady);
-        let machine = machine_along(of, q);
+        let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
         let mut moved = R::out_of_line(
             #[inline(always)]
             || machine.moving(&solved.on_kinks, m),
@@ -299,7 +286,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, some: &[usize]) -> Self {
         let (values, d) = (&along.values, &along.d);
         let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
-        let machine = machine_along(of, q);
+        let machine = Machine::new(of.plan, q).keeping_sides_of_bends().keeping_branch(of.plan.may_jump());
         let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
         let mut turn = Turn::empty(Layout::Machines);
         for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
@@ -371,12 +358,35 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         for ((k, _), miss) in passages.iter().zip(self.misses(&passages, MISSED, size)) {
             lost = zero.select_lt(miss, self.edges[k + 1].value, lost);
         }
+        lost = self.parted(lost);
         // Nothing is known of derivatives that do not settle.
         let nothing = (-R::splat(f64::INFINITY)).select_lt(lost, none, zero);
         self.turn.multiplier.d = self.turn.multiplier.d + nothing;
         for step in &mut self.turn.steps {
             step.u.d = step.u.d + nothing;
             step.X.iter_mut().for_each(|X| X.d = X.d + nothing);
+        }
+        lost
+    }
+
+    /// Where kinks of the drive at one speed that the motion passes, as points of two tables, move to different speeds: which of
+    /// them a step ends on then, its one end cannot tell. `lost` has the crank angle of a kink there.
+    #[inline(always)]
+    fn parted(&self, mut lost: R) -> R {
+        let Machine { plan, q, .. } = self.machine;
+        let extremes = &self.steady.extremes;
+        let passed = extremes.speed_min.value..=extremes.speed_max.value;
+        let kinks = plan.drive.kinks_of_lanes(&plan.tables, q);
+        for (i, one) in kinks.iter().enumerate() {
+            let at = one.value.max_lane();
+            for other in &kinks[i + 1..] {
+                let is_shared = (other.value.max_lane() - at).abs() <= SHARED * at;
+                if is_shared && passed.contains(&at) {
+                    let apart = (one.d - other.d).abs();
+                    let rounding = (one.d.abs() + other.d.abs()) * SHARED;
+                    lost = rounding.select_lt(apart, R::splat(self.steady.crossings[0].phi), lost);
+                }
+            }
         }
         lost
     }

@@ -14,9 +14,6 @@ use crate::kernel::real::{Lift, Real};
 use crate::kernel::slot::Slot;
 use crate::kernel::table::Table;
 
-/// Kinks are at one speed up to this share of it: rounding of a ratio.
-const SHARED: f64 = 1e-9;
-
 /// Torque against speed at the motor shaft.
 #[derive(Clone, Debug)]
 pub enum Motor {
@@ -142,14 +139,6 @@ impl Drive {
         let mut kinks = self.motor_kinks(tables, q);
         kinks.extend(self.load_kinks(tables, q));
         kinks
-    }
-
-    /// Whether kinks of motor and loads lie at one speed: they part where one of them moves.
-    pub fn has_shared_kinks(&self, tables: &[Table], q: &[f64]) -> bool {
-        let mut kinks = self.kinks_of_lanes(tables, q);
-        kinks.retain(|&kink| kink > 0.0);
-        kinks.sort_by(f64::total_cmp);
-        kinks.windows(2).any(|pair| pair[1] - pair[0] <= SHARED * pair[1])
     }
 
     /// Points of the loads over speed.

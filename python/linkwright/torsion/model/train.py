@@ -246,6 +246,10 @@ class Shaft(ElasticShaft):
         return self.density is not None or self.own_inertia is not None
 
 
+# Ratio of a gear stage: beyond it nothing of one side is left in the motion of the other but rounding.
+_RATIO_MAX = 1e6
+
+
 class TrainGear(CheckedDescription):
     """A gear stage between two discs, rigid, or elastic in its mesh."""
 
@@ -279,6 +283,9 @@ class TrainGear(CheckedDescription):
         if (self.ratio is None) == (self.teeth is None):
             found = "neither" if self.ratio is None else "both"
             yield fault(found=found, expected="either ratio or teeth")
+        elif not 1 / _RATIO_MAX <= abs(self.speed_ratio) <= _RATIO_MAX:
+            key, size = "teeth" if self.ratio is None else "ratio", abs(self.speed_ratio)
+            yield fault(key, found=f"a ratio of {size:.3g}", expected=f"{1 / _RATIO_MAX:g} to {_RATIO_MAX:g}")
         for name in ("damping", "loss_factor"):
             if self.stiffness is None and getattr(self, name):
                 remedy = "give the stiffness of the mesh, or the damping to its discs"
