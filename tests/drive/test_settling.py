@@ -49,7 +49,7 @@ angle_start = 4.0561
 def test_a_peaked_speed_settles_when_it_does() -> None:
     machine = lw.loads(MACHINE)
     state, up = lw.steady_state(machine), lw.run_up(machine)
-    # What is left of a disturbance after a revolution.
+    # A disturbance dies out within a few revolutions.
     assert state.multiplier < 0.2
     assert up.turns < 4.0
     band = up.settled * state.speed_mean_time
