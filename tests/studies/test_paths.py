@@ -294,7 +294,8 @@ def test_the_study_of_a_task_finds_no_worse_linkage(timing: str, pivots: str, tm
     for name, (low, high) in plan.limits.items():
         assert low - 1e-8 <= rows.columns[name][0] <= high + 1e-8, name
     best = lw.optimise(plan, 60, method="both")
-    assert best.responses["error_rms"] <= rows.columns["error_rms"][0] * (1 + 1e-9)
+    # An error of zero is rounding [m].
+    assert best.responses["error_rms"] <= rows.columns["error_rms"][0] * (1 + 1e-9) + 1e-12
     for name, (low, high) in plan.limits.items():
         assert low - 1e-8 <= best.responses[name] <= high + 1e-8, name
 
