@@ -301,7 +301,11 @@ def linkage(machine: Machine) -> Linkage:
     .. [1] Norton, Design of Machinery: transmission angle, mechanical advantage, time ratio.
     .. [2] VDI 2123: transmission angle.
     """
-    compiled, where, swept = swept_cycle(machine)
+    return examined(*swept_cycle(machine))
+
+
+def examined(compiled: CompiledMachine, where: Closure, swept: LinkageSweep) -> Linkage:
+    """`linkage` of a cycle that is swept, as `swept_cycle` gives it."""
     loops = {bar.element: bar for bar in four_bars(compiled)}
     return Linkage(
         crank_angle=swept.cycle.angles,

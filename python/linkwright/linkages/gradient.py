@@ -23,7 +23,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
-from linkwright.linkages.cycle import ElementMotion, linkage, swept_cycle
+from linkwright.linkages.cycle import ElementMotion, examined, swept_cycle
 from linkwright.linkages.dyads import transmission, transmission_channels, transmission_slope
 from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, ways_between
 from linkwright.machine.machine import Machine
@@ -57,13 +57,13 @@ def linkage_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
 
     Raises what `linkage` raises, and FindingError: there is no link or slide to look at.
     """
-    known = linkage(machine)
+    compiled, where, swept = swept_cycle(machine)
+    known = examined(compiled, where, swept)
     elements = known.elements
     if not elements:
         raise FindingError(
             "the mechanism has no link or slide whose stroke, swing or transmission angle varies"
         )
-    compiled, _, swept = swept_cycle(machine)
     program = directions(machine, variables)
     leaving = _leaving(compiled, swept.cycle, program)
     refused = {**program.refused, **dict.fromkeys(leaving, _REPEATS)}
