@@ -42,6 +42,9 @@ _FIRST, _LAST, _KEPT = 0.02, 1e-10, 30
 # faster once the limits are kept; so often at most.
 _PATIENCE, _CREEPS, _ROUNDS = 60, 0.01, 6
 
+# Shares this near an end of their range are at that end: what is gained between is rounding of the goal.
+_END = 1e-9
+
 # A promised gain below this share of the goal ends the search: results are computed to 1e-11.
 _GAIN = 1e-11
 
@@ -102,6 +105,7 @@ class Descent:
 
     def at(self, share: Floats) -> _Place:
         """Goal and limits at a place, its free shares given."""
+        share = np.where(share < _END, 0.0, np.where(share > 1.0 - _END, 1.0, share))
         key = share.tobytes()
         if key not in self._known:
             # It is not known beforehand whether derivatives are exact.
@@ -113,7 +117,7 @@ class Descent:
     def _computed(self, share: Floats) -> _Place:
         """Goal and limits at a place."""
         shares = self.base.copy()
-        shares[self.free] = np.clip(share, 0.0, 1.0)
+        shares[self.free] = share
         _, rates, slopes = self.log.slopes(self.plan, shares)
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
@@ -123,7 +127,7 @@ class Descent:
             over_slope.append(way * slope[name] / size)
         n = len(self.free)
         return _Place(
-            share.copy(),
+            share,
             self.sign * slopes.values[self.goal] / self.size,
             self.sign * slope[self.goal] / self.size,
             np.array(over),
