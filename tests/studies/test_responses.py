@@ -103,6 +103,18 @@ def test_parts_that_do_not_exist_are_refused(response: str, tmp_path: Path) -> N
         lw.read_study(study(tmp_path, *WRONG[response], response))
 
 
+def test_a_place_beyond_the_end_of_a_list_is_refused_before_a_row_is_computed(tmp_path: Path) -> None:
+    response = '{ curve = "free_vibration.natural_frequencies", index = 999 }'
+    with pytest.raises(MachineFileError, match=r"expected: 0 to \d+: the list has") as error:
+        lw.read_study(study(tmp_path, *TRAIN, response))
+    assert "study.toml:6: responses.number.index" in str(error.value)
+    last = len(lw.free_vibration(lw.read(TRAIN[0])).natural_frequencies) - 1
+    plan = lw.read_study(study(tmp_path, *TRAIN, response.replace("999", str(last))))
+    assert lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, TRAIN[1])])}).status[0] == 0
+    with pytest.raises(MachineFileError, match=r"responses\.number"):
+        lw.read_study(study(tmp_path, *TRAIN, response.replace("999", str(last + 1))))
+
+
 @pytest.mark.parametrize(
     "quantity", ["unevenness", "dynamism", "motion_coefficient", "speed_mean_time", "speed_min"]
 )

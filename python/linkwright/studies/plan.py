@@ -30,7 +30,7 @@ from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis, require_places
 from linkwright.studies.model import WAYS, StudyFile, Sweep
-from linkwright.studies.responses import asked
+from linkwright.studies.responses import asked, require_place
 from linkwright.studies.study_response import StudyResponse
 
 T = TypeVar("T")
@@ -202,6 +202,11 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
             require_places(variable, listed[:, nth], f"{study.sweep.file}: column {variable.name}")
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
     _check_rows(ready)
+    # Numbers do not make lists longer; other tables may.
+    if all(axis.is_number for axis in axes):
+        gather(((each.name, each) for each in responses), lambda _, each: require_place(machine, each))
+    if problems:
+        raise MachineError(problems)
     return ready
 
 

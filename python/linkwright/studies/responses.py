@@ -17,7 +17,7 @@ from typing import Any, get_type_hints
 import numpy as np
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import FindingError, MachineError
+from linkwright.kernel.errors import FindingError, LinkwrightError, MachineError
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import is_number
@@ -32,6 +32,7 @@ from linkwright.studies.study_response import (
     OF_ONE_CAM,
     PARTS,
     PATH,
+    NoPlaceError,
     StudyResponse,
     wrong,
 )
@@ -119,6 +120,22 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         level=response.level,
         otherwise=response.otherwise,
     )
+
+
+def require_place(machine: Machine, response: StudyResponse) -> None:
+    """Refuse a place beyond the end of a list, by the machine as it is.
+
+    A machine without an answer has no list to tell by: its rows say why. Raises `MachineError`.
+    """
+    if response.index is None or response.analysis in (MOTION, PATH):
+        return
+    try:
+        response.number(analysis(response.analysis)(machine, *response.arguments, **response.options))
+    except NoPlaceError as error:
+        expected = f"0 to {error.count - 1}: the list has {error.count} values"
+        raise wrong(response.name, "index", str(response.index), expected) from None
+    except LinkwrightError:
+        return
 
 
 def _require_part(

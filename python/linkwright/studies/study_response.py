@@ -33,6 +33,14 @@ PARTS = ("discs", "shafts")
 _OF_BATCH = frozenset(declared(SteadyStates))
 
 
+class NoPlaceError(FindingError):
+    """A list of the machine, of so many values, ends before the place that is asked for."""
+
+    def __init__(self, message: str, count: int) -> None:
+        super().__init__(message)
+        self.count = count
+
+
 @dataclass(frozen=True)
 class StudyResponse:
     """One response of a study."""
@@ -102,9 +110,8 @@ class StudyResponse:
             return taken(values.ravel(), self.extreme)
         assert self.index is not None
         if self.index >= len(values):
-            raise FindingError(
-                f"{self.analysis}.{self.quantity} has {len(values)} values, none of number {self.index}"
-            )
+            message = f"{self.analysis}.{self.quantity} has {len(values)} values, none of number {self.index}"
+            raise NoPlaceError(message, len(values))
         return values[self.index]
 
 
