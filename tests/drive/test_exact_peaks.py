@@ -179,3 +179,37 @@ def test_rows_whose_peaks_rounding_forbids_have_a_status() -> None:
     assert solved[:10].all()
     assert set(rows.status[~solved]) == {3}
     assert np.isnan(rows.speed_max[~solved]).all()
+
+
+# A motor on a steep curve that brakes in a part of each revolution: where its torque changes its sign the
+# acceleration has a corner, behind which it falls much faster.
+BRAKED = """
+format = 1
+name = "Slider-crank that its motor brakes"
+mechanism.cranks.A = { radius = 0.0616, phase = 1.63 }
+mechanism.sliders.S = { crank = "A", rod = 0.2726, offset = 0.0024, angle = "90 deg" }
+bodies.A = { mass = 0.19, inertia = 0.6 }
+bodies.S = { mass = 38.25 }
+loads.gravity = { kind = "gravity" }
+[drive.motor]
+kind = "table"
+inertia = 1.25
+speed = [0, 4.72, 9.44, 14.16]
+torque = [927, 1158, 463, -927]
+[drive.gearbox]
+ratio = 40
+efficiency = 0.7
+reverse = 1.2
+"""
+
+
+def test_a_corner_under_a_steep_drive_is_the_same_at_every_accuracy() -> None:
+    machine = lw.loads(BRAKED)
+    states = [lw.steady_state(machine, accuracy=accuracy) for accuracy in (1e-8, 1e-9, 1e-10, 1e-11, 1e-12)]
+    size = max(abs(states[0].acceleration_max), 1e-4 * states[0].speed_max ** 2)
+    for state in states:
+        assert state.accuracy < 2e-8
+        for other in states:
+            # Each is off by what it says.
+            room = (state.accuracy + other.accuracy) * size
+            assert abs(state.acceleration_max - other.acceleration_max) < room

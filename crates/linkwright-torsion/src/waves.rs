@@ -282,7 +282,7 @@ fn highest(wave: &Wave, tops: &mut [Top], sign: f64, places: usize, third: f64) 
         if top + missed < found.1 {
             break;
         }
-        let (at, value) = climb(wave, start, step, sign, sample);
+        let (at, value) = climb(wave, (start, sample), step, sign, (third, found.1));
         if value > found.1 {
             found = (at.rem_euclid(TAU), value);
         }
@@ -290,9 +290,16 @@ fn highest(wave: &Wave, tops: &mut [Top], sign: f64, places: usize, third: f64) 
     found
 }
 
-/// Newton from beside a top; no less than the sample if that leads nowhere.
+/// Newton from beside a top; no less than the sample if that leads nowhere. A top that, by a bound of the third derivative,
+/// stays below a height is left: a fast wave on a slow one has many that are nearly equal.
 #[inline(always)]
-fn climb(wave: &Wave, start: f64, step: f64, sign: f64, sample: f64) -> (f64, f64) {
+fn climb(
+    wave: &Wave,
+    (start, sample): (f64, f64),
+    step: f64,
+    sign: f64,
+    (third, height): (f64, f64),
+) -> (f64, f64) {
     let (mut at, mut best) = (start, (start, sample));
     for _ in 0..STEPS {
         let [value, d1, d2] = evaluate(wave, at);
@@ -305,6 +312,12 @@ fn climb(wave: &Wave, start: f64, step: f64, sign: f64, sample: f64) -> (f64, f6
             best = (if last { at + shift } else { at }, there.max(best.1));
         }
         let inside = sign * d2 < 0.0 && (at + shift - start).abs() <= step;
+        // The slope changes its sign within twice the shift.
+        let reach = 2.0 * shift.abs();
+        let is_known = inside && third * reach < 0.5 * d2.abs();
+        if is_known && sign * (value + 0.5 * d1 * shift) + third * reach.powi(3) / 6.0 < height {
+            break;
+        }
         if last || !inside {
             break;
         }

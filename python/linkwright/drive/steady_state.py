@@ -117,10 +117,10 @@ _MULTIPLIER = (
     "below 1 in magnitude."
 )
 _ACCURACY = (
-    "Measured relative error of speeds, of accelerations (relative to their peak, or to 1e-4 ω² if that is "
-    "larger), of the integrals (relative to the sum of their parts, or to what that acceleration takes if "
-    "that is larger), and of the Floquet multiplier (relative to 1, or to itself if that is larger). Every "
-    "step is compared with two half steps."
+    "Measured relative error of speeds, of accelerations (relative to their peak, or to 1e-4 ω² or a "
+    "millionth of what the drive alone would give if that is larger), of the integrals (relative to the sum "
+    "of their parts, or to what that acceleration takes if that is larger), and of the Floquet multiplier "
+    "(relative to 1, or to itself if that is larger). Every step is compared with two half steps."
 )
 _OTHERS = "Other periodic motions of the machine, from the fastest down to a hundredth of the working speed."
 _LIMITS = "Starts from which the machine runs away, or was not followed to an end; empty if there are none."

@@ -416,12 +416,25 @@ impl Events<'_, f64> {
             for (piece, ends) in pieces.iter().zip(values.windows(2)) {
                 if ends[0] * ends[1] < 0.0 {
                     let h = self.within(event, piece, [0.0, 1.0], [ends[0], ends[1]], m);
-                    let step = self.machine.advance(piece.phi, piece.u, h, m).0;
-                    corners.push((piece.phi + h, step.K[S - 1]));
+                    corners.push(self.corner(event, piece, h, m));
                 }
             }
         }
         corners
+    }
+
+    /// Crank angle and ε at a kink that lies so far from the start of a step by its quintic. At a speed of the drive the motion
+    /// itself tells by how much that is off: under a steep drive ε falls fast behind the kink.
+    fn corner(&self, event: Event, piece: &Piece, h: f64, m: &mut Motion<f64>) -> (f64, f64) {
+        let step = self.machine.advance(piece.phi, piece.u, h, m).0;
+        let [u, epsilon] = [step.X[S - 1], step.K[S - 1]];
+        let Event::Speed(nth) = event else { return (piece.phi + h, epsilon) };
+        let by = (0.5 * self.speeds[nth].powi(2) - u) / epsilon;
+        // A motion that hardly passes the speed has no corner to speak of.
+        if by.is_nan() || by.abs() > NEARLY * h {
+            return (piece.phi + h, epsilon);
+        }
+        (piece.phi + h + by, self.machine.advance(piece.phi, piece.u, h + by, m).0.K[S - 1])
     }
 
     /// Kinks of the drive or of a law that the motion passes inside steps, besides those at ends that stay.
