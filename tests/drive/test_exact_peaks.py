@@ -185,19 +185,34 @@ def test_rows_whose_peaks_rounding_forbids_have_a_status() -> None:
 # acceleration has a corner, behind which it falls much faster.
 BRAKED = """
 format = 1
-name = "Slider-crank that its motor brakes"
-mechanism.cranks.A = { radius = 0.0616, phase = 1.63 }
-mechanism.sliders.S = { crank = "A", rod = 0.2726, offset = 0.0024, angle = "90 deg" }
-bodies.A = { mass = 0.19, inertia = 0.6 }
-bodies.S = { mass = 38.25 }
-loads.gravity = { kind = "gravity" }
+name = "Slider-crank and crank-rocker that their motor brakes"
+[mechanism]
+points.P1 = { x = -0.3139067590271544, y = -0.02006443524751568 }
+cranks.A = { radius = 0.06162607718187589, phase = 1.6299833169095361 }
+sliders.S0 = { crank = "A", rod = 0.272729067933465, offset = 0.0023873128359632252, angle = "90 deg" }
+[mechanism.rockers.R1]
+crank = "A"
+pivot = "P1"
+coupler = 0.10598042143538632
+rocker = 0.3286857729160318
+assembly = "right"
+[bodies]
+A = { mass = 0.1893246491090905, inertia = 0.602621085072352 }
+S0 = { mass = 38.24958875739521 }
+R1 = { mass = 0.9129519668814794 }
+"R1.coupler" = { mass = 3.4128545696395047 }
+"R1.rocker" = { mass = 0.19251383914364878 }
+[loads]
+gravity = { kind = "gravity" }
+[drive]
+flywheel.inertia = 0.27503111612158115
 [drive.motor]
 kind = "table"
-inertia = 1.25
-speed = [0, 4.72, 9.44, 14.16]
-torque = [927, 1158, 463, -927]
+speed = [0.0, 4.7187238118696575, 9.437447623739315, 14.156171435608973]
+torque = [926.6780369511877, 1158.3475461889846, 463.33901847559383, -926.6780369511877]
+inertia = 1.251900986749936
 [drive.gearbox]
-ratio = 40
+ratio = 40.0
 efficiency = 0.7
 reverse = 1.2
 """

@@ -204,7 +204,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     _check_rows(ready)
     # Numbers do not make lists longer; other tables may.
     if all(axis.is_number for axis in axes):
-        gather(((each.name, each) for each in responses), lambda _, each: require_place(machine, each))
+        gather(((one.name, one) for one in responses), lambda _, response: require_place(machine, response))
     if problems:
         raise MachineError(problems)
     return ready
