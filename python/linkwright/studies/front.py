@@ -2,7 +2,8 @@ r"""Two goals at once: the machines of which none is better in both, by ε-const
 
 The first goal is sought while the second is held to a limit, which goes in equal steps from what the best
 machine by the first goal has to what the best by the second has [1]_. That finds all of a front, also where
-it is hollow, where weighted sums do not.
+it is hollow, where weighted sums do not. Where several machines are the best by one goal, the end of the
+front is the best of these by the other.
 
 References
 ----------
@@ -33,6 +34,10 @@ from linkwright.studies.search_log import SearchLog
 
 # Machines whose goals differ by less, relative to the range of the front, are one.
 _SAME = 1e-9
+
+# What of one goal is given, as a share of it, for the other at an end of the front: where many machines are
+# as good by the one, as those whose flywheel is the smallest, they differ by the other.
+_GIVEN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -107,39 +112,50 @@ def front(
         raise InputError(f"points {points}: expected 3 to 1000")
     (first, _), (second, way) = plan.study.goals.items()
 
+    signs = {goal: 1.0 if kind == "minimise" else -1.0 for goal, kind in plan.study.goals.items()}
     check(_of_one(plan, first, second, None), evaluations, method, starts)
     with closing(SearchLog(plan, None if log is None else Path(log))) as known:
 
-        def sought(goal: str, limit: float | None = None) -> Optimum:
-            study = _of_one(plan, goal, second, limit)
+        def sought(goal: str, other: str, limit: float | None = None) -> Optimum:
+            study = _of_one(plan, goal, other, limit)
             return searched(study, evaluations, known, seed, method, starts)
 
-        ends = sought(first), sought(second)
+        def end(goal: str, other: str) -> Optimum:
+            """The best by one goal, and of those that are as good the best by the other."""
+            best = sought(goal, other)
+            value = best.responses[goal]
+            try:
+                also = sought(other, goal, value + signs[goal] * _GIVEN * abs(value))
+            except FindingError:
+                return best
+            gained = signs[other] * (best.responses[other] - also.responses[other])
+            return also if gained > _GIVEN * abs(best.responses[other]) else best
+
+        ends = end(first, second), end(second, first)
         optimums, failed = list(ends), {}
         for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
             try:
-                optimums.append(sought(first, float(limit)))
+                optimums.append(sought(first, second, float(limit)))
             except FindingError as error:
                 word = "at most" if way == "minimise" else "at least"
                 failed[f"{second} {word} {limit:.6g} {plan.units[second]}".rstrip()] = str(error)
-    signs = np.array([1.0 if goal == "minimise" else -1.0 for goal in plan.study.goals.values()])
     return Front(
         (first, second),
-        _best(optimums, (first, second), signs),
+        _best(optimums, (first, second), np.array([signs[first], signs[second]])),
         failed,
         known.count,
         dict(sum((Counter(optimum.one_by_one) for optimum in optimums), start=Counter[str]()).most_common()),
     )
 
 
-def _of_one(plan: StudyPlan, goal: str, second: str, limit: float | None) -> StudyPlan:
+def _of_one(plan: StudyPlan, goal: str, other: str, limit: float | None) -> StudyPlan:
     """The study with one of its goals, and the other within a limit."""
     study = plan.study.model_copy(update={"goals": {goal: plan.study.goals[goal]}})
     limits = dict(plan.limits)
     if limit is not None:
-        low, high = limits.get(second, (-np.inf, np.inf))
-        is_small = plan.study.goals[second] == "minimise"
-        limits[second] = (low, min(high, limit)) if is_small else (max(low, limit), high)
+        low, high = limits.get(other, (-np.inf, np.inf))
+        is_small = plan.study.goals[other] == "minimise"
+        limits[other] = (low, min(high, limit)) if is_small else (max(low, limit), high)
     return replace(plan, study=study, limits=limits)
 
 

@@ -480,7 +480,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// where it was read is off by millionths of a step, over which the derivative may change much where inertia does.
     #[inline(always)]
     fn peak_of_speed(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let phi = extreme.phi;
+        let phi = self.from_before(extreme.phi);
         let [low, high] = self.step_around(phi);
         let there = self.state(phi, m).1;
         // A corner is where it is.
@@ -536,6 +536,12 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         curve[0] + off * (curve[1] + off * (curve[2] + off * (curve[3] + off * curve[4])))
     }
 
+    /// The end of the revolution for its start: the step before an end moves with it, and before the first lies the last.
+    #[inline(always)]
+    fn from_before(&self, phi: f64) -> f64 {
+        if phi - self.marked(0) < AT_END { self.marked(self.marks.len()) } else { phi }
+    }
+
     /// Number of the steps before the one that a crank angle lies in.
     #[inline(always)]
     fn steps_before(&self, phi: f64) -> usize {
@@ -559,7 +565,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
     #[inline(always)]
     fn corner(&self, edge: usize, value: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let before = self.state(self.marked(edge), m).1.epsilon;
+        let before = self.state(self.from_before(self.marked(edge)), m).1.epsilon;
         let behind = self.start_of(edge % self.turn.steps.len(), m);
         let far = |side: Dual<R>| (side.value - value).abs().max_lane();
         // Where it is continuous rounding has no say.
