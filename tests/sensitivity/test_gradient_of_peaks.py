@@ -198,3 +198,26 @@ def test_rounding_of_a_steep_drive_does_not_place_a_peak() -> None:
     )
     # ε″ = 950 at the peak, whose angle is known to 1e-9; by differences of readings it is to 1e-8.
     assert abs(found.derivatives[0, 0]) < 1e-6 * abs(found.values[0]), found.derivatives
+
+
+@pytest.mark.parametrize("name", ["fan_by_formula", "motor_from_own_catalogue"])
+def test_a_jump_at_the_start_of_the_revolution_moves_as_any_other(name: str) -> None:
+    """The force of the slider jumps at dead centre, at 0 deg: there the acceleration has its maximum."""
+    machine = lw.read(name)
+    slider = next(iter(machine.mechanism.sliders))
+    entries = [f"mechanism.sliders.{slider}.{entry}" for entry in ("offset", "angle", "rod")]
+    entries += ["mechanism.cranks.A.phase", "mechanism.cranks.A.radius"]
+    extremes = [f"{of}_{end}" for of in ("speed", "acceleration") for end in ("min", "max")]
+    names = [*extremes, "dynamism", "unevenness", "motion_coefficient"]
+    found = lw.gradient(machine, [f"steady_state.{name}" for name in names], entries)
+    step = 1e-5
+    for entry, column in zip(entries, found.derivatives.T, strict=True):
+        at = lw.get(machine, entry)
+        ahead, behind = (
+            lw.steady_state(lw.replace(machine, {entry: at + side * step}), accuracy=1e-12)
+            for side in (1, -1)
+        )
+        wanted = [(getattr(ahead, name) - getattr(behind, name)) / (2 * step) for name in names]
+        # A difference is off by 1e-12 of the number over the step, and by the square of the step.
+        room = 1e-6 * np.maximum(np.abs(found.values), np.abs(wanted))
+        assert (np.abs(column - wanted) <= room).all(), entry

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from click.testing import CliRunner, Result
 
 import linkwright as lw
 from linkwright.app.application import application
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -80,14 +82,29 @@ def test_a_drive_for_the_minimum_cost() -> None:
     """One motor, for time: ratio and flywheel are on their limits, and δ and the start are kept."""
     machine = lw.read("roller_two_carts")
     plan = drive_study(machine, unevenness=0.06, run_up_time=2.0)
-    motors = plan.axes[0].choices
-    assert len(motors) == 4
+    powers = [lw.read("roller_two_carts", {"drive.motor": motor}).drive for motor in plan.axes[0].choices]
+    rated = [drive.motor.power_rated for drive in powers]
+    # One motor of each power, upwards: what its run-up asks for may be far more than its work.
+    assert len(rated) == 6
+    assert all(large > 1.1 * small for small, large in pairwise(rated))
     one = {"motor": np.array([1.0]), "ratio": np.array([9.8]), "flywheel": np.array([120.0])}
     row = lw.evaluate(plan, one)
     mass = 2 * 120.0 / 0.6**2
     power = row.columns["power"][0]
     assert row.columns["cost"][0] == pytest.approx(0.15 * power + 1.5 * mass, rel=1e-12)
     assert set(plan.limits) == {"delta", "speed", "load", "overload", "start"}
+
+
+def test_motors_that_do_not_serve_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(*_: Any, **__: Any) -> None:
+        raise FindingError("none of all machines keeps all constraints")
+
+    monkeypatch.setattr("linkwright.studies.optimise.optimise", nothing)
+    answer = size("roller_one_cart", "--minimum-cost", "--run-up-time", "0.01 s", "--json")
+    assert answer.exit_code == 1
+    (finding,) = json.loads(answer.output)["findings"]
+    assert "4A132S6U3, 4A132M6U3, 4A160S6U3" in finding
+    assert "larger ones may serve" in finding
 
 
 @pytest.mark.parametrize(

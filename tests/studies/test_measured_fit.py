@@ -242,6 +242,11 @@ def test_samples_that_go_back_are_refused() -> None:
         lw.MeasuredRecord("time", np.array([0.0, 1.0, 0.5]), {"speed": np.ones(3)})
 
 
+def test_an_example_is_fitted_by_its_name() -> None:
+    done = CliRunner().invoke(application(), ["fit", "fit_from_run_down", "--json"])
+    assert done.exit_code == 0, done.output
+
+
 def test_a_sample_with_a_slipped_exponent_is_no_warning(tmp_path: Path) -> None:
     """The method of least squares comes where a number changes nothing; the fit ends as any other does."""
     example = Path(__file__).parents[2] / "examples" / "fit_from_run_down"

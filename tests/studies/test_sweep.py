@@ -180,6 +180,15 @@ def test_a_damaged_file_is_computed_anew(study_file: Files, tmp_path: Path) -> N
         pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "rows"), wanted, check_exact=True)
 
 
+def test_a_file_of_other_rows_is_computed_anew(study_file: Files, tmp_path: Path) -> None:
+    lw.sweep(lw.read_study(study_file()), tmp_path / "rows")
+    wanted = pd.read_parquet(tmp_path / "rows")
+    parts = sorted((tmp_path / "rows").glob("part-*.parquet"))
+    parts[1].write_bytes(parts[0].read_bytes())
+    lw.sweep(lw.read_study(study_file()), tmp_path / "rows")
+    pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "rows"), wanted, check_exact=True)
+
+
 def test_a_file_with_a_damaged_footer_is_read_or_computed_anew(study_file: Files, tmp_path: Path) -> None:
     """Checksums are of pages: names of columns and counts stand in none."""
     lw.sweep(lw.read_study(study_file()), tmp_path / "rows")

@@ -45,6 +45,26 @@ def plan_of(tmp_path: Path, text: str = TEXT) -> StudyPlan:
     return lw.read_study(tmp_path / "study.toml")
 
 
+MOMENTS = {
+    # Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, 2nd ed. 1994 and 1995.
+    "normal": ('{ kind = "normal", mean = 450, deviation = 10 }', 450.0, 10.0),
+    "lognormal": ('{ kind = "lognormal", mean = 1000, deviation = 1500 }', 1000.0, 1500.0),
+    "uniform": ('{ kind = "uniform", least = 2, greatest = 3 }', 2.5, 12**-0.5),
+}
+
+
+@pytest.mark.parametrize("kind", MOMENTS)
+def test_mean_and_deviation_are_those_that_were_given(kind: str) -> None:
+    import tomllib
+
+    text, mean, deviation = MOMENTS[kind]
+    given = tomllib.loads(f"it = {text}")["it"]
+    variable = Variable(address="bodies.cart1.mass", distribution=Distribution(**given))
+    found = axis(lw.read(MACHINE), "mass", variable).moments()
+    # The rule by which they are integrated is good to 1e-9.
+    assert found == pytest.approx((mean, deviation), rel=1e-9)
+
+
 def test_a_sum(tmp_path: Path) -> None:
     found = lw.tolerance(plan_of(tmp_path), 40_000, indices=4000)
     each, deviation = found.responses["sum"], np.hypot(3e-3, 2e-3)

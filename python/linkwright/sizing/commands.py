@@ -165,7 +165,8 @@ def size(
 
         if study is not None:
             hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json, out=out)
-        hand_over_optimum(plan, {"method": "gradient", "starts": _STARTS}, json=json, out=out, force=force)
+        how = {"method": "gradient", "starts": _STARTS}
+        hand_over_optimum(plan, how, json=json, out=out, force=force, untried=_untried(plan))
         return
     belong_to("--minimum-cost, --pressure-angle or --shaft", "study")
     if keep_motor:
@@ -187,6 +188,18 @@ def size(
     if motor.chosen and motor.chosen.machine:
         flywheel = choose_flywheel(motor.chosen.machine, unevenness)
     hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
+
+
+def _untried(plan: StudyPlan) -> str:
+    """What a study of motors leaves open where none of them serves; nothing without motors."""
+    motor = plan.study.variables.get("motor")
+    if motor is None or not motor.values:
+        return ""
+    types = [value["catalogue"] for value in motor.values]
+    return (
+        f"; tried were the motors {', '.join(types)}; larger ones may serve: write the study by --study "
+        "FILE, add them to its values of motor, and run linkwright optimise FILE"
+    )
 
 
 class _Prices(NamedTuple):

@@ -26,8 +26,9 @@ from linkwright.studies.size_limits import half_clearance, of_pin, toleranced
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).
 _SPREAD = 6.0
 
-# Equally probable parts of a distribution, of whose middles mean and deviation are taken: to 0.1 %.
-_STRATA = 2000
+# Ends and distance of the places of the rule by which mean and deviation of a distribution are integrated: to
+# 1e-9, and to 1e-6 where its density has a corner, as a triangle.
+_ENDS, _APART = 3.2, 0.05
 
 
 def between(low: float, high: float, steps: int | None = None) -> dict[str, Any]:
@@ -123,9 +124,18 @@ class Axis:
         return value * math.log(self.high / self.low) if self.is_log else self.high - self.low
 
     def moments(self) -> tuple[float, float]:
-        """Mean and standard deviation [SI] of its values, cut off as they are."""
-        values = self.values(_middles(_STRATA))
-        return float(values.mean()), float(values.std())
+        """Mean and standard deviation [SI] of its values, cut off as they are.
+
+        The integral over all shares by the double exponential rule, which tails at their ends do not disturb:
+        Takahasi, Mori, Double exponential formulas for numerical integration, Publ. RIMS 9 (1974) 721.
+        """
+        t = np.arange(-_ENDS, _ENDS + 0.5 * _APART, _APART)
+        steep = 0.5 * np.pi * np.sinh(t)
+        weights = np.cosh(t) / np.cosh(steep) ** 2
+        weights /= weights.sum()
+        values = self.values(0.5 * (1.0 + np.tanh(steep)))
+        mean = float(weights @ values)
+        return mean, math.sqrt(float(weights @ (values - mean) ** 2))
 
 
 def require_places(axis: Axis, values: Floats, what: str) -> None:

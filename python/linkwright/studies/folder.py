@@ -78,10 +78,8 @@ class SweepFolder:
 
     def is_done(self, number: int) -> bool:
         """Whether a file is there and whole."""
-        start, stop = self.rows_of(number)
-        return self.part(number).exists() and is_whole(
-            self.part(number), stop - start, self.units, self.about
-        )
+        rows = range(*self.rows_of(number))
+        return self.part(number).exists() and is_whole(self.part(number), rows, self.units, self.about)
 
     def parts(self) -> Iterator[Path]:
         """The files that are there and whole, in their order."""

@@ -72,8 +72,11 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
     return out.getvalue().to_pybytes()  # type: ignore[no-any-return]
 
 
-def is_whole(path: Path, n_rows: int, names: Iterable[str], about: bytes) -> bool:
-    """Whether a file holds rows of a study, with its columns: not if it is cut off, damaged, or another's."""
+def is_whole(path: Path, rows: range, names: Iterable[str], about: bytes) -> bool:
+    """Whether a file holds these rows of a study, with its columns.
+
+    It does not if it is cut off, damaged, another study's, or has other rows of this one.
+    """
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -82,11 +85,15 @@ def is_whole(path: Path, n_rows: int, names: Iterable[str], about: bytes) -> boo
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
             metadata = file.schema_arrow.metadata or {}
-            if file.metadata.num_rows != n_rows or metadata.get(KEY) != about:
+            if file.metadata.num_rows != len(rows) or metadata.get(KEY) != about:
                 return False
             # Names and counts stand outside of the pages, which alone have checksums.
             _counts(metadata)
-            return list(file.read().column_names) == ["row", *names, "status", "reason", "fast_starts"]
+            table = file.read()
+            named = ["row", *names, "status", "reason", "fast_starts"]
+            return table.column_names == named and np.array_equal(
+                _as_array(table.column("row")), np.arange(rows.start, rows.stop)
+            )
     except (pa.ArrowException, OSError, ValueError):
         return False
 

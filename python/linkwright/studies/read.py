@@ -65,7 +65,7 @@ def read_study(
     InputError
         An override is malformed.
     """
-    place = _found(Path(path))
+    place = study_file(Path(path))
     text = _text(place)
     tables = tables_of(text, str(place))
     is_machine = isinstance(tables.get(TABLE), Mapping)
@@ -113,7 +113,7 @@ def new_study(machine: Machine, tables: Mapping[str, Any]) -> StudyPlan:
     return plan(machine, StudyFile.model_validate(dict(tables)))
 
 
-def _found(path: Path) -> Path:
+def study_file(path: Path) -> Path:
     """The file; of a name alone that is no file, the study of the example."""
     is_name = path == Path(path.name) and not path.suffix and not path.exists()
     return studies().get(path.name, path) if is_name else path

@@ -27,7 +27,7 @@ from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
 
 # Motors of the catalogue that are considered, from the smallest with sufficient power on.
-_MOTORS = 4
+_MOTORS = 6
 
 # Range of the ratio about rated over design speed, and of the flywheel about that of the present motor.
 _RATIOS, _FLYWHEELS = (0.85, 1.15), (0.01, 4.0)
@@ -257,11 +257,12 @@ def _motors(machine: Machine, power: float) -> list[CatalogueMotor]:
         raise InputError(f"{machine.name}: no motor of the catalogue has {power / 1e3:.4g} kW")
     wanted = drive.speed * drive.gearbox.ratio
     poles = min(suited, key=lambda motor: abs(motor.speed_rated - wanted)).poles
-    powers: dict[float, CatalogueMotor] = {}
-    for motor in sorted(suited, key=lambda motor: motor.power_rated):
+    # A motor whose data are worked out by several methods is one of a power.
+    powers: dict[str, CatalogueMotor] = {}
+    for motor in sorted(suited, key=lambda motor: -motor.power_rated):
         if motor.poles == poles:
-            powers.setdefault(motor.power_rated, motor)
-    return list(powers.values())[:_MOTORS]
+            powers.setdefault(f"{motor.power_rated:.2g}", motor)
+    return sorted(powers.values(), key=lambda motor: motor.power_rated)[:_MOTORS]
 
 
 def _one(name: str | None, known: Collection[str], what: str) -> str:

@@ -136,14 +136,16 @@ def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: 
     """The file of the record; one that a study names lies in its folder."""
     from linkwright.kernel.errors import InputError
     from linkwright.kernel.files.points import require_below
+    from linkwright.studies.read import study_file
 
     if record is not None:
         return record
     own = plan.study.fit.record if plan.study.fit is not None else None
     if own is None:
         raise InputError("--record: found nothing, expected a file with what was measured")
-    require_below(file.parent / own, file.parent, own, "fit.record", allow_outside=allow_outside)
-    return file.parent / own
+    folder = study_file(file).parent
+    require_below(folder / own, folder, own, "fit.record", allow_outside=allow_outside)
+    return folder / own
 
 
 def _head(name: str, fitted: Fit) -> str:

@@ -79,9 +79,9 @@ def optimise(
 
 
 def hand_over_optimum(
-    plan: StudyPlan, options: dict[str, Any], *, json: bool, out: Path | None, force: bool
+    plan: StudyPlan, options: dict[str, Any], *, json: bool, out: Path | None, force: bool, untried: str = ""
 ) -> None:
-    """The best machine of a study, or why there is none."""
+    """The best machine of a study, or why there is none, with what was left `untried`."""
     from linkwright.machine.write import dumps
     from linkwright.studies.optimise import optimise as compute
     from linkwright.studies.tables import optimum_tables
@@ -89,7 +89,7 @@ def hand_over_optimum(
     try:
         optimum = compute(plan, **options)
     except FindingError as error:
-        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
+        hand_over(Answer(machine=plan.machine.name, findings=[f"{error}{untried}"]), json=json)
         return
     answer = Answer(
         machine=plan.machine.name,
