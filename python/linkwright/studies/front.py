@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -116,22 +117,11 @@ def front(
     check(_of_one(plan, first, second, None), evaluations, method, starts)
     with closing(SearchLog(plan, None if log is None else Path(log))) as known:
 
-        def sought(goal: str, other: str, limit: float | None = None) -> Optimum:
+        def sought(goal: str, other: str, limit: float | None) -> Optimum:
             study = _of_one(plan, goal, other, limit)
             return searched(study, evaluations, known, seed, method, starts)
 
-        def end(goal: str, other: str) -> Optimum:
-            """The best by one goal, and of those that are as good the best by the other."""
-            best = sought(goal, other)
-            value = best.responses[goal]
-            try:
-                also = sought(other, goal, value + signs[goal] * _GIVEN * abs(value))
-            except FindingError:
-                return best
-            gained = signs[other] * (best.responses[other] - also.responses[other])
-            return also if gained > _GIVEN * abs(best.responses[other]) else best
-
-        ends = end(first, second), end(second, first)
+        ends = _end(sought, first, second, signs), _end(sought, second, first, signs)
         optimums, failed = list(ends), {}
         for limit in np.linspace(ends[0].responses[second], ends[1].responses[second], points)[1:-1]:
             try:
@@ -146,6 +136,20 @@ def front(
         known.count,
         dict(sum((Counter(optimum.one_by_one) for optimum in optimums), start=Counter[str]()).most_common()),
     )
+
+
+def _end(
+    sought: Callable[[str, str, float | None], Optimum], goal: str, other: str, signs: Mapping[str, float]
+) -> Optimum:
+    """The best by one goal, and of those that are as good the best by the other."""
+    best = sought(goal, other, None)
+    value = best.responses[goal]
+    try:
+        also = sought(other, goal, value + signs[goal] * _GIVEN * abs(value))
+    except FindingError:
+        return best
+    gained = signs[other] * (best.responses[other] - also.responses[other])
+    return also if gained > _GIVEN * abs(best.responses[other]) else best
 
 
 def _of_one(plan: StudyPlan, goal: str, other: str, limit: float | None) -> StudyPlan:
