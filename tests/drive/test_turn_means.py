@@ -220,3 +220,12 @@ def test_cyclic_load_factor_is_one_over_time() -> None:
     mean = np.trapezoid(found.torque_motor, found.time) / found.period
     square = np.trapezoid(found.torque_motor**2, found.time) / found.period
     assert found.cyclic_load_factor == pytest.approx(np.sqrt(square) / mean, rel=1e-6)
+
+
+@pytest.mark.parametrize("count", [4000, 5000])
+def test_more_kinks_than_open_pieces(count: int) -> None:
+    """A table of 0.1 deg and less: every interval is a piece to begin with."""
+    kinks = np.linspace(0.0, 2 * np.pi, count + 1)
+    found = turn_curve(lambda phi: np.abs(np.sin(phi * count / 2))[None], kinks, "arches")
+    # Each arch has the mean 2/π.
+    assert found.mean()[0] == pytest.approx(2 / np.pi, rel=1e-9)

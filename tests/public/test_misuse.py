@@ -488,3 +488,26 @@ def test_no_inertia_in_a_dwell_is_said_without_a_warning() -> None:
     valve = lw.read("examples/cam_oscillating_valve/machine.toml")
     with _strict(), pytest.raises(SteadyStateError, match="reduced inertia is zero"):
         lw.constant_energy(valve)
+
+
+@pytest.mark.parametrize("angles", [[7.0], [-1.0], [1.0, 0.5], [0.0, 100.0]])
+def test_curves_of_a_cycle_are_asked_for_within_it(angles: list[float]) -> None:
+    """Beyond its ends the series of a solution are any number."""
+    with pytest.raises(InputError, match=r"angles: found .* from 0 to 6\.28319 rad, increasing"):
+        lw.steady_state(lw.read("roller_one_cart"), angles=np.array(angles))
+
+
+MISUSES = {
+    "angles beside a motion": lambda m: lw.forces(m, lw.steady_state(m), angles=[1.0]),
+    "a plane beyond any machine": lambda m: lw.balance(m, links=["A"], planes=[1e300]),
+    "no speeds": lambda m: lw.mechanism_harmonics(m, speed=[], orders=1.0),
+    "no speeds of damping": lambda m: lw.station_damping(m, speed=[]),
+    "a law that is a text": lambda m: lw.motion(m, lambda t: "a", [1.0, 2.0]),
+    "a measured curve that is a number": lambda _: lw.torsion_study(lw.read("v8_diesel"), measured={"a": 1}),
+}
+
+
+@pytest.mark.parametrize("misuse", MISUSES)
+def test_misuses_are_named(misuse: str) -> None:
+    with pytest.raises(InputError):
+        MISUSES[misuse](lw.read("roller_one_cart"))

@@ -87,6 +87,11 @@ def run_up_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     return Derivatives(along.variables, kept, {}, missing, along.refused, lost)
 
 
+# Where the speed at the start of a run-down is read [rad]: at the angle itself its derivative is that along a
+# kink that may lie there and moves, while the run-down starts where it did.
+_START = 1e-9
+
+
 def run_down_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of `run_down` with their derivatives by some entries.
 
@@ -98,7 +103,7 @@ def run_down_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives
     state, solution, _ = solved_along(machine, running)
     down = accurate_run_down(machine, float(state.speed[0]), _ACCURACY)
     gradient = gradient_along(machine, solution, running)
-    start = np.stack([np.zeros(len(running.variables)), gradient.curves(np.zeros(1)).speed[0]])
+    start = np.stack([np.zeros(len(running.variables)), gradient.curves(np.array([_START])).speed[0]])
     compiled = compile_machine(machine, motor=False, brake=True)
     moved = _moved(compiled, coasting, start, down.motion, [down.time])
     later = -moved.speed[0] / moved.acceleration[0]

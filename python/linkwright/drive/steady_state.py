@@ -299,7 +299,7 @@ def steady_state(
     ConvergenceError
         The accuracy was not reached.
     InputError
-        The machine has no motor.
+        The machine has no motor; angles are outside the cycle, or do not increase.
 
     Notes
     -----
@@ -309,7 +309,19 @@ def steady_state(
     ----------
     .. [1] Paper 1, equation (1) for the motion, (13)–(15) for the measures.
     """
+    if angles is not None:
+        _require_within_cycle(machine, angles)
     return solved_state(machine, accuracy, n if angles is None else angles)[0]
+
+
+def _require_within_cycle(machine: Machine, angles: Floats) -> None:
+    """Refuse crank angles that the curves of a cycle do not have."""
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    cycle = 2 * np.pi * over_whole_cycle(compiled).turns
+    if angles.min() < 0 or angles.max() > cycle * (1 + 1e-12) or (np.diff(angles) < 0).any():
+        found = f"{angles.min():.6g} to {angles.max():.6g} rad"
+        raise InputError(f"angles: found {found}, expected them from 0 to {cycle:.6g} rad, increasing")
 
 
 def require_accuracy(accuracy: float) -> None:

@@ -161,6 +161,7 @@ def _checked_planes(planes: Sequence[float]) -> Sequence[float]:
     if len(planes) not in (1, 2) or len(set(planes)) < len(planes) or not np.isfinite(planes).all():
         found = ", ".join(f"{plane:.6g} m" for plane in planes) or "none"
         raise InputError(f"planes: found {found}, expected one plane, or two that are apart")
+    in_range(planes=(planes, Quantity(LENGTH)))
     return planes
 
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import ANGLE, Bound, Quantity
@@ -106,6 +107,8 @@ def forces(
     .. [1] Norton, Design of Machinery, chapter 11.
     """
     in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
+    if motion is not None and angles is not None:
+        raise InputError("angles: found them beside a motion, which has its own; leave them out")
     scene = Scene(
         machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
     )

@@ -205,6 +205,8 @@ class FunctionLaw:
             # Where the law has no value or is beyond all numbers, `motion` says when.
             with np.errstate(all="ignore"):
                 return variable._like(self.function(variable)).derivatives
+        except ValueError as error:
+            raise ShapeError(f"the law gives what is no angle: {error}") from None
         except TypeError as error:
             raise ShapeError(
                 f"the law uses a function without a known derivative ({error}); write it with arithmetic and "

@@ -183,9 +183,10 @@ def motion_along(
 
 
 def _rates(position: Floats, part: Any, rates: Floats) -> Path:
-    """The chain rule up to the acceleration."""
+    """The chain rule up to the acceleration; infinite where the part stands at the limit of its range."""
     w, a = rates
-    return Path(position, part.d1 * w, part.d2 * w**2 + part.d1 * a)
+    with np.errstate(invalid="ignore", over="ignore"):
+        return Path(position, part.d1 * w, part.d2 * w**2 + part.d1 * a)
 
 
 def _path(position: Floats, point: Any, rates: Floats) -> Path:

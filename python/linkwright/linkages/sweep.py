@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.linkages.closure import Closure
 from linkwright.linkages.dyads import (
@@ -190,6 +191,11 @@ class LinkageSweep:
         if not len(at) or not cycle.repeats:
             at = np.concatenate([at, cycle.ends, cycle.angles[[0, -1]]])
         values = self.positions(k, at)
+        if np.isnan(values).all():
+            raise FindingError(
+                f"{output.name} moves over no angle: its mechanism closes within a range as narrow as "
+                "rounding; change its lengths"
+            )
         low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
         ratio = time_ratio(at, values, cycle.span) if cycle.repeats else None
         angles = self.cycle.named(at[low]), self.cycle.named(at[high])

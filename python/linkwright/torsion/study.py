@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import FindingError, InputError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord, Result
@@ -277,6 +277,9 @@ def torsion_study(
     moved = None
     if machine.train is not None and machine.train.transient is not None:
         moved = torsion_transient(machine)
+    for name, curve in (measured or {}).items():
+        if not isinstance(curve, MeasuredResponse):
+            raise InputError(f"measured.{name}: found {show(curve)}, expected what read_measured reads")
     curves = {**({} if machine.train is None else machine.train.measured), **(measured or {})}
     if not is_excited(machine):
         if curves:

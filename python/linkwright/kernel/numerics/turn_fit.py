@@ -56,7 +56,8 @@ _ROUNDING = 40.0
 # Width [rad] of a piece that holds a jump: what is left of it counts for nothing in an integral.
 _NARROW = 1e-13
 
-# Open pieces at most: jumps and kinks take one each, a quantity without any smoothness takes all.
+# Open pieces at most, besides those to begin with: jumps and kinks take one each, a quantity without any
+# smoothness takes all.
 _PIECES_MAX = 4096
 
 # Error of a mean over the mean size beyond which there is no answer: two digits better than the loads of any
@@ -94,6 +95,7 @@ class _Fit:
             np.concatenate([np.linspace(a, b, n, endpoint=False) for a, b, n in spans]), kinks[-1]
         )
         self.low, self.high = ends[:-1], ends[1:]
+        self.most = len(self.low) + _PIECES_MAX
         values = self._values(self.low, self.high)
         self.peak = np.abs(values).max(axis=(0, 2))
         self.size = _size(values, self.low, self.high)
@@ -102,7 +104,7 @@ class _Fit:
     @property
     def is_open(self) -> bool:
         """Whether pieces are left that are not good enough, and there is room for their halves."""
-        return 0 < len(self.low) <= _PIECES_MAX
+        return 0 < len(self.low) <= self.most
 
     def halve(self) -> None:
         """Compare all open pieces with the values of their halves; keep the halves of those that agree."""

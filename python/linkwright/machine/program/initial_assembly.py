@@ -20,11 +20,11 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.arrays import Floats, Integers
-from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.machine.program.change_points import folding, in_line, stored, undecided, undecided_error
 from linkwright.machine.program.mechanism import MechanismProgram
-from linkwright.machine.program.motion import link_motion, motion, point_motion
+from linkwright.machine.program.motion import WIDTHS, link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
 
@@ -95,6 +95,9 @@ _JUST_AFTER = 1e-7
 
 # A joint's place this near to the line of its bars, over their length, says nothing of its side.
 _IN_LINE = 1e-9
+
+# Places of a joint closer than this, over the farthest place of its group, are one.
+_SAME_PLACE = 1e-6
 
 # A whole number of revolutions is one to this.
 _WHOLE = 1e-6
@@ -170,31 +173,46 @@ class InitialAssembly:
     # -- sides -------------------------------------------------------------------------------------------
 
     def _side(self, pending: Side) -> None:
-        """Left of the line from pin to pivot, or ahead along the guide."""
-        at = np.array([self.assembled_at])
-        joint = self.program.mechanism.joints[pending.joint]
-        x, y = self._place(pending.pin, at)[:, 0]
-        to = np.array([_first(joint.x) - x, _first(joint.y) - y])
+        """Left of the line from pin to pivot, or ahead along the guide; each machine by itself."""
+        x, y = self._assembled(_core.Channel.Point(pending.pin))[:2]
+        to = np.stack([column - pin for column, pin in zip(self._drawn(pending.joint), (x, y), strict=True)])
         if pending.pivot is not None:
-            u, v = self._place(pending.pivot, at)[:, 0] - (x, y)
-            side = (u * to[1] - v * to[0]) / max(np.hypot(u, v), 1e-300)
+            u, v = self._assembled(_core.Channel.Point(pending.pivot))[:2] - (x, y)
+            side = (u * to[1] - v * to[0]) / np.maximum(np.hypot(u, v), 1e-300)
         else:
             assert pending.guide is not None
             link, angle = pending.guide
-            cos, sin = (1.0, 0.0) if link is None else self._direction(link, at)[:, 0]
-            direction = np.array(
-                [cos * np.cos(angle) - sin * np.sin(angle), sin * np.cos(angle) + cos * np.sin(angle)]
-            )
-            side = float(direction @ to)
-        if abs(side) <= _IN_LINE * float(np.hypot(*to)):
+            cos, sin = (1.0, 0.0) if link is None else self._assembled(_core.Channel.Link(link))[:2]
+            side = (cos * np.cos(angle) - sin * np.sin(angle)) * to[0]
+            side += (sin * np.cos(angle) + cos * np.sin(angle)) * to[1]
+        is_known = np.abs(side) > _IN_LINE * np.hypot(*to)
+        if not is_known[0]:
             raise AssemblyError(
                 f"the joint {pending.joint} is given in line with what holds it, so its side is not known; "
                 "give its place at another crank angle (assembled_at), or a little aside",
                 element=pending.joint,
                 crank_angle=self.assembled_at,
             )
-        self.parameters[pending.slot] = 1.0 if side > 0 else -1.0
+        # A machine of a batch whose side is not known has no answer, and shows it.
+        signs = np.where(is_known, np.sign(side), np.nan)
+        if (signs == signs[0]).all():
+            self.parameters[pending.slot] = signs[0]
+        else:
+            self._change(pending.slot, signs)
         self.given_at[pending.slot] = self.assembled_at
+
+    def _drawn(self, name: str) -> tuple[Floats, Floats]:
+        """Where a joint is drawn, in every machine."""
+        joint = self.program.mechanism.joints[name]
+        x, y = (np.ravel(primal(place)) for place in (joint.x, joint.y))
+        return x, y
+
+    def _assembled(self, channel: _core.Channel) -> Floats:
+        """What the core says of a point or a link where the mechanism is assembled, (numbers, machines)."""
+        out = np.empty((self.values.shape[1], WIDTHS[type(channel)], 1))
+        at = np.array([self.assembled_at])
+        _core.motions(self.plan, self.parameters, self.slots, self.values, at, [channel], out)
+        return out[:, :, 0].T
 
     # -- continuous angles -------------------------------------------------------------------------------
 
@@ -230,7 +248,7 @@ class InitialAssembly:
         line = in_line(self.plan, self.parameters, *self._mechanisms(), dyad.element)
         if not any(line):
             return
-        signs = np.array([self._sign(dyad, points) for points in line])
+        signs = np.array([self._sign(dyad, points, row) for row, points in enumerate(line)])
         for row, points in enumerate(line):
             at = undecided(points, signs[row])
             if at is not None and len(line) == 1:
@@ -246,14 +264,18 @@ class InitialAssembly:
             return self.slots, self.values
         return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
-    def _sign(self, dyad: Foldable, points: list[_core.InLine]) -> float:
+    def _sign(self, dyad: Foldable, points: list[_core.InLine], row: int) -> float:
         """The side of a dyad where the product of half-angle sines is positive."""
-        # A side that varies from row to row does not exist.
-        wanted = self.parameters[dyad.sign]
+        wanted = self._side_of(dyad.sign, row)
         given_at = self.given_at.get(dyad.sign, _JUST_AFTER)
         return float(
             wanted * np.sign(np.prod([np.sin((given_at - point.crank_angle) / 2) for point in points]))
         )
+
+    def _side_of(self, slot: int, row: int) -> float:
+        """The side of a dyad in a machine."""
+        varied = np.flatnonzero(self.slots == slot)
+        return float(self.values[varied[0], row] if len(varied) else self.parameters[slot])
 
     def _give_change_points(self, dyad: Foldable, lines: list[list[_core.InLine]], signs: Floats) -> None:
         """Turns a dyad into one with change points."""
@@ -277,6 +299,8 @@ class InitialAssembly:
         """Sets a parameter that did not vary until now."""
         self.parameters[slot] = column[0]
         if len(column) > 1:
+            # Places of joints are no parameters: where they alone vary nothing did until now.
+            self.values = np.broadcast_to(self.values, (len(self.values), len(column)))
             self.slots = np.append(self.slots, np.int32(slot))
             self.values = np.concatenate([self.values, column[None]])
 
@@ -302,6 +326,14 @@ class InitialAssembly:
         # The last angle of a motion that repeats is the first again.
         knots = (phi / cycle).tolist()
         self.parameters[pending.inverse_turns] = 1.0 / cycle
+        starts = [table(knots, place) for joint in zip(path.x, path.y, strict=True) for place in joint]
+        self._start_group(pending, starts, repeats=turns is not None)
+        self._require_one_place(pending)
+        if self.values.shape[1] > 1:
+            self._compare_groups(pending, near, starts, repeats=turns is not None)
+
+    def _start_group(self, pending: PendingGroup, starts: list[_core.Table], *, repeats: bool) -> None:
+        """Goes on with a group whose closure starts from tables over its cycle."""
         group = self.program.elements[pending.element]
         assert isinstance(group, _core.Element.Group)
         self.program.elements[pending.element] = _core.Element.Group(
@@ -310,11 +342,50 @@ class InitialAssembly:
             bar_points=group.bar_points,
             bars=group.bars,
             conditions=group.conditions,
-            starts=[table(knots, place) for joint in zip(path.x, path.y, strict=True) for place in joint],
+            starts=starts,
             inverse_turns=group.inverse_turns,
-            repeats=turns is not None,
+            repeats=repeats,
         )
         self._changed(self.make_plan())
+
+    def _compare_groups(
+        self, pending: PendingGroup, near: Floats, starts: list[_core.Table], *, repeats: bool
+    ) -> None:
+        """Machines of a batch start from the motion of the first: none may be assembled otherwise.
+
+        One that does not close near its given places has no answer, as alone.
+        """
+        followed = self._group_places(pending)
+        self._start_group(pending, [table([0.0, 1.0], [place, place]) for place in near], repeats=repeats)
+        alone = self._group_places(pending)
+        self._start_group(pending, starts, repeats=repeats)
+        lost = np.isnan(alone).any(axis=0)
+        # A NaN is not below the limit: from the motion of the first no way may lead there.
+        apart = ~lost & ~(np.abs(followed - alone).max(axis=0) <= _SAME_PLACE * np.abs(near).max())
+        if apart.any():
+            row = int(np.argmax(apart))
+            raise InputError(
+                f"row {row}: the joints {' and '.join(pending.names)} are assembled otherwise than in the "
+                "first machine; compute such machines one by one"
+            )
+        if lost.any():
+            self._change(
+                pending.inverse_turns, np.where(lost, np.nan, self.parameters[pending.inverse_turns])
+            )
+
+    def _require_one_place(self, pending: PendingGroup) -> None:
+        """Refuse places that vary: they decide how a machine is assembled, which a batch has in common."""
+        for name in pending.names:
+            if any((place != place[0]).any() for place in self._drawn(name)):
+                raise InputError(
+                    f"mechanism.joints.{name}: its place decides how a machine is assembled; compute "
+                    "machines that differ in it one by one"
+                )
+
+    def _group_places(self, pending: PendingGroup) -> Floats:
+        """Where the joints of a group are when it is assembled, (2 joints, machines)."""
+        points = [self.program.points[name] for name in pending.names]
+        return np.concatenate([self._assembled(_core.Channel.Point(point))[:2] for point in points])
 
     # -- redundant bars ----------------------------------------------------------------------------------
 
