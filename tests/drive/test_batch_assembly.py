@@ -51,7 +51,7 @@ drag = {{ kind = "viscous", on = "D", damping = 200 }}
 
 
 def alone(machine: lw.Machine, entries: dict[str, np.ndarray], row: int) -> float | None:
-    """The greatest speed of one machine by itself; None if it has no answer."""
+    """The maximum speed of one machine by itself; None if it has no answer."""
     try:
         own = lw.replace(machine, {address: float(column[row]) for address, column in entries.items()})
         return lw.steady_state(own).speed_max

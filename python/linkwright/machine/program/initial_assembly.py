@@ -351,10 +351,7 @@ class InitialAssembly:
     def _compare_groups(
         self, pending: PendingGroup, near: Floats, starts: list[_core.Table], *, repeats: bool
     ) -> None:
-        """Machines of a batch start from the motion of the first: none may be assembled otherwise.
-
-        One that does not close near its given places has no answer, as alone.
-        """
+        """Refuse machines that are assembled otherwise than the first, from whose motion all start."""
         followed = self._group_places(pending)
         self._start_group(pending, [table([0.0, 1.0], [place, place]) for place in near], repeats=repeats)
         alone = self._group_places(pending)
