@@ -22,3 +22,13 @@ def test_ends_without_a_word(words: tuple[str, ...]) -> None:
     program.stderr.close()
     assert program.wait() == 141
     assert told == b""
+
+
+@pytest.mark.parametrize(("words", "code"), [("run roller_one_cart >&-", 0), ("run no_such_file 2>&-", 2)])
+def test_a_stream_that_was_closed_before_is_no_error(words: str, code: int) -> None:
+    """The exit code tells what nobody hears."""
+    done = subprocess.run(
+        ["sh", "-c", f"{sys.executable} -m linkwright {words}"], capture_output=True, check=False
+    )
+    assert done.returncode == code
+    assert b"Traceback" not in done.stdout + done.stderr

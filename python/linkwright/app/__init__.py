@@ -61,6 +61,10 @@ def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
         _leave_out()
+        # A stream that the caller has closed takes nothing; the exit code still tells.
+        for name in ("stdout", "stderr"):
+            if getattr(sys, name) is None:
+                setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")

@@ -480,7 +480,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// where it was read is off by millionths of a step, over which the derivative may change much where inertia does.
     #[inline(always)]
     fn peak_of_speed(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let phi = self.from_before(extreme.phi);
+        let phi = self.turned_back(extreme.phi);
         let [low, high] = self.step_around(phi);
         let there = self.state(phi, m).1;
         // A corner is where it is.
@@ -538,7 +538,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
 
     /// The end of the revolution for its start: the step before an end moves with it, and before the first lies the last.
     #[inline(always)]
-    fn from_before(&self, phi: f64) -> f64 {
+    fn turned_back(&self, phi: f64) -> f64 {
         if phi - self.marked(0) < AT_END { self.marked(self.marks.len()) } else { phi }
     }
 
@@ -565,7 +565,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
     #[inline(always)]
     fn corner(&self, edge: usize, value: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let before = self.state(self.from_before(self.marked(edge)), m).1.epsilon;
+        let before = self.state(self.turned_back(self.marked(edge)), m).1.epsilon;
         let behind = self.start_of(edge % self.turn.steps.len(), m);
         let far = |side: Dual<R>| (side.value - value).abs().max_lane();
         // Where it is continuous rounding has no say.
