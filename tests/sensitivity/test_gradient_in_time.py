@@ -213,3 +213,15 @@ def test_a_run_up_within_no_angle_has_the_derivatives_of_any(address: str) -> No
     difference = (times[1] - times[0]) / (2 * step * at)
     # The motion is known to 1e-12 of its time: 1e-7 of what the step changes.
     assert abs(found.derivatives[0, 0] - difference) < 3e-7 * abs(difference)
+
+
+def test_a_run_down_that_starts_on_a_joint_of_a_cam_starts_where_it_did() -> None:
+    """At 0 deg, where the law begins: by the phase of the cam the joint moves, and the start does not."""
+    machine, phase, step = lw.read("roller_cam"), "mechanism.cams.cart.phase", 1e-5
+    names = ["time", "turns", "angle_end"]
+    found = lw.gradient(machine, [f"run_down.{name}" for name in names], [phase])
+    at = lw.get(machine, phase)
+    ahead, behind = (lw.run_down(lw.replace(machine, {phase: at + side * step})) for side in (1, -1))
+    wanted = [(getattr(ahead, name) - getattr(behind, name)) / (2 * step) for name in names]
+    # Run-downs are computed to 1e-9, which the step divides.
+    assert found.derivatives[:, 0] == pytest.approx(wanted, rel=3e-4)
