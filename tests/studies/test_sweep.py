@@ -121,6 +121,16 @@ def test_a_place_that_a_list_does_not_have_is_refused(
         lw.read_study(study_file(change, ("chunk = 4", 'method = "list"\nfile = "rows.csv"')))
 
 
+def test_values_of_a_list_outside_the_range_are_refused(study_file: Files, tmp_path: Path) -> None:
+    """80 of a head without a unit are radians."""
+    listed = ("chunk = 4", 'method = "list"\nfile = "rows.csv"')
+    (tmp_path / "rows.csv").write_text("phase [deg],mass\n80,1000\n")
+    assert lw.read_study(study_file(listed)).n_rows == 1
+    (tmp_path / "rows.csv").write_text("phase,mass\n1,1000\n80,1000\n")
+    with pytest.raises(InputError, match=r"rows\.csv: column phase, row 1: found 80 rad, expected 0\.785"):
+        lw.read_study(study_file(listed))
+
+
 def test_a_list_names_texts_among_values(study_file: Files, tmp_path: Path) -> None:
     change = (
         'address = "mechanism.cranks.A2.phase"\nrange = ["45 deg", "135 deg"]\nsteps = 5',

@@ -200,6 +200,8 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     if listed is not None:
         for nth, variable in enumerate(axes):
             require_places(variable, listed[:, nth], f"{study.sweep.file}: column {variable.name}")
+            if study.variables[variable.name].range is not None:
+                _require_in_range(variable, listed[:, nth], f"{study.sweep.file}: column {variable.name}")
     ready = StudyPlan(machine, study, axes, derived, responses, formulas, dict(limits), listed)
     _check_rows(ready)
     # Numbers do not make lists longer; other tables may.
@@ -208,6 +210,18 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     if problems:
         raise MachineError(problems)
     return ready
+
+
+def _require_in_range(axis: Axis, values: Floats, what: str) -> None:
+    """Refuse values of a list outside the range of their variable, as degrees under a head without unit."""
+    outside = np.flatnonzero((values < axis.low) | (values > axis.high))
+    if len(outside):
+        row, unit = int(outside[0]), f" {axis.unit}".rstrip()
+        expected = f"{axis.low:.6g} to {axis.high:.6g}{unit}, the range of the variable"
+        raise InputError(
+            f"{what}, row {row}: found {values[row]:.6g}{unit}, expected {expected}; a unit stands in the head of "
+            "a column, as in phase [deg]"
+        )
 
 
 def _lost_points(machine: Machine, study: StudyFile) -> Iterable[Problem]:
