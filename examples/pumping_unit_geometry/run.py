@@ -57,9 +57,3 @@ def figure(machine: lw.Machine):
     axes.set(xlabel="saddle bearing in front of the crankshaft I [in]", ylabel="torque factor at 1.41 m [m]")
     axes.legend()
     return drawing
-
-
-if __name__ == "__main__":
-    example = lw.read(HERE / "machine.toml")
-    print(*(f"{name:12} {value:.6g}" for name, value in study(example).items()), sep="\n")
-    figure(example).savefig(HERE / "figure.png", dpi=120)

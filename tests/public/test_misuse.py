@@ -490,10 +490,10 @@ def test_no_inertia_in_a_dwell_is_said_without_a_warning() -> None:
         lw.constant_energy(valve)
 
 
-@pytest.mark.parametrize("angles", [[7.0], [-1.0], [1.0, 0.5], [0.0, 100.0]])
+@pytest.mark.parametrize("angles", [[7.0], [-1.0], [0.0, 100.0]])
 def test_curves_of_a_cycle_are_asked_for_within_it(angles: list[float]) -> None:
     """Beyond its ends the series of a solution are any number."""
-    with pytest.raises(InputError, match=r"angles: found .* from 0 to 6\.28319 rad, increasing"):
+    with pytest.raises(InputError, match=r"angles: found .* from 0 to 6\.28319 rad"):
         lw.steady_state(lw.read("roller_one_cart"), angles=np.array(angles))
 
 
