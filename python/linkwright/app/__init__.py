@@ -20,7 +20,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from io import TextIOWrapper
+from io import StringIO, TextIOWrapper
 from types import ModuleType
 
 from linkwright.kernel.command.interrupt import Interrupts
@@ -64,7 +64,7 @@ def main() -> None:
         # A stream that the caller has closed takes nothing; the exit code still tells.
         for name in ("stdout", "stderr"):
             if getattr(sys, name) is None:
-                setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115
+                setattr(sys, name, StringIO())
         # Names may hold letters that the terminal has not; they are no reason to fail.
         if isinstance(sys.stdout, TextIOWrapper):
             sys.stdout.reconfigure(errors="backslashreplace")
