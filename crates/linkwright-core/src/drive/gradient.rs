@@ -598,8 +598,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         let k = self.steps_before(phi);
         let step = &self.turn.steps[k];
         let ends_here = (self.marked(k + 1) - phi).abs() < AT_END;
-        // A part of no length would keep the derivatives of its start, which may move.
-        let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi.max(self.marked(k) + AT_END)) };
+        let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
         let h = to - step.phi;
         let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
         self.machine.advance_near(step.phi, step.u, h, near, m)
