@@ -248,7 +248,10 @@ class InitialAssembly:
         line = in_line(self.plan, self.parameters, *self._mechanisms(), dyad.element)
         if not any(line):
             return
-        signs = np.array([self._sign(dyad, points, row) for row, points in enumerate(line)])
+        sides = np.broadcast_to(self._column(dyad.sign), len(line))
+        signs = np.array(
+            [self._sign(dyad, points, side) for points, side in zip(line, sides.tolist(), strict=True)]
+        )
         for row, points in enumerate(line):
             at = undecided(points, signs[row])
             if at is not None and len(line) == 1:
@@ -264,18 +267,17 @@ class InitialAssembly:
             return self.slots, self.values
         return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
-    def _sign(self, dyad: Foldable, points: list[_core.InLine], row: int) -> float:
-        """The side of a dyad where the product of half-angle sines is positive."""
-        wanted = self._side_of(dyad.sign, row)
+    def _sign(self, dyad: Foldable, points: list[_core.InLine], wanted: float) -> float:
+        """The side of a dyad, `wanted` at `given_at`, where the product of half-angle sines is positive."""
         given_at = self.given_at.get(dyad.sign, _JUST_AFTER)
         return float(
             wanted * np.sign(np.prod([np.sin((given_at - point.crank_angle) / 2) for point in points]))
         )
 
-    def _side_of(self, slot: int, row: int) -> float:
-        """The side of a dyad in a machine."""
+    def _column(self, slot: int) -> Floats:
+        """A parameter in all machines, or the one that they have in common."""
         varied = np.flatnonzero(self.slots == slot)
-        return float(self.values[varied[0], row] if len(varied) else self.parameters[slot])
+        return self.values[varied[0]] if len(varied) else self.parameters[slot : slot + 1]
 
     def _give_change_points(self, dyad: Foldable, lines: list[list[_core.InLine]], signs: Floats) -> None:
         """Turns a dyad into one with change points."""
@@ -308,8 +310,7 @@ class InitialAssembly:
 
     def _follow(self, pending: PendingGroup) -> None:
         """Follows a group over the revolution from where it is assembled."""
-        joints = [self.program.mechanism.joints[name] for name in pending.names]
-        near = np.array([_first(value) for joint in joints for value in (joint.x, joint.y)])
+        near = np.array([place[0] for name in pending.names for place in self._drawn(name)])
         path = _core.follow_group(self.plan, self.parameters, pending.element, self.assembled_at, near)
         if path is None:
             names = " and ".join(pending.names)
