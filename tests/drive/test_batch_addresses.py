@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from random_drives import random_drive
 
 import linkwright as lw
 from linkwright.drive.model.motor import ConstantSpeedMotor
@@ -138,3 +139,56 @@ def test_a_row_that_fails_leaves_the_bits_of_its_neighbours(rod: float) -> None:
     for name in ("speed_min", "speed_max", "acceleration_max", "torque_motor_rms"):
         others = [np.delete(getattr(each, name), 17) for each in (sound, found)]
         np.testing.assert_array_equal(*others, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "value"),
+    [
+        # Too heavy for the motor.
+        ("roller_two_carts", "loads.rolling1.force", 1e5),
+        ("roller_four_carts", 'bodies."cart2.rod".mass_per_length', 8e5),
+        ("roller_one_cart", "loads.gravity.acceleration", 981.0),
+        # Slow enough to pass the breakdown of its motor.
+        ("roller_two_carts", 'bodies."cart2.rod".mass_per_length', 640.0),
+        ("roller_three_carts", "drive.gearbox.ratio", 0.0098),
+    ],
+)
+def test_no_row_changes_the_bits_of_another(name: str, address: str, value: float) -> None:
+    machine = lw.read(f"machines/{name}.toml")
+    usual = lw.get(machine, address)
+    values = usual * np.linspace(0.85, 1.2, 21)
+    alone = lw.steady_states(machine, {address: values})
+    values[5] = value
+    beside = lw.steady_states(machine, {address: values})
+    for column in (
+        "speed_min",
+        "speed_max",
+        "acceleration_min",
+        "acceleration_max",
+        "period",
+        "energy_motor",
+    ):
+        others = [np.delete(getattr(each, column), 5) for each in (alone, beside)]
+        np.testing.assert_array_equal(*others, err_msg=column)
+
+
+def test_no_row_changes_the_bits_of_another_whatever_the_machine() -> None:
+    """Random drives: motors, kinks, springs, dry friction; a row far from the others among them."""
+    compared = 0
+    for n in range(40):
+        random = np.random.default_rng([20261128, n])
+        try:
+            machine = lw.Machine.model_validate(random_drive(random))
+            entries = [(address, value) for address, value in lw.addresses(machine).items() if value]
+            address, value = entries[random.integers(len(entries))]
+            values = value * random.uniform(0.7, 1.3, 9)
+            alone = lw.steady_states(machine, {address: values})
+            values[4] = value * 10.0 ** random.choice([-3, -1, 1, 3])
+            beside = lw.steady_states(machine, {address: values})
+        except LinkwrightError:
+            continue
+        compared += 1
+        for column in ("speed_min", "acceleration_max", "period", "multiplier"):
+            others = [np.delete(getattr(each, column), 4) for each in (alone, beside)]
+            np.testing.assert_array_equal(*others, err_msg=f"{n}: {address}: {column}")
+    assert compared > 10

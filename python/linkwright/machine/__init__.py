@@ -5,10 +5,13 @@
 | `tangents` | Exact derivatives of what follows from the entries by plain arithmetic |
 | `address` | Entries by address |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
+| `iso286` | Limit deviations of sizes by classes such as H7 |
 | `overrides` | Overrides |
 | `program/` | From a machine's description to the program of the core |
 | `read` | Read a machine file |
+| `size_limits` | Limits of a size by its tolerance, and by the clearance of a joint |
 | `table` | The entries of a machine as rows of words, each number with its unit |
+| `tolerances` | Tolerances behind the values of entries, and by address |
 | `whole_mechanism` | The whole mechanism of a machine |
 | `write` | Write a machine as a TOML file |
 """

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 from linkwright.drive.model.motor_file import with_motor_of_file
-from linkwright.kernel.description.place import split
+from linkwright.kernel.description.place import join, split
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
 from linkwright.kernel.files.library import library, library_path
 from linkwright.kernel.files.lines import key_lines, line_of
@@ -25,6 +25,7 @@ from linkwright.kernel.units import show
 from linkwright.linkages.model.dxf_points import with_dxf_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all
+from linkwright.machine.tolerances import require_tolerances, with_tolerances
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -146,13 +147,24 @@ def loads_as(
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
+    behind: dict[str, tuple[str, ...]] = {}
     try:
+        if model is Machine:
+            behind = with_tolerances(tables)
         with_motor_of_file(tables, Path(path).parent, allow_outside=allow_outside)
         with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
-        return model.model_validate(tables)
+        described = model.model_validate(tables)
+        if isinstance(described, Machine):
+            require_tolerances(described)
+        return described
     except MachineError as error:
-        raise MachineFileError(_located(error.problems, text, path, places, columns)) from None
+        # A tolerance behind a value stands where the value does.
+        problems = [
+            replace(problem, key=join(behind[problem.key])) if problem.key in behind else problem
+            for problem in error.problems
+        ]
+        raise MachineFileError(_located(problems, text, path, places, columns)) from None
 
 
 def _text(path: Path, expected: str) -> str:

@@ -27,6 +27,7 @@ from linkwright.drive.gradient import steady_tangents
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import InputError, cut
+from linkwright.kernel.findings import Findings
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.machine.machine import Machine
@@ -355,3 +356,20 @@ def analysis_of(response: str) -> str:
         expected = f"one with a derivative, of {', '.join(SOURCES)}"
         raise InputError(f'responses: found "{cut(response)}", expected {expected}')
     return name
+
+
+# Analyses of a motion in which forces keep contacts.
+_IN_CONTACT = ("steady_state", "forces", "cam_force")
+
+
+def lost_contacts(machine: Machine, responses: Sequence[str]) -> tuple[str, ...]:
+    """Contacts that the machine loses, of whose motion in contact the derivatives are, in sentences."""
+    from linkwright.kinetostatics.forces import forces
+
+    analyses = {name.partition(".")[0] for name in responses}
+    may_lose = machine.mechanism.cams or machine.mechanism.cables
+    if not analyses.intersection(_IN_CONTACT) or not may_lose or not (machine.bodies or machine.loads):
+        return ()
+    collected = Findings()
+    collected.of(forces, machine)
+    return collected.findings

@@ -7,11 +7,9 @@
 | `write` | Write a study as a file, beside a machine file |
 | `plan` | A study checked against its machine, ready to run |
 | `problems` | Values of variables as quantities of their entries |
-| `size_limits` | Limits of a size by its tolerance, and by the clearance of a joint |
 | `distributions` | Distributions: the value below which a share lies |
 | `axes` | Variables: the value of each share between 0 and 1 |
 | `choices` | Names of the values of a list |
-| `iso286` | Limit deviations of sizes by classes such as H7 |
 | `sampling` | Rows as shares: grid, Sobol, Latin hypercube, random |
 | `study_response` | One response: where it comes from, and one number out of a result |
 | `point_responses` | Responses that follow from places of points: motions, errors of paths |

@@ -16,11 +16,11 @@ from linkwright.kernel.units import COUNT, Kind, is_number, worded
 from linkwright.machine.address import addresses, get, kind, known_place, outside
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
+from linkwright.machine.size_limits import half_clearance, of_pin, toleranced
 from linkwright.studies.choices import choice_names
 from linkwright.studies.distributions import loosened, normal_shares, scattered
 from linkwright.studies.model import Distribution, Variable
 from linkwright.studies.problems import parsed, problem
-from linkwright.studies.size_limits import half_clearance, of_pin, toleranced
 
 # Standard deviations between the limits of a tolerance: a centred process with a capability index of 1, of
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).
@@ -179,12 +179,14 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
 def _made(machine: Machine, named: Axis, variable: Variable, kind: Kind) -> Axis:
     """A size as it is made: within its tolerance, with the clearance of a joint, or both."""
     name, value = named.name, get(machine, variable.address[0])
-    play = 0.0 if variable.clearance is None else half_clearance(name, value, variable.clearance, kind)
+    key, play = f"variables.{name}", 0.0
+    if variable.clearance is not None:
+        play = half_clearance(f"{key}.clearance", value, variable.clearance, kind)
     if variable.tolerance is None:
         made = replace(named, low=value - play, high=value + play, distribution=of_pin(value, play))
         _require_possible_ends(machine, made, "clearance", variable.clearance, kind)
         return made
-    low, high = toleranced(name, value, variable.tolerance, kind)
+    low, high = toleranced(f"{key}.tolerance", value, variable.tolerance, kind)
     scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
     made = replace(named, low=low - play, high=high + play, distribution=scatter, play=play)
     _require_possible_ends(machine, made, "tolerance", variable.tolerance, kind)

@@ -30,7 +30,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.studies.fit_search import STEP, begun, solved
 from linkwright.studies.identifiability import Direction, covariance, singular_directions
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies.plan import StudyPlan, require_variables
 from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.sought import Number
@@ -140,6 +140,7 @@ def fit(plan: StudyPlan, record: MeasuredRecord, *, level: float = 0.95) -> Fit:
     Correlated residuals give a warning: then the machine lacks something, or the record was filtered, and
     intervals are too narrow.
     """
+    require_variables(plan)
     model, starts = begun(plan, record)
     if record.size <= len(model.numbers):
         raise InputError(

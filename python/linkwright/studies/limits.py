@@ -4,7 +4,9 @@ At the best machine the multipliers λ ≥ 0 of the active limits c are those of
 
 .. math:: \min_\lambda \Bigl\| \nabla f + \sum \lambda_i \nabla c_i \Bigr\|
 
-so that a limit which is wider by one unit makes the goal better by λ.
+so that a limit which is wider by one unit makes the goal better by λ. Where extremes tie, goal or limit has a kink
+and a gradient on each side of it; a convex combination of them takes the place of ∇f, a multiple of one that of
+λ ∇c (Clarke, Optimization and Nonsmooth Analysis, 1983, theorem 6.1.1).
 """
 
 from __future__ import annotations
@@ -25,6 +27,13 @@ _ACTIVE = 1e-4
 
 # A residual of the multipliers above this share of the goal's gradient: they explain nothing.
 _EXPLAINED = 0.05
+
+# So far to both sides the slopes on a kink are taken, as a share of a range: best machines lie on kinks to
+# 1e-10, and over this distance slopes of one side hardly change.
+_SIDE = 1e-6
+
+# Weight of the condition that the goal's sides add up to one, over the size of its slopes.
+_TOGETHER = 1e3
 
 
 def limits(plan: StudyPlan) -> list[tuple[str, float, float]]:
@@ -74,45 +83,80 @@ class Price:
 
 def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLog) -> tuple[list[Price], str]:
     """Multipliers of the active limits of a place, `share`: (variables,), or why there are none."""
-    from scipy.optimize import nnls
-
-    places = free(plan)
-    if not places:
+    if not free(plan):
         return [], "no variable has derivatives"
     values, rates, slopes = log.slopes(plan, share)
-    listed = list(_active(plan, slopes, values, rates))
-    if goal in slopes.ties:
-        return [], f"{goal} has a kink there: {slopes.ties[goal]}"
+    near = [slopes]
+    listed = list(_active(plan, near, values, rates))
     if not listed:
-        return [], ""
-    down = -(sign * slopes.slopes[goal] * rates)[places]
-    ways = np.array([limit.outward[places] for limit in listed]).T
-    found_lambda, rest = nnls(ways, down)
-    if rest > _EXPLAINED * np.linalg.norm(down):
+        return [], f"{goal} has a kink there: {slopes.ties[goal]}" if goal in slopes.ties else ""
+    multipliers = _multipliers(plan, goal, sign * rates, near, listed)
+    if multipliers is None:
+        # Best machines stand on kinks, where extremes tie: each side of them has slopes of its own.
+        near += [log.slopes(plan, beside)[2] for beside in _beside(share, free(plan))]
+        listed = list(_active(plan, near, values, rates))
+        multipliers = _multipliers(plan, goal, sign * rates, near, listed)
+    if multipliers is None:
+        tied = [name for name in (goal, *(limit.of for limit in listed)) if name in slopes.ties]
+        if tied:
+            return [], f"{tied[0]} has a kink there: {slopes.ties[tied[0]]}"
         return [], "the machine is not yet at the very minimum; more evaluations get closer"
     return [
         Price(limit.what, limit.of, limit.limit, limit.is_upper, float(x / limit.unit))
-        for limit, x in zip(listed, found_lambda, strict=True)
+        for limit, x in zip(listed, multipliers, strict=True)
     ], ""
 
 
+def _beside(share: Floats, places: list[int]) -> Iterator[Floats]:
+    """Places on both sides of one along each variable, within the ranges."""
+    for i in places:
+        for step in (-_SIDE, _SIDE):
+            beside = share.copy()
+            beside[i] += step
+            if 0.0 <= beside[i] <= 1.0:
+                yield beside
+
+
 class _ActiveLimit(NamedTuple):
-    """Words, response or variable, value [SI], outward slope by the shares, unit of an active limit."""
+    """Words, response or variable, value [SI], outward slopes by the shares, unit of an active limit."""
 
     what: str
     of: str
     limit: float
     is_upper: bool
-    outward: Floats
+    outward: list[Floats]
     unit: float
 
 
-def _active(plan: StudyPlan, slopes: Slopes, values: Floats, rates: Floats) -> Iterator[_ActiveLimit]:
-    """Active limits of responses and of ranges."""
+def _multipliers(
+    plan: StudyPlan, goal: str, rates: Floats, near: list[Slopes], listed: list[_ActiveLimit]
+) -> Floats | None:
+    """Multipliers of active limits that explain why a place is the best; None if they do not.
+
+    Of a kink each side has its weight: weights of the goal's sides add up to one, those of a limit's to its
+    multiplier. `rates`: of the shares, negative where the goal is to be large.
+    """
+    from scipy.optimize import nnls
+
+    places = free(plan)
+    goals = np.array([slopes.slopes[goal] * rates for slopes in near])[:, places]
+    size = float(np.linalg.norm(goals, axis=1).max()) or 1.0
+    ways = np.array([way[places] for limit in listed for way in limit.outward])
+    of = np.repeat(np.arange(len(listed)), [len(limit.outward) for limit in listed])
+    ones = _TOGETHER * size * np.concatenate([np.ones(len(goals)), np.zeros(len(ways))])
+    system = np.vstack([np.concatenate([goals, ways]).T, ones])
+    weights, rest = nnls(system, np.concatenate([np.zeros(len(places)), [_TOGETHER * size]]))
+    if rest > _EXPLAINED * size:
+        return None
+    return np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
+
+
+def _active(plan: StudyPlan, near: list[Slopes], values: Floats, rates: Floats) -> Iterator[_ActiveLimit]:
+    """Active limits of responses and of ranges, with the slopes that they have at the first place and near it."""
     for name, limit, way in limits(plan):
-        if _is_at(limit, slopes.values[name]):
+        if _is_at(limit, near[0].values[name]):
             word = "maximum" if way > 0 else "minimum"
-            outward = way * slopes.slopes[name] * rates
+            outward = [way * slopes.slopes[name] * rates for slopes in near]
             yield _ActiveLimit(f"{word} of {name}", name, limit, way > 0, outward, 1.0)
     for i, axis in enumerate(plan.axes):
         if not axis.is_continuous:
@@ -120,7 +164,7 @@ def _active(plan: StudyPlan, slopes: Slopes, values: Floats, rates: Floats) -> I
         for limit, way, word in ((axis.low, -1.0, "lower"), (axis.high, 1.0, "upper")):
             if abs(values[i] - limit) <= _ACTIVE * (axis.high - axis.low):
                 # A unit of the variable is 1/rate of its share.
-                outward = way * np.eye(len(values))[i]
+                outward = [way * np.eye(len(values))[i]]
                 yield _ActiveLimit(
                     f"{word} end of {axis.name}", axis.name, limit, way > 0, outward, abs(rates[i])
                 )

@@ -25,7 +25,7 @@ from linkwright.machine.machine import Machine
 from linkwright.studies.chosen import choice, machine_of, numbers_alone
 from linkwright.studies.engine import evaluate
 from linkwright.studies.limits import Price, in_words, prices, touched
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies.plan import StudyPlan, require_variables
 from linkwright.studies.rows import OneByOne
 from linkwright.studies.search import Method, Search, population
 from linkwright.studies.search_log import SearchLog
@@ -208,6 +208,7 @@ def _refusal(search: Search) -> str:
 
 def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
     """Refuse a study that cannot be searched."""
+    require_variables(plan)
     if len(plan.study.goals) != 1:
         found = ", ".join(plan.study.goals) or "none"
         raise InputError(f'goals: found {found}, expected one, such as delta = "minimise"; limit the others')

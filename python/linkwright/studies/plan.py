@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -27,9 +27,10 @@ from linkwright.kernel.units import parse as parse_quantity
 from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.tolerances import tolerance_names
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis, axis, require_places
-from linkwright.studies.model import WAYS, StudyFile, Sweep
+from linkwright.studies.model import WAYS, StudyFile, Sweep, Variable
 from linkwright.studies.responses import asked, require_place
 from linkwright.studies.study_response import StudyResponse
 
@@ -194,7 +195,7 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
         if name in sound or name not in study.responses
     ]
     limits = gather(limited, lambda name, constraint: (name, _limits(study, units, name, constraint)))
-    problems += [*_lost_points(machine, study), *_other_problems(study, listed)]
+    problems += [*_lost_points(machine, study), *_other_problems(machine, study, listed)]
     if problems:
         raise MachineError(problems)
     if listed is not None:
@@ -233,9 +234,31 @@ def _lost_points(machine: Machine, study: StudyFile) -> Iterable[Problem]:
             yield Problem(f"paths.{name}.point", show(path.point), "a point of the machine", remedy)
 
 
-def _other_problems(study: StudyFile, listed: Floats | None) -> Iterable[Problem]:
+def toleranced(ready: StudyPlan) -> StudyPlan:
+    """The study with the tolerances of its machine as variables, but for entries that it sets itself."""
+    machine, study = ready.machine, ready.study
+    taken = {address for one in ready.axes for address in one.addresses}
+    taken |= {address for one in ready.derived for address in one.addresses}
+    added: dict[str, Variable] = {}
+    for name, address in tolerance_names(machine, ready.columns).items():
+        if address not in taken:
+            text = machine.tolerances[address]
+            added[name] = Variable.model_validate({"address": address, "tolerance": text})
+    axes = tuple(axis(machine, name, variable) for name, variable in added.items())
+    variables = {**study.variables, **added}
+    return replace(ready, study=study.with_entries({"variables": variables}), axes=(*ready.axes, *axes))
+
+
+def require_variables(ready: StudyPlan) -> None:
+    """Raise `InputError` if nothing varies but what `linkwright tolerance` takes from the machine."""
+    if not ready.axes:
+        remedy = 'the tolerances of the machine are variables of "linkwright tolerance" alone'
+        raise InputError(f"variables: found none, expected a table for each entry that varies; {remedy}")
+
+
+def _other_problems(machine: Machine, study: StudyFile, listed: Floats | None) -> Iterable[Problem]:
     """What is missing, what has the name of something else, goals without a response."""
-    if not study.variables:
+    if not study.variables and not machine.tolerances:
         yield Problem("variables", "nothing", "a table for each entry that varies")
     if not study.responses and study.fit is None:
         yield Problem("responses", "nothing", 'what is asked, such as delta = "steady_state.unevenness"')

@@ -23,7 +23,7 @@ from linkwright.kernel.result import Result
 from linkwright.studies.engine import evaluate, numbers
 from linkwright.studies.folder import SweepFolder, new_folder
 from linkwright.studies.parquet import columns_of, one_by_one
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies.plan import StudyPlan, require_variables
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, counted_fast_starts
 
 if TYPE_CHECKING:
@@ -138,6 +138,7 @@ def sweep(
 
 def begun(plan: StudyPlan, folder: str | os.PathLike[str]) -> SweepFolder:
     """The folder of a sweep, made if need be; the study is tried on its machine first."""
+    require_variables(plan)
     if not plan.n_rows:
         raise InputError("sweep: found no rows; give ranges `steps`, or name another method in [sweep]")
     made = new_folder(Path(folder), plan)

@@ -32,7 +32,7 @@ from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.engine import evaluate
 from linkwright.studies.indices import NONE, Interval, intervals, sobol_indices, values
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies.plan import StudyPlan, toleranced
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
 from linkwright.studies.slopes import slopes
 
@@ -149,7 +149,8 @@ def tolerance(
     Parameters
     ----------
     plan : StudyPlan
-        A study whose variables have tolerances or distributions; a range counts as uniform.
+        A study whose variables have tolerances or distributions; a range counts as uniform. Entries of the
+        machine with a tolerance are variables as well, unless the study sets them.
     rows : int
         Machines drawn at random, 2 to 10⁷.
     seed : int
@@ -171,6 +172,7 @@ def tolerance(
     FindingError
         The machine in the middle of all tolerances, or a neighbour of it, has no answer.
     """
+    plan = toleranced(plan)
     _check(plan, rows, indices)
     scatters = _Scatters(plan)
     middle, bends = _bends(plan, scatters)

@@ -99,27 +99,41 @@ struct Chunk<'a> {
 impl Job for Chunk<'_> {
     type Output = u64;
 
-    /// All rows, then those that need other meshes, in bundles of their own.
+    /// All rows, then those that need other meshes. Rows of one bundle have as many steps each, so that none is filled up: no
+    /// bits of a row depend on its neighbours.
     #[inline(always)]
     fn run<R: Real>(self) -> u64 {
         let mut lanes = RowLanes::<R>::new(self.plan, self.rows);
         let mut to = Results { first: self.first, status: self.status, out: self.out };
         let all: Vec<usize> = (0..to.status.len()).collect();
-        let (mut next, mut sweeps) = (Vec::new(), 0);
-        for rows in all.chunks(R::LANES) {
-            sweeps += lanes.solve_new(rows, &mut to, &mut next);
-        }
+        let mut next: Vec<RowMesh> =
+            all.chunks(R::LANES).flat_map(|rows| lanes.new_meshes(rows, self.first)).collect();
+        let (mut is_new, mut sweeps) = (true, 0);
         while !next.is_empty() {
-            // Lanes with about as many steps side by side.
-            next.sort_by_key(|mesh: &RowMesh| (mesh.edges.len(), mesh.row));
-            let mut rest = std::mem::take(&mut next).into_iter().peekable();
-            while rest.peek().is_some() {
-                let meshes: Vec<RowMesh> = rest.by_ref().take(R::LANES).collect();
-                sweeps += lanes.solve_again(meshes, &mut to, &mut next);
+            for meshes in bundles(std::mem::take(&mut next), R::LANES) {
+                sweeps += if is_new {
+                    lanes.solve_new(meshes, &mut to, &mut next)
+                } else {
+                    lanes.solve_again(meshes, &mut to, &mut next)
+                };
             }
+            is_new = false;
         }
         sweeps
     }
+}
+
+/// Meshes with as many steps, a bundle of lanes at a time.
+fn bundles(mut meshes: Vec<RowMesh>, lanes: usize) -> Vec<Vec<RowMesh>> {
+    meshes.sort_by_key(|mesh| (mesh.edges.len(), mesh.row));
+    let mut bundles: Vec<Vec<RowMesh>> = Vec::new();
+    for mesh in meshes {
+        match bundles.last_mut() {
+            Some(last) if last.len() < lanes && last[0].edges.len() == mesh.edges.len() => last.push(mesh),
+            _ => bundles.push(vec![mesh]),
+        }
+    }
+    bundles
 }
 
 /// Does the rows again, one by one, that lanes could not do. Returns the turns swept.

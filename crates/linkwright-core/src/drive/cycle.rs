@@ -66,17 +66,16 @@ impl<R: Real> Machine<'_, R> {
 }
 
 impl<R: Real> Turn<R> {
-    /// Machines in lanes, each with its own ends of steps; lanes with fewer steps are filled up at its end.
+    /// Machines in lanes, each with its own ends of as many steps.
     #[inline(always)]
     pub fn tabulate_machines(&mut self, machine: &Machine<'_, R>, edges: &[&[f64]], m: &mut Motion<R>) {
-        let most = edges.iter().map(|lane| lane.len()).max().unwrap_or(0);
-        let at = |lane: &[f64], k: usize| lane.get(k).copied().unwrap_or(machine.plan.cycle());
+        let n = edges[0].len();
         let mut starts = vec![0.0; R::LANES];
         let mut ends = starts.clone();
-        let mut steps = Vec::with_capacity(most);
-        for k in 1..most {
+        let mut steps = Vec::with_capacity(n);
+        for k in 1..n {
             for (lane, edges) in edges.iter().enumerate() {
-                (starts[lane], ends[lane]) = (at(edges, k - 1), at(edges, k));
+                (starts[lane], ends[lane]) = (edges[k - 1], edges[k]);
             }
             let start = R::load(&starts);
             steps.push((start, R::load(&ends) - start));

@@ -67,6 +67,8 @@ pub(super) struct NodeSolution<R> {
     pub starts: Vec<R>,
     /// The relative error of each step in each lane.
     pub errors: Vec<R>,
+    /// The largest of each lane; infinite above what is promised.
+    pub worst: R,
     /// What rounding of the speed may leave of the acceleration in each lane, relative to its peak.
     pub noise: R,
 }
@@ -80,18 +82,21 @@ impl<R: Real> NodeSolution<R> {
             between: Vec::new(),
             starts: Vec::new(),
             errors: Vec::new(),
+            worst: R::splat(f64::INFINITY),
             noise: R::splat(0.0),
         }
     }
 
-    /// Corrects a solved revolution and measures its error. `kinks` has u at the kink of the drive that is passed at each end
-    /// of a step, 0 in lanes in which there is none. Returns its integrals.
+    /// Corrects a solved revolution and measures its error; lanes that err by less than is `promised` take the corrected motion
+    /// over. `kinks` has u at the kink of the drive that is passed at each end of a step, 0 in lanes in which there is none. Returns
+    /// its integrals.
     #[inline(always)]
     pub(super) fn correct(
         &mut self,
         turn: &mut Turn<R>,
         machine: &Machine<'_, R>,
         kinks: &[R],
+        promised: f64,
         m: &mut Motion<R>,
     ) -> Totals<R> {
         self.geometry.clear();
@@ -134,6 +139,7 @@ impl<R: Real> NodeSolution<R> {
             #[inline(always)]
             || self.measure(turn, machine, &growth, &sums),
         );
+        self.give_to(turn, promised);
         Totals::new(turn.layout, sums)
     }
 
@@ -249,11 +255,7 @@ impl<R: Real> NodeSolution<R> {
         }
         let (exponent, off) = both(h, &d);
         (at.exponent, at.integrals) = (off, errors);
-        let step = &mut turn.steps[k];
-        step.u = start;
-        step.X.copy_from_slice(&at.x[..S]);
-        step.K.copy_from_slice(&at.f[..S]);
-        step.D.copy_from_slice(&d[..S]);
+        turn.steps[k].D.copy_from_slice(&d[..S]);
         (sums, exponent)
     }
 
@@ -262,22 +264,22 @@ impl<R: Real> NodeSolution<R> {
     #[inline(always)]
     fn take_corner(
         &mut self,
-        turn: &mut Turn<R>,
+        turn: &Turn<R>,
         machine: &Machine<'_, R>,
         k: usize,
         kink: R,
         m: &mut Motion<R>,
     ) {
         let (n, zero, mut geometry) = (turn.steps.len(), R::splat(0.0), Vec::new());
-        let step = &mut turn.steps[k];
-        let by = (kink - step.X[END]) / step.K[END];
+        let (step, solved) = (&turn.steps[k], &mut self.steps[k]);
+        let by = (kink - solved.x[END]) / solved.f[END];
         // A NaN is not below the limit.
         let by = by.abs().select_lt(step.h * BESIDE, by, zero);
         let row = machine.row(step.h.mul_add(R::splat(SHARES[END]), step.phi) + by, m, &mut geometry);
-        let at = zero.select_lt(kink, kink, step.X[END]);
+        let at = zero.select_lt(kink, kink, solved.x[END]);
         let [_, geared, drag] = machine.torques_at(&row, &geometry, at);
         let epsilon = (geared - drag) * row.inverse - row.drift * at;
-        step.K[END] = zero.select_lt(kink, epsilon, step.K[END]);
+        solved.f[END] = zero.select_lt(kink, epsilon, solved.f[END]);
         let start = &mut self.starts[(k + 1) % n];
         *start = zero.select_lt(kink, epsilon, *start);
     }
@@ -325,6 +327,28 @@ impl<R: Real> NodeSolution<R> {
                 error = error.max(part.select_lt(infinity, part, infinity));
             }
             self.errors.push(error);
+        }
+    }
+}
+
+impl<R: Real> NodeSolution<R> {
+    /// Gives the corrected motion to lanes that err by less than is promised. The others keep what the stages solved, from which
+    /// finer meshes start: where steps are much too long it is nearer than what the correction makes of it.
+    #[inline(always)]
+    fn give_to(&mut self, turn: &mut Turn<R>, promised: f64) {
+        let (limit, infinity) = (R::splat(promised), R::splat(f64::INFINITY));
+        self.worst = R::splat(0.0);
+        for &error in &self.errors {
+            // A NaN is not below the limit.
+            self.worst = self.worst.max(error.select_lt(limit, error, infinity));
+        }
+        let take = |corrected: R, solved: R| self.worst.select_lt(infinity, corrected, solved);
+        for (step, at) in turn.steps.iter_mut().zip(&self.steps) {
+            step.u = take(at.x[START], step.u);
+            for i in 0..S {
+                step.X[i] = take(at.x[i], step.X[i]);
+                step.K[i] = take(at.f[i], step.K[i]);
+            }
         }
     }
 }

@@ -143,7 +143,9 @@ impl<R: Real> RoughMotion<R> {
                 to[0] = d.mul_add(from[0], -(b * from[1])) * inverse;
                 to[1] = a.mul_add(from[1], -(c * from[0])) * inverse;
             }
-            rough.torque = torque;
+            for (kept, torque) in rough.torque.iter_mut().zip(torque) {
+                *kept = Dual { value: last.select_lt(limit, kept.value, torque.value), ..torque };
+            }
             self.growth.push(rough.g[1]);
             self.defect.push(rough.p[1]);
             (start, before) = (rough.energy[1], torque[2]);
@@ -151,7 +153,8 @@ impl<R: Real> RoughMotion<R> {
         let (delta, _) = turn.layout.close(&self.growth, &self.defect);
         let mut worst = R::splat(0.0);
         for (rough, delta) in self.steps.iter_mut().zip(delta) {
-            rough.torque[0].value = rough.torque[0].d.mul_add(delta, rough.torque[0].value);
+            let at_start = last.select_lt(limit, R::splat(0.0), delta);
+            rough.torque[0].value = rough.torque[0].d.mul_add(at_start, rough.torque[0].value);
             for i in 0..TAKEN.len() {
                 let (change, energy) = (rough.g[i].mul_add(delta, rough.p[i]), rough.energy[i]);
                 let next = (energy + change).max(energy * SHRINK);

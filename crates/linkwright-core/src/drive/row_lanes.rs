@@ -88,17 +88,27 @@ impl<'a, R: Real> RowLanes<'a, R> {
         RowLanes { plan, rows, q, m, turn, rough: RoughMotion::new(), nested: NodeSolution::new() }
     }
 
-    /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
+    /// The meshes of rows of which nothing is known.
     #[inline(always)]
-    pub(super) fn solve_new(&mut self, rows: &[usize], to: &mut Results<'_>, next: &mut Vec<RowMesh>) -> u64 {
-        self.load(rows, to.first);
+    pub(super) fn new_meshes(&mut self, rows: &[usize], first: usize) -> Vec<RowMesh> {
+        self.load(rows.iter().copied(), first);
         let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
         let breaks = R::out_of_line(
             #[inline(always)]
             || machine.ends(m),
         );
-        let mut meshes: Vec<RowMesh> =
-            rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect();
+        rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect()
+    }
+
+    /// Solves rows of which nothing is known; returns the turns swept. Those that need other meshes are added to the list.
+    #[inline(always)]
+    pub(super) fn solve_new(
+        &mut self,
+        mut meshes: Vec<RowMesh>,
+        to: &mut Results<'_>,
+        next: &mut Vec<RowMesh>,
+    ) -> u64 {
+        self.load(meshes.iter().map(|mesh| mesh.row), to.first);
         self.tabulate(&meshes);
         let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
         R::out_of_line(
@@ -160,13 +170,12 @@ impl<'a, R: Real> RowLanes<'a, R> {
         to: &mut Results<'_>,
         next: &mut Vec<RowMesh>,
     ) -> u64 {
-        let rows: Vec<usize> = meshes.iter().map(|mesh| mesh.row).collect();
-        self.load(&rows, to.first);
+        self.load(meshes.iter().map(|mesh| mesh.row), to.first);
         self.tabulate(&meshes);
         let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         turn.start_from_samples(&meshes);
         turn.limit = PLACING;
-        turn.solve(&machine);
+        let mut lost = turn.solve_lanes(&machine, R::splat(0.0));
         turn.limit = CONVERGED;
         let mut displaced = R::splat(0.0);
         for placement in 0..=PLACEMENTS {
@@ -177,14 +186,15 @@ impl<'a, R: Real> RowLanes<'a, R> {
             if placement > 0 && displaced.max_lane() <= 0.0 {
                 break;
             }
-            turn.solve(&machine);
+            lost = turn.solve_lanes(&machine, lost);
         }
+        turn.correction = R::splat(0.0).select_lt(lost, lost, turn.correction);
         self.take(meshes, displaced, to, next)
     }
 
     #[inline(always)]
-    fn load(&mut self, rows: &[usize], first: usize) {
-        let numbers: Vec<usize> = rows.iter().map(|row| first + row).collect();
+    fn load(&mut self, rows: impl Iterator<Item = usize>, first: usize) {
+        let numbers: Vec<usize> = rows.map(|row| first + row).collect();
         self.rows.lanes(&numbers, &mut self.q);
         self.m.ground(&self.plan.mechanism, &self.q);
     }
@@ -333,13 +343,8 @@ impl<'a, R: Real> RowLanes<'a, R> {
         }
         let machine = Machine::new(self.plan, &self.q);
         let (turn, nested, m) = (&mut self.turn, &mut self.nested, &mut self.m);
-        let totals = nested.correct(turn, &machine, &kinks_at_ends(meshes, turn.steps.len()), m);
-        let (mut worst, infinity) = (R::splat(0.0), R::splat(f64::INFINITY));
-        for &error in &nested.errors {
-            // A NaN is not below the limit.
-            worst = worst.max(error.select_lt(R::splat(PROMISED), error, infinity));
-        }
-        for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[worst])) {
+        let totals = nested.correct(turn, &machine, &kinks_at_ends(meshes, turn.steps.len()), PROMISED, m);
+        for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[nested.worst])) {
             if *verdict == Verdict::Good && worst > PROMISED {
                 *verdict = Verdict::Coarse;
             }
@@ -388,6 +393,19 @@ impl<'a, R: Real> RowLanes<'a, R> {
             }
         }
         errors
+    }
+}
+
+impl<R: Real> Turn<R> {
+    /// Solves until every lane has converged or is lost; returns infinity in the lost ones, given those lost before. A lane
+    /// that does not converge stays as it is from then on: the sweeps that it takes are not missing to others.
+    #[inline(always)]
+    fn solve_lanes(&mut self, machine: &Machine<'_, R>, lost: R) -> R {
+        let (zero, before) = (R::splat(0.0), std::mem::take(&mut self.sweeps));
+        self.correction = zero.select_lt(lost, zero, self.correction);
+        self.solve(machine);
+        self.sweeps += before;
+        self.correction.select_lt(R::splat(self.limit), lost, R::splat(f64::INFINITY))
     }
 }
 

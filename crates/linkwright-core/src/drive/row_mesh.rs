@@ -84,7 +84,7 @@ impl RowMesh {
 
     /// u at the kink on which this end of a step lies; 0 where there is none.
     pub(super) fn kink(&self, edge: usize) -> f64 {
-        self.kinks.get(edge).copied().unwrap_or(0.0)
+        self.kinks[edge]
     }
 
     /// Whether the speed is passed at an end of a step.
@@ -185,13 +185,13 @@ fn slope_at_start<R: Real>(step: &Step<R>) -> R {
     step.quintic()[1] / step.h
 }
 
-/// Gives the rows that have the step a sample in it.
+/// Gives the rows a sample.
 #[inline(always)]
-fn give<R: Real>(rows: &mut [RowMesh], numbers: [R; 4], step: usize, lanes: &mut [f64]) {
+fn give<R: Real>(rows: &mut [RowMesh], numbers: [R; 4], lanes: &mut [f64]) {
     for (number, lanes) in numbers.iter().zip(lanes.chunks_exact_mut(R::LANES)) {
         number.store(lanes);
     }
-    for (lane, row) in rows.iter_mut().enumerate().filter(|(_, row)| step + 1 < row.edges.len()) {
+    for (lane, row) in rows.iter_mut().enumerate() {
         let of = |number: usize| lanes[number * R::LANES + lane];
         row.samples.push(Sample { phi: of(0), u: of(1), epsilon: of(2), after: of(3) });
     }
@@ -207,17 +207,17 @@ impl<R: Real> Turn<R> {
             row.start.clear();
         }
         let first = &self.steps[0];
-        give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], 0, &mut lanes);
+        give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], &mut lanes);
         for (k, step) in self.steps.iter().enumerate() {
             for i in 0..S - 1 {
                 let phi = step.h.mul_add(R::splat(C[i]), step.phi);
-                give(rows, [phi, step.X[i], step.K[i], step.K[i]], k, &mut lanes);
+                give(rows, [phi, step.X[i], step.K[i], step.K[i]], &mut lanes);
             }
             // Behind the last step nothing follows.
             let after = slope_at_start(self.steps.get(k + 1).unwrap_or(step));
-            give(rows, [step.phi + step.h, step.X[S - 1], step.K[S - 1], after], k, &mut lanes);
+            give(rows, [step.phi + step.h, step.X[S - 1], step.K[S - 1], after], &mut lanes);
         }
-        // At φ = 0 the motion is that at the end of the cycle, which lies in another step in each lane.
+        // At φ = 0 the motion is that at the end of the cycle.
         for row in rows {
             let end = row.samples.last().map_or(f64::NAN, |sample| sample.epsilon);
             row.samples[0].epsilon = end;
@@ -229,13 +229,11 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub(super) fn give_starts(&self, rows: &mut [RowMesh], has_kinks: &[bool]) {
         let mut lanes = vec![0.0; R::LANES];
-        for (k, step) in self.steps.iter().enumerate() {
+        for step in &self.steps {
             for u in [step.u].iter().chain(&step.X) {
                 u.store(&mut lanes);
-                for (lane, row) in rows.iter_mut().enumerate() {
-                    if !has_kinks[lane] && k + 1 < row.edges.len() {
-                        row.start.push(lanes[lane]);
-                    }
+                for (lane, row) in rows.iter_mut().enumerate().filter(|&(lane, _)| !has_kinks[lane]) {
+                    row.start.push(lanes[lane]);
                 }
             }
         }
@@ -249,14 +247,12 @@ impl<R: Real> Turn<R> {
         for lane in 0..R::LANES {
             let row = &rows[lane.min(rows.len() - 1)];
             let (samples, mut at) = (&row.samples, 0);
-            let end = row.edges.len() - 1;
             for k in 0..n {
-                let (low, high) = (row.edges[k.min(end)], row.edges[(k + 1).min(end)]);
+                let (low, high) = (row.edges[k], row.edges[k + 1]);
                 for i in 0..stages {
                     let to = &mut values[(k * stages + i) * R::LANES + lane];
                     if !row.start.is_empty() {
-                        // Past the end of the cycle the motion stays as it is there.
-                        *to = row.start[(k * stages + i).min(row.start.len() - 1)];
+                        *to = row.start[k * stages + i];
                         continue;
                     }
                     let share = if i == 0 { 0.0 } else { C[i - 1] };

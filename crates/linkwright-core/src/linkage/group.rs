@@ -139,7 +139,10 @@ impl Group {
     pub(super) fn solve<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>) {
         let n = self.size();
         let mut system = System::new(n, self.bar_points.len());
-        let mut rounds_left = R::ROUNDS;
+        let (zero, mut rounds_left) = (R::splat(0.0), R::ROUNDS);
+        // 1 in lanes that have not converged. The others keep what they have: no lane's bits depend on how long another
+        // takes. Numbers with derivatives go on together until those have converged too.
+        let mut moves = R::splat(1.0);
         for _ in 0..ROUNDS_MAX {
             self.carry::<R, 0>(q, m);
             self.linearise(q, m, &mut system);
@@ -148,14 +151,19 @@ impl Group {
             }
             system.factorise();
             system.solve();
-            let mut largest = R::splat(0.0);
+            let mut largest = zero;
             for (k, &unknown) in self.unknowns.iter().enumerate() {
-                let step = Vec2::new(system.rhs[2 * k], system.rhs[2 * k + 1]);
+                let mut step = Vec2::new(system.rhs[2 * k], system.rhs[2 * k + 1]);
+                if R::ROUNDS == 0 {
+                    step.x = zero.select_lt(moves, step.x, zero);
+                    step.y = zero.select_lt(moves, step.y, zero);
+                }
                 m.points[unknown].p = m.points[unknown].p + step;
                 largest = largest.max(step.x.abs()).max(step.y.abs());
             }
-            // A length of the group as its scale.
-            if largest.max_lane() < CONVERGED * self.scale(q, m).max_lane() {
+            // A length of the group as its scale; a NaN is not below the limit.
+            moves = largest.select_lt(self.scale(q, m) * CONVERGED, zero, moves);
+            if moves.max_lane() <= 0.0 {
                 if rounds_left == 0 {
                     break;
                 }

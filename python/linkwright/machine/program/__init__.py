@@ -13,4 +13,5 @@
 | `motion` | Motion of points, links and slides of one machine, by name |
 | `numbers` | Parameters, tables, formulas, motion laws |
 | `places` | Indices of points, links, slides and dyads by name; guides and sums |
+| `smooth_laws` | Laws without jumps |
 """

@@ -27,60 +27,7 @@ from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.motion import WIDTHS, link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
-
-# Intervals of the revolution that are looked at.
-_LOOK = 720
-
-# Share of a law's range by which its rise over an interval may differ from its slopes without being looked
-# into: a smooth law differs by its third derivative times h³/12, some 1e-7 of its range.
-_DIFFERS = 1e-4
-
-# Beyond this a sine has no digits left that mean anything [rad, m, and their slopes].
-_LARGEST = 1e6
-
-# Halvings of an interval after which what is left of a rise is a jump: half a degree is then 1e-11 rad.
-_HALVINGS = 30
-
-
-def require_smooth(name: str, text: str, law: Callable[[Floats], Floats]) -> None:
-    """Raise if a law has no value at some crank angle, or jumps.
-
-    `law`: crank angles (n,) [rad] → the law and its slope, (2, n).
-    """
-    phi = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
-    value, slope = law(phi)
-    known = (np.abs(value) < _LARGEST) & (np.abs(slope) < _LARGEST)
-    if not known.all():
-        at = float(phi[int(np.argmin(known))])
-        remedy = "look for a division by zero, a root or a logarithm"
-        raise _error(name, text, at, "has no usable value or slope", remedy)
-    rise = np.diff(value) - 0.5 * (slope[1:] + slope[:-1]) * np.diff(phi)
-    size = float(np.ptp(value))
-    for interval in np.flatnonzero(np.abs(rise) > _DIFFERS * size):
-        jump = _jump(law, float(phi[interval]), float(phi[interval + 1]), _DIFFERS * size)
-        if jump is not None:
-            raise _error(
-                name, text, jump, "jumps", "nothing can follow a jump: write a law that is continuous"
-            )
-
-
-def _jump(law: Callable[[Floats], Floats], low: float, high: float, least: float) -> float | None:
-    """Where a law rises by more than ``least`` within rounding; None if it does so gradually."""
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        a, b, c = law(np.array([low, middle, high]))[0]
-        low, high = (low, middle) if abs(b - a) > abs(c - b) else (middle, high)
-    a, c = law(np.array([low, high]))[0]
-    return low if abs(c - a) > 0.1 * least else None
-
-
-def _error(name: str, text: str, at: float, what: str, remedy: str) -> AssemblyError:
-    return AssemblyError(
-        f'the law of {name}, "{text}", {what} at crank angle {np.degrees(at):.4g}°: {remedy}',
-        element=name,
-        crank_angle=at,
-    )
-
+from linkwright.machine.program.smooth_laws import LOOK, require_smooth
 
 # First row of all parameters, which of them vary, and their values over the rows.
 Columns = tuple[Floats, Integers, Floats]
@@ -218,7 +165,7 @@ class InitialAssembly:
 
     def _continuous(self, angle: Continuous) -> None:
         """Turns a revolution of the crank, and the middle of the swing about them."""
-        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        angles = np.linspace(0.0, 2 * np.pi, LOOK + 1)
         cos, sin = self._direction(angle.link, angles)
         closes = np.isfinite(cos)
         if not closes.any():
@@ -396,7 +343,7 @@ class InitialAssembly:
                 self._check_fit(name, *ends, _first(bar.length))
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
-        angles = np.linspace(0.0, 2 * np.pi, _LOOK + 1)
+        angles = np.linspace(0.0, 2 * np.pi, LOOK + 1)
         u = self._place(end, angles) - self._place(start, angles)
         off = np.abs(np.hypot(*u) - length)
         off = np.where(np.isfinite(off), off, 0.0)

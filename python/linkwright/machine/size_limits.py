@@ -8,12 +8,11 @@ from __future__ import annotations
 import math
 import re
 
-from linkwright.kernel.errors import UnitError, show
+from linkwright.kernel.errors import MachineError, Problem, UnitError, show
 from linkwright.kernel.units import LENGTH, NUMBER, RATIO, Kind, parse, worded
 from linkwright.kernel.units.kinds import Dimension
 from linkwright.kernel.units.spellings import factor_of
-from linkwright.studies import iso286
-from linkwright.studies.problems import parsed, problem
+from linkwright.machine import iso286
 
 # "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm". A comma
 # belongs to the number, so that it is that which is refused.
@@ -26,38 +25,61 @@ _UNEVEN = re.compile(r"\s*([+-]\s*[\d.,]+)\s+([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL
 _MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
 
 
-def toleranced(name: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
-    """Limits of an entry by the text of its tolerance."""
+# A size and its class, "25 H7", "25 mm H7", "0.2 m H7": grades are no powers of a unit.
+_CODED = re.compile(rf"\s*({NUMBER.pattern})\s*([A-Za-zµ]*)\s+([A-Za-z]{{1,2}}(?:[5-9]|1\d))\s*")
+
+
+def problem(key: str, found: str, expected: str, remedy: str = "") -> MachineError:
+    """What is wrong with a tolerance or a clearance."""
+    return MachineError([Problem(key, found, expected, remedy)])
+
+
+def size_and_limits(text: str) -> tuple[str, str] | None:
+    """Size and tolerance of a text with both, "0.8 m ± 0.2 mm"; None of another."""
+    if code := _CODED.fullmatch(text):
+        return f"{code[1]} {code[2] or 'mm'}", code[3]
+    sized = _SIZED.fullmatch(text.replace("−", "-"))
+    if sized is None:
+        return None
+    size, limits = sized[1].strip(), sized[2].strip()
+    # On a drawing the unit at the end is that of all numbers.
+    match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
+    unit = match[match.re.groups].strip() if match else ""
+    return (f"{size} {unit}".strip() if NUMBER.fullmatch(size) and not _is_share(unit) else size), limits
+
+
+def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
+    """Limits of an entry by the text of its tolerance, which stands at a key."""
     if not isinstance(value, int | float):
-        raise problem(name, "tolerance", "an entry without a value", "an entry that the machine has")
+        raise problem(key, "an entry without a value", "an entry that the machine has")
     stripped = text.replace("−", "-")
     if code := iso286.CODE.fullmatch(stripped):
-        return _coded(name, float(value), text, code, kind)
+        return _coded(key, float(value), text, code, kind)
     sized = _SIZED.fullmatch(stripped)
     size, limits = sized.groups() if sized else (None, stripped)
-    parts, unit = _parts(name, text, limits)
+    parts, unit = _parts(key, text, limits)
     if _is_share(unit):
-        shares = [_measure(name, text, part, unit, RATIO) for part in parts]
+        shares = [_measure(key, text, part, unit, RATIO) for part in parts]
         changes, unit = [abs(value) * share for share in shares], ""
-        _refuse_points(name, text, size, max(map(abs, shares)))
+        _refuse_points(key, text, size, max(map(abs, shares)))
     else:
-        changes = [_measure(name, text, part, unit, kind) for part in parts]
+        changes = [_measure(key, text, part, unit, kind) for part in parts]
     if size is not None:
-        _require_size(name, float(value), text, size, unit, kind)
+        _require_size(key, float(value), text, size, unit, kind)
     low, high = sorted(value + change for change in changes)
     if not low < high:
-        raise problem(name, "tolerance", show(text), "two limits that differ")
+        raise problem(key, show(text), "two limits that differ")
     return low, high
 
 
-def _parts(name: str, text: str, limits: str) -> tuple[tuple[str, str], str]:
+def _parts(key: str, text: str, limits: str) -> tuple[tuple[str, str], str]:
     """The two numbers of a tolerance with their signs, and the unit behind them."""
     if match := _EVEN.fullmatch(limits):
         return (f"-{match[1]}", match[1]), match[2]
     if match := _UNEVEN.fullmatch(limits):
         return (match[1].replace(" ", ""), match[2].replace(" ", "")), match[3]
     expected = 'such as "± 0.2 mm", "± 1 %", "800 ± 0.2 mm", "+0.1 -0.3 mm" or "25 H7"'
-    raise problem(name, "tolerance", show(text), expected)
+    raise problem(key, show(text), expected)
 
 
 def _is_share(unit: str) -> bool:
@@ -66,66 +88,71 @@ def _is_share(unit: str) -> bool:
     return known is not None and known[1] == Dimension()
 
 
-def _refuse_points(name: str, text: str, size: str | None, share: float) -> None:
+def _refuse_points(key: str, text: str, size: str | None, share: float) -> None:
     """Refuse a share of a size that is in percent itself: it may be meant as a difference in percent."""
     parts = _MEASURE.fullmatch(size or "")
     if parts is not None and _is_share(parts[2].strip()):
         expected = "a size without percent, of which the tolerance is a share"
         remedy = f'write "± {100 * share:.6g} %" for that share of the size, "± {share:.6g}" for a difference'
-        raise problem(name, "tolerance", show(text), expected, remedy)
+        raise problem(key, show(text), expected, remedy)
 
 
-def _measure(name: str, given: str, text: str, unit: str, kind: Kind) -> float:
+def _measure(key: str, given: str, text: str, unit: str, kind: Kind) -> float:
     """A number of a tolerance; without a unit of its own it has that at the end, as on a drawing."""
     is_bare = NUMBER.fullmatch(text)
     try:
         return parse(float(text) if is_bare and not unit else f"{text} {unit if is_bare else ''}", kind)
     except UnitError as error:
-        wrong = error.problem
-        raise problem(name, "tolerance", show(given), wrong.expected, wrong.remedy) from None
+        raise problem(key, show(given), error.problem.expected, error.problem.remedy) from None
 
 
-def _require_size(name: str, value: float, text: str, size: str, unit: str, kind: Kind) -> None:
+def _require_size(key: str, value: float, text: str, size: str, unit: str, kind: Kind) -> None:
     """Refuse a tolerance of another size than the machine has, and give that in the unit of the text."""
-    given = _measure(name, text, size, unit, kind)
+    given = _measure(key, text, size, unit, kind)
     if abs(given - value) > 1e-9 * abs(value):
         parts = _MEASURE.fullmatch(size)
         assert parts is not None
         # As many digits as are compared: a size so written is accepted.
         shown = f"{float(parts[1]) * value / given:.10g} {parts[2] or unit}" if given else worded(value, kind)
         expected = f"the size that the machine has, {shown.rstrip()}"
-        raise problem(name, "tolerance", show(text), expected, "leave the size out")
+        raise problem(key, show(text), expected, "leave the size out")
 
 
-def _coded(name: str, value: float, text: str, code: re.Match[str], kind: Kind) -> tuple[float, float]:
+def _coded(key: str, value: float, text: str, code: re.Match[str], kind: Kind) -> tuple[float, float]:
     """Limits of a size by its class of ISO 286; the nominal size is that of the machine."""
     if kind.unit != LENGTH.unit:
-        raise problem(
-            name, "tolerance", f"{show(text)} of {kind.word}", "limits with a unit: classes are of lengths"
-        )
+        raise problem(key, f"{show(text)} of {kind.word}", "limits with a unit: classes are of lengths")
     size, letter, grade = code.groups()
     if size is not None and abs(float(size) * 1e-3 - value) > 1e-9 * abs(value):
         expected = f"the size that the machine has, {value * 1e3:.6g} mm"
-        raise problem(name, "tolerance", show(text), expected, f'"{letter}{grade}" takes that size')
+        raise problem(key, show(text), expected, f'"{letter}{grade}" takes that size')
     limits = iso286.deviations(value, letter, int(grade))
     if limits is None:
         where = f"of {value * 1e3:.6g} mm" if 0 < value <= 0.5 else f"of {value * 1e3:.6g} mm, beyond 500 mm"
-        raise problem(name, "tolerance", f"{show(text)} {where}", iso286.KNOWN, "give the limits themselves")
+        raise problem(key, f"{show(text)} {where}", iso286.KNOWN, "give the limits themselves")
     return value + limits[0], value + limits[1]
 
 
-def half_clearance(name: str, value: object, given: float | str, kind: Kind) -> float:
+def half_clearance(key: str, value: object, given: float | str, kind: Kind) -> float:
     """How far a pin that bears on its hole shifts along a length, at most [m]."""
     if not isinstance(value, int | float) or kind.unit != LENGTH.unit:
-        raise problem(name, "clearance", f"one of {kind.word}", "one of a length that the machine has")
+        raise problem(key, f"one of {kind.word}", "one of a length that the machine has")
     fit = iso286.FIT.fullmatch(given) if isinstance(given, str) else None
-    clearance = parsed(name, "clearance", given, kind) if fit is None else _of_fit(name, fit)
+    clearance = _parsed(key, given, kind) if fit is None else _of_fit(key, fit)
     if not clearance > 0:
-        raise problem(name, "clearance", show(given), "more than 0")
+        raise problem(key, show(given), "more than 0")
     return 0.5 * clearance
 
 
-def _of_fit(name: str, fit: re.Match[str]) -> float:
+def _parsed(key: str, value: object, kind: Kind) -> float:
+    """A value as the quantity of its entry."""
+    try:
+        return parse(value, kind)
+    except UnitError as error:
+        raise problem(key, error.problem.found, error.problem.expected, error.problem.remedy) from None
+
+
+def _of_fit(key: str, fit: re.Match[str]) -> float:
     """Clearance of a fit with pin and hole in the middle of their limits [m]."""
     size, hole, hole_grade, pin, pin_grade = fit.groups()
     limits = [
@@ -133,10 +160,10 @@ def _of_fit(name: str, fit: re.Match[str]) -> float:
         for letter, grade in ((hole, hole_grade), (pin, pin_grade))
     ]
     if limits[0] is None or limits[1] is None or not hole.isupper() or not pin.islower():
-        raise problem(name, "clearance", show(fit[0]), f"a hole and a pin, {iso286.KNOWN}")
+        raise problem(key, show(fit[0]), f"a hole and a pin, {iso286.KNOWN}")
     if limits[0][0] < limits[1][1]:
         text = f"{show(fit[0])}, a transition or interference fit"
-        raise problem(name, "clearance", text, "a clearance fit")
+        raise problem(key, text, "a clearance fit")
     return 0.5 * (sum(limits[0]) - sum(limits[1]))
 
 
