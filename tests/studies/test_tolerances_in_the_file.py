@@ -102,5 +102,11 @@ def test_the_table_of_tolerances(tmp_path: Path) -> None:
     assert names == {"A1_radius": RADIUS, "A2_radius": "mechanism.cranks.A2.radius"}
 
 
+@pytest.mark.parametrize("path", sorted(Path().glob("examples/*/machine.toml")))
+def test_lists_are_no_tolerances(path: Path) -> None:
+    """As `"-14, -20, -17 kN"`: no machine of the gallery has a tolerance."""
+    assert not lw.read(path).tolerances
+
+
 def test_words_are_no_tolerances() -> None:
     assert not lw.read("roller_two_carts", {"name": "25 H7", "description": "5 ± 1"}).tolerances

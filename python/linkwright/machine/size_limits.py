@@ -39,12 +39,15 @@ def size_and_limits(text: str) -> tuple[str, str] | None:
     if code := _CODED.fullmatch(text):
         return f"{code[1]} {code[2] or 'mm'}", code[3]
     sized = _SIZED.fullmatch(text.replace("−", "-"))
-    if sized is None:
+    # A text with commas is a list, of which numbers may be negative.
+    if sized is None or "," in text or not _MEASURE.fullmatch(sized[1].strip()):
         return None
     size, limits = sized[1].strip(), sized[2].strip()
-    # On a drawing the unit at the end is that of all numbers.
     match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
-    unit = match[match.re.groups].strip() if match else ""
+    if match is None:
+        return None
+    # On a drawing the unit at the end is that of all numbers.
+    unit = match[match.re.groups].strip()
     return (f"{size} {unit}".strip() if NUMBER.fullmatch(size) and not _is_share(unit) else size), limits
 
 

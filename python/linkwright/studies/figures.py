@@ -162,6 +162,7 @@ def parallel_figure(shown: StudyRows) -> Figure:
     figure, (panel,) = panels(1, height=4.2)
     rows = _drawn(shown, _whole_rows(shown), _LINES)
     _say_how_many(figure, shown, len(rows))
+    panel.set_title(f"coloured by {broken(shown.labels[names[-1]], _WIDE)}", fontsize=8)
     scaled = np.stack([_scaled(shown.columns[name][rows]) for name in names], axis=1)
     order = np.argsort(scaled[:, -1])
     places = np.arange(len(names))

@@ -4,9 +4,9 @@ At the best machine the multipliers λ ≥ 0 of the active limits c are those of
 
 .. math:: \min_\lambda \Bigl\| \nabla f + \sum \lambda_i \nabla c_i \Bigr\|
 
-so that a limit which is wider by one unit makes the goal better by λ. Where extremes tie, goal or limit has a kink
-and a gradient on each side of it; a convex combination of them takes the place of ∇f, a multiple of one that of
-λ ∇c (Clarke, Optimization and Nonsmooth Analysis, 1983, theorem 6.1.1).
+so that a limit which is wider by one unit makes the goal better by λ. Where extremes tie, goal or limit has a
+kink and a gradient on each side of it; a convex combination of them takes the place of ∇f, a multiple of one
+that of λ ∇c (Clarke, Optimization and Nonsmooth Analysis, 1983, theorem 6.1.1).
 """
 
 from __future__ import annotations

@@ -59,7 +59,8 @@ def topper_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     torques = None if drive is None else drive_along(machine, asked, drive)
     refused |= {} if torques is None else torques.program.refused
     listed = tuple(name for name in variables if name not in refused)
-    own = [name for name in own if name in listed]
+    # Numbers have tangents also where nothing of the knife is asked for: by an entry that is not listed.
+    own = [name for name in own if name in listed] or ["topper.edge_length"]
     scalars, missing = _Scalars(machine, study, edges, own).all()
     numbers = {name: spread(number, own, listed) for name, number in scalars.items()}
     ties = dict.fromkeys(PLACES, OTHER_END) if edges[0].knife.rate and described.motion.phase is None else {}

@@ -363,6 +363,34 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
     )
 
 
+def as_high(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
+    """Other crank angles at which the driving torque is as large, or as small [rad].
+
+    `end`: ``"max"`` or ``"min"``.
+    """
+    assert machine.drive is not None
+    assert machine.drive.speed is not None
+    speed, sign = machine.drive.speed, 1.0 if end == "max" else -1.0
+    value, place = getattr(knife_drive, f"torque_{end}"), getattr(knife_drive, f"torque_{end}_angle")
+    torque = sign * forces(machine, speed=speed, angles=DRIVE_ANGLES).torque_drive
+    near = sign * value - torque <= _WITHIN * np.ptp(torque)
+    tops = near & (torque >= np.roll(torque, 1)) & (torque >= np.roll(torque, -1))
+    step, rivals = 2 * np.pi / _DRIVE_ANGLES, [place]
+    for at in DRIVE_ANGLES[tops].tolist():
+        angles = np.linspace(at - step, at + step, _CLOSE + 1)
+        found = forces(machine, speed=speed, angles=angles).torque_drive
+        top, angle = _highest(machine, speed, angles, found, sign)
+        apart = np.abs((np.array(rivals) - angle + np.pi) % (2 * np.pi) - np.pi).min()
+        if apart > step and sign * value - top <= _AS_HIGH * abs(value):
+            rivals.append(angle)
+    return rivals[1:]
+
+
+# Share of its range within which the torque of the revolution's angles is looked at more closely, and share of
+# an extreme within which another is as large: their tops are found to 1e-12.
+_WITHIN, _AS_HIGH = 0.01, 1e-9
+
+
 def _highest(
     machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float
 ) -> tuple[float, float]:

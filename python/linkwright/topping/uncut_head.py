@@ -33,7 +33,7 @@ from linkwright.topping.uncut_along import (
     uncut_slopes,
     y_along,
 )
-from linkwright.topping.worst_head import mean_heads
+from linkwright.topping.worst_head import heads_as_bad, mean_heads
 
 # An offset this near to the largest one, as a share, is that.
 _AT_END = 1e-9
@@ -52,17 +52,39 @@ def worst_left_along(
     described: Topper, topper: Topper, edges: Sequence[Edge], along: Sequence[EdgeAlong], study: TopperStudy
 ) -> tuple[dict[str, Any], dict[str, str]]:
     """What is left of the worst head and where it is; names without derivatives, with the reason."""
-    area = 0.25 * np.pi * study.head_diameter**2
-    half = 0.5 * described.edge_length
-    left = [
-        coverage(edge, study.head_diameter, study.uncut_offset, study.uncut_phase, length=2 * half).uncut[0]
-        for edge in edges
-    ]
-    nth = int(np.argmin(np.abs(np.array(left) / area - study.uncut_share)))
+    area, d = 0.25 * np.pi * study.head_diameter**2, study.head_diameter
+
+    def left(edge: Edge, offset: Floats, phase: Floats) -> Floats:
+        return coverage(edge, d, offset, phase, length=described.edge_length).uncut / area
+
+    worst = [float(left(edge, *_place(study))[0]) for edge in edges]
+    nth = int(np.argmin(np.abs(np.array(worst) - study.uncut_share)))
     numbers, missing = _Worst(described, topper, edges[nth], along[nth], study).numbers()
     if study.uncut_share >= 1 - NOTHING:
         missing = dict.fromkeys(("uncut_phase", "uncut_offset"), _ALL)
+    elif study.uncut_share > 0:
+        for head in heads_as_bad(edges, described.offset, described.motion.phase, left, worst[nth]):
+            at = next(i for i, edge in enumerate(edges) if edge is head.edge)
+            there = replace(study, uncut_phase=head.phase, uncut_offset=head.offset)
+            other = _Worst(described, topper, edges[at], along[at], there).numbers()[0]
+            numbers |= {name: _in_common(numbers[name], other[name]) for name in ("uncut_share",)}
     return numbers, missing
+
+
+def _place(study: TopperStudy) -> tuple[Floats, Floats]:
+    """Offset and phase of the worst head, (1,) each."""
+    return np.array([study.uncut_offset]), np.array([study.uncut_phase])
+
+
+def _in_common(one: Tangent, other: Tangent) -> Tangent:
+    """A number with the derivatives that it has of two heads alike; NaN where they differ."""
+    apart = np.abs(one.d - other.d) > _ALIKE * np.abs(np.stack([one.d, other.d])).max(initial=0.0)
+    return Tangent(one.value, np.where(apart, np.nan, one.d))
+
+
+# Share of the largest derivative by which those of heads that are mirror images differ: their places are good to
+# 1e-8.
+_ALIKE = 1e-6
 
 
 class _Worst:

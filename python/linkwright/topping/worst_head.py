@@ -66,13 +66,23 @@ def worst_head(
 
 def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> Worst:
     """The worst head of one direction."""
-    n, rounds = (_PHASES // SPARING, _ROUNDS // 2) if edge.retreats else (_PHASES, _ROUNDS)
+    phases, offsets, wide = _grid(edge, offset, phase)
+    return _narrowed(_best(edge, phases, offsets, measure, _SAME), wide, offset, measure)
+
+
+def _grid(edge: Edge, offset: float, phase: float | None) -> tuple[Floats, Floats, list[float]]:
+    """Phases and offsets of the first look, and half their distances."""
+    n = _PHASES // SPARING if edge.retreats else _PHASES
     every: Floats = np.linspace(0.0, 2 * np.pi, n if edge.knife.rate else 1, endpoint=False)
     phases = every if phase is None else np.array([phase], dtype=np.float64)
     offsets: Floats = np.asarray(np.linspace(-offset, offset, _OFFSETS if offset else 1))
-    wide = [np.pi / n if len(phases) > 1 else 0.0, offset / (_OFFSETS - 1)]
-    best = _best(edge, phases, offsets, measure, _SAME)
-    for _ in range(rounds):
+    return phases, offsets, [np.pi / n if len(phases) > 1 else 0.0, offset / (_OFFSETS - 1)]
+
+
+def _narrowed(best: Worst, wide: list[float], offset: float, measure: Measure) -> Worst:
+    """The top about a head of the first look."""
+    edge = best.edge
+    for _ in range(_ROUNDS // 2 if edge.retreats else _ROUNDS):
         share = np.arange(-_BESIDE, _BESIDE + 1) / _BESIDE
         phases = best.phase + 2 * wide[0] * share if wide[0] else np.array([best.phase])
         offsets = np.clip(best.offset + 2 * wide[1] * share, -offset, offset) if wide[1] else np.zeros(1)
@@ -80,6 +90,41 @@ def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> 
         wide = [_NARROWER * place for place in wide]
     return Worst(best.value, float(np.mod(best.phase, 2 * np.pi)), best.offset, edge)
 
+
+def heads_as_bad(
+    edges: Sequence[Edge], offset: float, phase: float | None, measure: Measure, worst: float
+) -> list[Worst]:
+    """All heads at which a measure is as large as its maximum, `worst`, each once.
+
+    `offset`, `phase`, `measure`: as of `worst_head`.
+    """
+    found: list[Worst] = []
+    for edge in edges:
+        phases, offsets, wide = _grid(edge, offset, phase)
+        phi, delta = np.meshgrid(phases, offsets, indexing="ij")
+        values = measure(edge, delta.ravel(), phi.ravel()).reshape(phi.shape)
+        beside = [np.roll(values, way, axis=0) for way in (-1, 1)]
+        beside += [
+            np.pad(values, ((0, 0), (1, 1)), constant_values=-np.inf)[:, at:][:, : phi.shape[1]]
+            for at in (0, 2)
+        ]
+        tops = np.logical_and.reduce([values >= each for each in beside]) & (values >= worst * (1 - _NEAR))
+        for i, k in zip(*np.nonzero(tops), strict=True):
+            first = Worst(float(values[i, k]), float(phases[i]), float(offsets[k]), edge)
+            top = _narrowed(first, wide, offset, measure)
+            if top.value >= worst * (1 - _SAME) and all(_are_apart(top, other, wide) for other in found):
+                found.append(top)
+    return found
+
+
+def _are_apart(one: Worst, other: Worst, wide: list[float]) -> bool:
+    """Whether two heads are not the same."""
+    phase = abs((one.phase - other.phase + np.pi) % (2 * np.pi) - np.pi)
+    return one.edge is not other.edge or phase > wide[0] or abs(one.offset - other.offset) > wide[1]
+
+
+# Share by which tops of the first look may be lower than the worst head.
+_NEAR = 0.02
 
 # Share by which values that are the same may differ: areas are good to 1e-12 of a head.
 _SAME = 1e-9

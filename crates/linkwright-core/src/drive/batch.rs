@@ -20,8 +20,12 @@ use crate::linkage::in_line::{InLine, in_line};
 use crate::linkage::motion::Motion;
 use rayon::prelude::*;
 
-/// Rows that a thread takes at once: enough to amortise its buffers, few enough to share the work evenly.
-const CHUNK: usize = 256;
+/// Rows that a thread takes at once: enough that rows with as many steps fill the lanes, few enough to share the work evenly
+/// and to keep their meshes near.
+const CHUNK: [usize; 2] = [128, 1024];
+
+/// Chunks for each thread, so that none waits long for another.
+const CHUNKS: usize = 8;
 
 /// The row of one machine.
 pub fn row_of_steady(s: &Steady) -> [f64; QUANTITIES] {
@@ -69,14 +73,15 @@ pub fn steady_rows(plan: &Plan, rows: &Rows<'_>, accuracy: f64, out: &mut [f64])
     let mut status = vec![if is_for_lanes { Status::Ok } else { Status::Inaccurate }; rows.n];
     let mut fast_starts = vec![FastStarts::Settle; rows.n];
     let sweeps: u64 = in_threads(|crew| {
+        let n = (rows.n / (CHUNKS * rayon::current_num_threads())).clamp(CHUNK[0], CHUNK[1]);
         status
-            .par_chunks_mut(CHUNK)
-            .zip(fast_starts.par_chunks_mut(CHUNK))
-            .zip(out.par_chunks_mut(CHUNK * QUANTITIES))
+            .par_chunks_mut(n)
+            .zip(fast_starts.par_chunks_mut(n))
+            .zip(out.par_chunks_mut(n * QUANTITIES))
             .enumerate()
             .map(|(chunk, ((status, fast_starts), out))| {
                 crew.task(|| {
-                    let first = chunk * CHUNK;
+                    let first = chunk * n;
                     let chunk = Chunk { plan, rows, first, status, out };
                     let swept = if is_for_lanes { in_lanes(chunk) } else { 0 };
                     swept + retry(plan, rows, accuracy, Results { first, status, out }, fast_starts)

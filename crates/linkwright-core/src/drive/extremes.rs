@@ -84,6 +84,13 @@ const STRIDE: f64 = 0.15;
 /// See [`STRIDE`].
 const STRIDES: usize = 6;
 
+/// Share of an acceleration by which the derivative of a series may differ from it at a peak: the peak is displaced by about the
+/// root of it, and falls short by much less.
+const MISSED: f64 = 1e-8;
+
+/// How far beside a peak, as a share of the step, the acceleration is read where the series misses it.
+const BESIDE: f64 = 0.02;
+
 /// u and ε at the samples of a step.
 type Samples<R> = [[R; N]; 2];
 
@@ -477,7 +484,7 @@ impl<R: Real> Promise<R> {
         m: &mut Motion<R>,
     ) -> Extreme<R> {
         if let Some(series) = &self.series {
-            return self.read(machine, limit, self.peak_of_series(series), m);
+            return self.read_on_series(series, machine, limit, m);
         }
         let mut place = self.peak();
         let mut best = Extreme { value: R::splat(f64::NEG_INFINITY), phi: place };
@@ -499,6 +506,38 @@ impl<R: Real> Promise<R> {
             place = better.max(R::splat(0.0)).min(R::splat(1.0));
         }
         best.keep_larger(&self.read(machine, limit, place, m).inside(place));
+        best
+    }
+
+    /// The quantity at the peak of the series. Where the acceleration is another one there than the derivative of the series, the
+    /// peak is displaced as well: then the top of a parabola through readings beside it is read too.
+    #[inline(always)]
+    fn read_on_series(
+        &self,
+        series: &[R; TERMS],
+        machine: &Machine<'_, R>,
+        limit: f64,
+        m: &mut Motion<R>,
+    ) -> Extreme<R> {
+        let place = self.peak_of_series(series);
+        let mut best = self.read(machine, limit, place, m);
+        let (zero, half, centre) = (R::splat(0.0), R::splat(0.5), best.value);
+        let of_series = derivatives(series, place)[1] / self.h * self.sign;
+        let missed = self.is_speed.select_lt(half, (centre - of_series).abs(), zero);
+        let least = centre.abs() * MISSED;
+        if !least.any_below(missed) {
+            return best;
+        }
+        let middle = place.max(R::splat(BESIDE)).min(R::splat(1.0 - BESIDE));
+        let [left, centre, right] =
+            [-BESIDE, 0.0, BESIDE].map(|aside| self.read(machine, limit, middle + aside, m).value);
+        let bend = left - centre - centre + right;
+        let top = ((right - left) / bend * (-0.5 * BESIDE)).max(R::splat(-BESIDE)).min(R::splat(BESIDE));
+        // Lanes whose series is as good keep what they have.
+        let by = least.select_lt(missed, bend.select_lt(zero, top, zero), zero);
+        let found = self.read(machine, limit, middle + by, m);
+        let lowest = R::splat(f64::NEG_INFINITY);
+        best.keep_larger(&Extreme { value: least.select_lt(missed, found.value, lowest), phi: found.phi });
         best
     }
 

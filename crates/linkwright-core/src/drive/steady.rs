@@ -174,6 +174,9 @@ impl From<NoMotion> for Failure {
     }
 }
 
+/// Meshes on which Newton's method is tried again, as multiples of [`FIRST`]: that of an accuracy of 1e-12, and the finest.
+const FINER: [f64; 2] = [3.15, 4.0];
+
 /// Another motion counts as the same if their u at φ = 0 differ by less than this share.
 const SAME: f64 = 1e-5;
 
@@ -221,7 +224,7 @@ fn fastest_and(which: MotionChoice, plan: &Plan, q: &[f64], accuracy: f64) -> Re
     let steps = FIRST * (1e-8 / accuracy).powf(0.125).clamp(1.0, 4.0);
     let mesh = Mesh::new(divide(&breaks, steps as usize));
     let search = Search { plan, q, breaks: &breaks, accuracy, mesh, start: None, any: false };
-    let first = search.best();
+    let first = search.best_on(&FINER);
     let stable = match first {
         Ok(found) if found.multiplier < 1.0 => Some(found),
         Err(failure) if failure.status == Status::DoesNotClose => return Err(failure),
@@ -383,6 +386,20 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The best solution, on finer meshes too where Newton's method does not find one on this: whether it does is not to depend
+    /// on the accuracy that is asked for.
+    fn best_on(&self, finer: &[f64]) -> Result<Steady, Failure> {
+        let mut found = self.best();
+        for steps in finer {
+            if !matches!(found, Err(Failure { status: Status::NoSteadyMotion, .. })) {
+                break;
+            }
+            let mesh = Mesh::new(divide(self.breaks, (FIRST * steps) as usize));
+            found = Search { mesh, ..self.clone() }.best();
+        }
+        found
+    }
+
     /// The solution, to a lower accuracy where that which is asked for ends in rounding: with ever shorter steps the noise of
     /// accelerations under a steep drive only grows.
     fn best(&self) -> Result<Steady, Failure> {

@@ -120,7 +120,10 @@ def columns_of(
     """
     lines = lines_of(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
-    if len(lines) < 2 or not all(heads):
+    if len(lines) == 1 and all(heads):
+        found, expected = "no rows below the head", "at least one row, its numbers separated by commas"
+        raise MachineFileError([Problem(key, found, expected, path=str(path), line=lines[0][0])])
+    if not lines or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
         expected = f'a head such as "{_EXAMPLES[kind]}", and a row for each point, separated by commas'
         raise MachineFileError(

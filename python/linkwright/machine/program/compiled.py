@@ -282,7 +282,12 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
         if known is not None and known.is_of(machine):
             return known.compiled
         compiled = _translate(machine, motor=motor, brake=brake)
-    except (ArithmeticError, ValueError, TypeError) as error:
+    except (ValueError, TypeError) as error:
+        # Of an array numpy says what a user cannot know.
+        varies = next(iter(arrays(machine)), None) is not None
+        found = "values that vary where one number is taken" if varies else str(error)
+        raise _not_usable(machine, found) from None
+    except ArithmeticError as error:
         raise _not_usable(machine, str(error)) from None
     if not np.isfinite(compiled.parameters).all():
         raise _not_usable(machine, "a number that follows from them is not finite")

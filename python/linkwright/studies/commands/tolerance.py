@@ -103,7 +103,8 @@ def _dropped(scatter: Tolerance, n: int) -> list[str]:
     most = max(total, key=total.__getitem__)
     return [
         f"{scatter.n_dropped} of {n} blocks are omitted from the Sobol indices, since a machine of each "
-        f"has no result; on that {most} has the most influence, with a total index of {total[most]:.3g}."
+        f"has no result; {most} has the most influence on whether it has one, with a total index of "
+        f"{total[most]:.3g}."
     ]
 
 
