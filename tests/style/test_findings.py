@@ -117,7 +117,7 @@ def test_no_handler_forgets_an_error_of_ours() -> None:
 
 def test_a_study_has_one_collector_of_findings() -> None:
     # A second collector is one whose findings nobody asks for; a check is a study of its own, and so are
-    # a motion in time, derivatives, and what the studio computes while a slider is held.
+    # a motion in time, contacts, and what the studio computes while a slider is held.
     made = [
         file
         for file, tree in trees()
@@ -128,8 +128,8 @@ def test_a_study_has_one_collector_of_findings() -> None:
         "app/soundness.py",
         "app/study.py",
         "drive/commands.py",
+        "kinetostatics/contact.py",
         "kernel/findings.py",
-        "sensitivity/sources.py",
         "studio/analyses.py",
     ]
 

@@ -117,6 +117,8 @@ EDGES = {
     ("synthesis", "linkages.model"),
     ("sizing", "drive"),
     ("sizing", "drive.model"),
+    # A motor is to drive a machine that keeps its contacts.
+    ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
     # Results of a drive and of a train are differentiated.
     ("sensitivity", "drive"),

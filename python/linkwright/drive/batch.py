@@ -181,8 +181,8 @@ def steady_states(
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-13 to 1e-2")
     if isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError(
-            f"{', '.join(entries)}: the motor of each machine holds its speed, so that there is no steady motion "
-            "to solve for; a batch needs a drive.motor of another kind"
+            f"{', '.join(entries)}: the motor of each machine holds its speed, so that there is no steady "
+            "motion to solve for; a batch needs a drive.motor of another kind"
         )
     require_same_turns(machine)
     arrays = _columns(machine, entries)

@@ -38,7 +38,7 @@ _ROUNDING = 1e-12
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
     """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
-    sentences = [*_unloaded(machine), *_reduced(reduced)]
+    sentences = [*_unloaded(machine), *_reduced(reduced), *unjudged_limits(machine)]
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)
@@ -50,6 +50,18 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
         sentences += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         sentences += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
     return tuple(sentences)
+
+
+def unjudged_limits(machine: Machine) -> Iterator[str]:
+    """Limits of shafts that an analysis with rigid shafts does not judge."""
+    drive = machine.drive
+    shafts = {"motor_shaft": drive and drive.motor_shaft, "crankshaft": drive and drive.crankshaft}
+    for name, shaft in shafts.items():
+        if shaft is not None and shaft.limit is not None:
+            yield (
+                f"drive.{name}.limit is not judged here, where shafts are rigid: `linkwright torsion` judges it "
+                "by the torque that twists the shaft"
+            )
 
 
 def _without_rotor(drive: Drive) -> Iterator[str]:

@@ -152,12 +152,14 @@ def transient(
 
 
 def _answer(of: _MotionReport) -> Answer:
+    from linkwright.drive.cautions import unjudged_limits
+
     return Answer(
         machine=of.machine.name,
         units=of.machine.units,
         results=partial(_results, of),
         findings=list(of.findings.findings),
-        warnings=list(of.findings.warnings),
+        warnings=[*of.findings.warnings, *unjudged_limits(of.machine)],
         head=lambda: _head(of),
         tables=partial(_tables, of),
         files=partial(_files, of),

@@ -174,6 +174,8 @@ def _answer(
     orders: ShakingOrders | None,
 ) -> Answer:
     """What was found, case by case."""
+    from linkwright.drive.cautions import unjudged_limits
+
     return Answer(
         machine=machine.name,
         units=machine.units,
@@ -182,7 +184,7 @@ def _answer(
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
-        warnings=_nothing_to_carry(machine),
+        warnings=[*_nothing_to_carry(machine), *unjudged_limits(machine)],
         head=partial(_head, speeds),
         tables=partial(_tables, cases, orders),
         files=partial(_files, cases),

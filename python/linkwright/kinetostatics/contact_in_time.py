@@ -20,6 +20,7 @@ from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.public import public
 from linkwright.kinetostatics.collect import KEEPS, LEAVES, TIGHTENS
+from linkwright.kinetostatics.contact import contacts
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.machine import Machine
@@ -107,23 +108,16 @@ def contact_losses(machine: Machine, motion: Transient) -> tuple[ContactLoss, ..
     --------
     linkwright.kinetostatics.forces.forces : Forces along the motion.
     """
-    contacts = _contacts(machine)
-    if not contacts or motion.steps == 0:
+    watched = contacts(machine)
+    if not watched or motion.steps == 0:
         return ()
-    return tuple(_losses(machine, motion, contacts))
+    return tuple(_losses(machine, motion, watched))
 
 
-def _contacts(machine: Machine) -> list[tuple[str, str]]:
-    """Kind and name of what can only press, and of what can only pull."""
-    cams = machine.mechanism.cams.items()
-    followers = [("cam", name) for name, cam in cams if cam.closure == "spring"]
-    return [*followers, *(("cable", name) for name in machine.mechanism.cables)]
-
-
-def _losses(machine: Machine, motion: Transient, contacts: list[tuple[str, str]]) -> Iterator[ContactLoss]:
+def _losses(machine: Machine, motion: Transient, watched: list[tuple[str, str]]) -> Iterator[ContactLoss]:
     """Of each contact that is lost, where first and with what force."""
     time = (motion.time[:-1, None] + np.diff(motion.time)[:, None] * _PLACES).ravel()
-    held = partial(_held, machine, motion, contacts)
+    held = partial(_held, machine, motion, watched)
     parts = np.array_split(time, -(-motion.steps // _STEPS))
     for i, force in enumerate(np.concatenate([held(part) for part in parts], axis=1)):
         if np.isnan(force).all():
@@ -133,14 +127,14 @@ def _losses(machine: Machine, motion: Transient, contacts: list[tuple[str, str]]
         if len(lost):
             at = _first(partial(_of_one, held, i), time, force, int(lost[0]))
             angle, speed, _ = (float(x[0]) for x in states(motion, np.array([at])))
-            yield ContactLoss(*contacts[i], at, angle, speed, float(-force[worst]), float(time[worst]))
+            yield ContactLoss(*watched[i], at, angle, speed, float(-force[worst]), float(time[worst]))
 
 
-def _held(machine: Machine, motion: Transient, contacts: list[tuple[str, str]], time: Floats) -> Floats:
-    """Force with which each contact is held at times (n,) of a motion, (contacts, n) [N]."""
+def _held(machine: Machine, motion: Transient, watched: list[tuple[str, str]], time: Floats) -> Floats:
+    """Force with which each contact is held at times (n,) of a motion, (watched, n) [N]."""
     acting = forces(machine, Motion(*states(motion, time), time), contributions=False)
     tensions = {pair.second: pair.normal for pair in acting.pairs.values() if pair.kind == "cable"}
-    return np.array([acting.drives[name] if kind == "cam" else tensions[name] for kind, name in contacts])
+    return np.array([acting.drives[name] if kind == "cam" else tensions[name] for kind, name in watched])
 
 
 def _of_one(held: Callable[[Floats], Floats], i: int, time: float) -> float:

@@ -56,7 +56,7 @@ def sensitivity(
     """
     from linkwright.machine.read import read
     from linkwright.sensitivity.gradient import gradient
-    from linkwright.sensitivity.sources import lost_contacts
+    from linkwright.sensitivity.sources import lost_in
     from linkwright.sensitivity.tables import gradient_tables
 
     folder = output_folder(out, force=force)
@@ -68,7 +68,7 @@ def sensitivity(
             machine=machine.name,
             units=machine.units,
             results=lambda curves: derivatives.to_dict(),
-            findings=lost_contacts(machine, derivatives.responses),
+            findings=lost_in(machine, derivatives.responses),
             warnings=[
                 *(
                     f"{name} has a derivative on either side only, or none: {why}"

@@ -27,7 +27,6 @@ from linkwright.drive.gradient import steady_tangents
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.errors import InputError, cut
-from linkwright.kernel.findings import Findings
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.machine.machine import Machine
@@ -362,14 +361,9 @@ def analysis_of(response: str) -> str:
 _IN_CONTACT = ("steady_state", "forces", "cam_force")
 
 
-def lost_contacts(machine: Machine, responses: Sequence[str]) -> tuple[str, ...]:
+def lost_in(machine: Machine, responses: Sequence[str]) -> tuple[str, ...]:
     """Contacts that the machine loses, of whose motion in contact the derivatives are, in sentences."""
-    from linkwright.kinetostatics.forces import forces
+    from linkwright.kinetostatics.contact import lost_contacts
 
     analyses = {name.partition(".")[0] for name in responses}
-    may_lose = machine.mechanism.cams or machine.mechanism.cables
-    if not analyses.intersection(_IN_CONTACT) or not may_lose or not (machine.bodies or machine.loads):
-        return ()
-    collected = Findings()
-    collected.of(forces, machine)
-    return collected.findings
+    return lost_contacts(machine) if analyses.intersection(_IN_CONTACT) else ()

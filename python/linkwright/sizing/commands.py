@@ -329,18 +329,22 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
 
 def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
     """Motor and flywheel, or why no motor suffices."""
+    from linkwright.drive.cautions import unjudged_limits
+    from linkwright.kinetostatics.contact import lost_contacts
+
     results = {
         "required_power": motor.required.to_dict(),
         "motor": motor.to_dict(),
         "flywheel": flywheel.to_dict() if flywheel else None,
     }
     fitted, chosen = flywheel and flywheel.machine, motor.chosen
+    moved = fitted or (chosen and chosen.machine)
     return Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: results,
-        findings=[] if chosen else [motor.reason],
-        warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ())],
+        findings=[*([] if chosen else [motor.reason]), *(lost_contacts(moved) if moved else ())],
+        warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged_limits(machine)],
         head=partial(_lead, machine.name, motor, flywheel),
         tables=partial(_tables_of_choice, motor),
         machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
@@ -349,6 +353,8 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     """The flywheel for the motor of the file."""
+    from linkwright.drive.cautions import unjudged_limits
+    from linkwright.kinetostatics.contact import lost_contacts
     from linkwright.machine.write import dumps
 
     machine = flywheel.machine
@@ -356,7 +362,8 @@ def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
         machine=machine.name,
         units=machine.units,
         results=lambda _: {"flywheel": flywheel.to_dict()},
-        warnings=flywheel.warnings,
+        findings=lost_contacts(machine),
+        warnings=[*flywheel.warnings, *unjudged_limits(machine)],
         head=lambda: "\n".join(_flywheel_words(flywheel)),
         tables=partial(_table_of_flywheel, flywheel),
         machine_file=partial(dumps, machine),

@@ -27,6 +27,9 @@ from linkwright.studies.responses import analysis, entry_number
 from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, SOLVED, Rows
 from linkwright.studies.study_response import ENTRY, MOTION, PATH, StudyResponse
 
+# Analyses of forces that keep contacts.
+_IN_CONTACT = ("forces", "cam_force")
+
 # Rows whose points are in memory at once.
 _TOGETHER = 2000
 
@@ -258,7 +261,11 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
             answers.append(entry_number(machine, *asked.of))
             continue
         if asked.key not in results:
-            results[asked.key] = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
+            result = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
+            # Forces of a contact that is lost are not those of the machine.
+            if asked.analysis in _IN_CONTACT and result.findings:
+                raise FindingError(result.findings[0])
+            results[asked.key] = result
         answers.append(asked.number(results[asked.key]))
     return answers
 

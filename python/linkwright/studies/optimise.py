@@ -21,6 +21,7 @@ from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.kinetostatics.contact import lost_contacts
 from linkwright.machine.machine import Machine
 from linkwright.studies.chosen import choice, machine_of, numbers_alone
 from linkwright.studies.engine import evaluate
@@ -68,6 +69,10 @@ class Optimum(Result):
     goal_range: Annotated[
         tuple[float, float], About("Minimum and maximum of the goal among machines with an answer [SI].")
     ] = (math.nan, math.nan)
+    findings: Annotated[
+        tuple[str, ...],
+        About("What the best machine does not do: a follower that leaves its cam, a slack cable."),
+    ] = ()
 
     @property
     def is_flat(self) -> bool:
@@ -165,8 +170,9 @@ def _optimum(search: Search) -> Optimum:
     worth, unknown = _prices(search) if active else ([], "")
     words = [in_words(plan, search.goal, search.sign, price) for price in worth if price.multiplier > 0]
     words += [f"what wider limits would be worth is not known: {unknown}"] if unknown else []
+    best = machine_of(plan, rows)
     return Optimum(
-        machine=machine_of(plan, rows),
+        machine=best,
         goal=search.goal,
         variables={axis.name: kind.get(axis.name, float(values[axis.name][0])) for axis in plan.axes},
         responses=responses,
@@ -180,6 +186,7 @@ def _optimum(search: Search) -> Optimum:
         fast_starts=next(iter(rows.not_settling()), ""),
         one_by_one=dict(search.one_by_one.most_common()),
         goal_range=(search.low, search.high),
+        findings=lost_contacts(best),
     )
 
 

@@ -96,6 +96,7 @@ def hand_over_optimum(
         names=plan.columns,
         units=plan.machine.units,
         results=lambda _: {"optimum": optimum.to_dict()},
+        findings=optimum.findings,
         warnings=[
             *_flat_warnings(optimum),
             *([optimum.fast_starts] if optimum.fast_starts else []),

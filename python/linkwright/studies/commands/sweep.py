@@ -100,6 +100,21 @@ def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
     return [f"{n} rows were computed one by one and not at once, which takes longer: {why}"] if n else []
 
 
+def unwatched_contacts(plan: StudyPlan) -> list[str]:
+    """That steady motion alone does not tell whether followers stay on their cams."""
+    from linkwright.kinetostatics.contact import contacts
+
+    analyses = {asked.analysis for asked in plan.asked}
+    watched = contacts(plan.machine)
+    if not watched or "steady_state" not in analyses or analyses & {"forces", "cam_force"}:
+        return []
+    names = ", ".join(f"{kind} {name}" for kind, name in watched)
+    return [
+        f"Rows do not tell whether contact is kept ({names}): steady motion is that of a machine in contact. With a "
+        "response of forces, such as forces.torque_drive_max, a row that loses contact has no result"
+    ]
+
+
 def _share(text: str | None) -> tuple[int, int] | None:
     """Numbers of files out of ``A:B``."""
     from linkwright.kernel.errors import InputError
@@ -121,6 +136,7 @@ def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
     missing = swept.n_rows - swept.n_done
     warnings = [f"{name} was truncated or damaged, and is computed again." for name in swept.repaired]
     warnings += [*fast_start_warnings(swept.fast_starts), *one_by_one_warnings(swept.one_by_one)]
+    warnings += unwatched_contacts(plan)
     warnings += [
         f"{name} is truncated or damaged; the same sweep computes it again." for name in swept.truncated
     ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from linkwright.kernel.command.answer import Answer, hand_over
 from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
 from linkwright.kernel.command.parameter import Option
-from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings
+from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings, unwatched_contacts
 
 if TYPE_CHECKING:
     from linkwright.studies.allocation import Allocation
@@ -78,6 +78,7 @@ def tolerance(
             ),
             *fast_start_warnings(scatter.fast_starts),
             *one_by_one_warnings(scatter.one_by_one),
+            *unwatched_contacts(plan),
         ],
         head=lambda: _head(plan, scatter),
         tables=lambda: tolerance_tables(scatter, plan.units),
