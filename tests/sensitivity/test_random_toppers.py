@@ -224,3 +224,28 @@ def test_the_mean_draw_cut_ratio_is_exact() -> None:
     assert lw.topper(machine, charts=False).slicing_ratio_mean == pytest.approx(
         along / (v * np.cos(alpha)), rel=1e-12
     )
+
+
+def test_ties_of_a_knife_that_moves_alike_both_ways() -> None:
+    """What a symmetric stroke reaches twice has a derivative on either side only, and says so."""
+    machine = lw.read("topper_cam")
+    start, length = "mechanism.cams.knife.sections.1.law.start", "topper.edge_length"
+    names = ["drive_torque_max", "drive_torque_min", "uncut_share"]
+    found = lw.gradient(machine, [f"topper.{name}" for name in names], [start, length])
+    assert set(found.ties) == {f"topper.{name}" for name in names}
+    assert np.isnan(found.derivatives[:, 0]).all()
+    # The edge is as long for both: its derivative is that of either side.
+    assert np.isfinite(found.derivatives[:, 1]).all()
+    value, step = lw.get(machine, start), 1e-5
+    below, at, above = (
+        lw.topper(lw.replace(machine, {start: value + change})) for change in (-step, 0.0, step)
+    )
+    for name in names:
+        left, right = (getattr(at, name) - getattr(below, name), getattr(above, name) - getattr(at, name))
+        assert abs(left - right) > 0.5 * max(abs(left), abs(right))
+
+
+def test_entries_that_a_knife_does_not_know() -> None:
+    for name, entry in (("topper", "run_up.settled"), ("topper_field", "run_up.angle_start")):
+        found = lw.gradient(lw.read(name), ["topper.travel_along"], [entry])
+        assert found.derivatives.tolist() == [[0.0]]

@@ -190,6 +190,37 @@ FRONT = TEXT.replace('far = "minimise"\n', 'far = "minimise"\nother = "minimise"
 )
 
 
+def test_what_a_limit_costs_on_a_kink(tmp_path: Path) -> None:
+    """The smallest flywheel stands where two speeds tie; its price is that of moving the limit."""
+    text = """
+machine = "roller_two_carts"
+[variables.phase]
+address = "mechanism.cranks.A2.phase"
+range = ["80 deg", "95 deg"]
+[variables.J]
+address = "drive.flywheel.inertia"
+range = ["0.1 kg m^2", "400 kg m^2"]
+[responses]
+delta = "steady_state.unevenness"
+inertia = {{ entry = "drive.flywheel.inertia" }}
+[constraints]
+delta = {{ max = {limit} }}
+[goals]
+inertia = "minimise"
+"""
+
+    def found(limit: float) -> Optimum:
+        (tmp_path / "study.toml").write_text(text.format(limit=limit))
+        wheel = {"drive.flywheel": {"inertia": 5.0}}
+        return lw.optimise(lw.read_study(tmp_path / "study.toml", wheel), 700, method="gradient", starts=4)
+
+    best, step = found(0.05), 1e-4
+    slope = (found(0.05 - step).responses["inertia"] - found(0.05 + step).responses["inertia"]) / (2 * step)
+    # By differences of second order in the step, over limits that differ by 0.4 %.
+    assert best.multipliers["maximum of delta"] == pytest.approx(slope, rel=1e-3)
+    assert "would make inertia" in best.worth[0]
+
+
 def test_a_front_of_two_goals(tmp_path: Path) -> None:
     """The front is the line between both places, √f₁ + √f₂ their distance."""
     (tmp_path / "study.toml").write_text(FRONT)

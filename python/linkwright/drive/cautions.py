@@ -55,12 +55,12 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
 def unjudged_limits(machine: Machine) -> Iterator[str]:
     """Limits of shafts that an analysis with rigid shafts does not judge."""
     drive = machine.drive
-    shafts = {"motor_shaft": drive and drive.motor_shaft, "crankshaft": drive and drive.crankshaft}
+    shafts = {} if drive is None else {"motor_shaft": drive.motor_shaft, "crankshaft": drive.crankshaft}
     for name, shaft in shafts.items():
         if shaft is not None and shaft.limit is not None:
             yield (
-                f"drive.{name}.limit is not judged here, where shafts are rigid: `linkwright torsion` judges it "
-                "by the torque that twists the shaft"
+                f"drive.{name}.limit is not judged here, where shafts are rigid: `linkwright torsion` judges "
+                "it by the torque that twists the shaft"
             )
 
 

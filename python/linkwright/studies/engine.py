@@ -263,8 +263,9 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
         if asked.key not in results:
             result = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
             # Forces of a contact that is lost are not those of the machine.
-            if asked.analysis in _IN_CONTACT and result.findings:
-                raise FindingError(result.findings[0])
+            lost = getattr(result, "findings", ()) if asked.analysis in _IN_CONTACT else ()
+            if lost:
+                raise FindingError(lost[0])
             results[asked.key] = result
         answers.append(asked.number(results[asked.key]))
     return answers

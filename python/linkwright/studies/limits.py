@@ -148,11 +148,12 @@ def _multipliers(
     weights, rest = nnls(system, np.concatenate([np.zeros(len(places)), [_TOGETHER * size]]))
     if rest > _EXPLAINED * size:
         return None
-    return np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
+    found: Floats = np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
+    return found
 
 
 def _active(plan: StudyPlan, near: list[Slopes], values: Floats, rates: Floats) -> Iterator[_ActiveLimit]:
-    """Active limits of responses and of ranges, with the slopes that they have at the first place and near it."""
+    """Active limits of responses and of ranges, with their slopes at a place and near it."""
     for name, limit, way in limits(plan):
         if _is_at(limit, near[0].values[name]):
             word = "maximum" if way > 0 else "minimum"

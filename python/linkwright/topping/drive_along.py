@@ -19,7 +19,8 @@ from linkwright.machine.tangents import Directions, seeded
 from linkwright.topping.knife import DRIVE_ANGLES, KnifeDrive, as_high, carried
 from linkwright.topping.uncut_along import slopes
 
-# Share of the largest derivative by which those of one extreme at two angles may differ: these are good to 1e-8.
+# Share of the largest derivative by which those of an extreme at two angles may differ: they are good to
+# 1e-8.
 _SAME = 1e-6
 
 # Share of the largest torque below which the mean is what angles half a degree apart leave of kinks.

@@ -110,8 +110,8 @@ def unwatched_contacts(plan: StudyPlan) -> list[str]:
         return []
     names = ", ".join(f"{kind} {name}" for kind, name in watched)
     return [
-        f"Rows do not tell whether contact is kept ({names}): steady motion is that of a machine in contact. With a "
-        "response of forces, such as forces.torque_drive_max, a row that loses contact has no result"
+        f"Rows do not tell whether contact is kept ({names}): steady motion is that of a machine in contact. "
+        "With a response of forces, such as forces.torque_drive_max, a row that loses contact has no result"
     ]
 
 
