@@ -78,6 +78,7 @@ __all__ = [
     "follow_group",
     "gaps",
     "in_line",
+    "inertias_along",
     "kinks",
     "kinks_along",
     "law_torques",
@@ -1286,6 +1287,9 @@ def motions_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats, what: S
 
 def kinks_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats) -> _Floats:
     """Derivatives of crank angles by directions (parameters, n), where they are kinks, (angles, n)."""
+
+def inertias_along(plan: Plan, q: _Floats, values: _Floats, phi: _Floats) -> _Floats:
+    """Derivatives of the reduced inertia and of its slope by directions (parameters, n), (2 × angles, n)."""
 
 @final
 class ThirdDerivatives:

@@ -1,4 +1,4 @@
-"""A follower that leaves its cam is told by whatever gives results of its motion."""
+"""Derivatives, sizing and studies tell of a follower that leaves its cam."""
 
 from __future__ import annotations
 

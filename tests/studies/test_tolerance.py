@@ -332,7 +332,7 @@ def test_indices_of_failures(tmp_path: Path) -> None:
         application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "500", "--indices", "200"]
     )
     assert "of 200 blocks are omitted" in " ".join(told.stdout.split())
-    assert "on that a has the most influence" in " ".join(told.stdout.split())
+    assert "a has the most influence on whether it has one" in " ".join(told.stdout.split())
 
 
 def test_the_size_that_is_told_is_accepted(tmp_path: Path) -> None:

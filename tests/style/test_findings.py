@@ -128,8 +128,8 @@ def test_a_study_has_one_collector_of_findings() -> None:
         "app/soundness.py",
         "app/study.py",
         "drive/commands.py",
-        "kinetostatics/contact.py",
         "kernel/findings.py",
+        "kinetostatics/contact.py",
         "studio/analyses.py",
     ]
 

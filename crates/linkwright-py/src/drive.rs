@@ -612,3 +612,17 @@ pub(crate) fn kinks_along<'py>(
     let phi = phi.as_slice()?;
     filled(py, "derivatives of kinks", [phi.len(), of.n], |to| along::kinks_along(of, phi, to))
 }
+
+/// Derivatives of the reduced inertia and of its slope by directions at crank angles, (2 × angles, n).
+#[pyfunction]
+pub(crate) fn inertias_along<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    q: Floats<'_>,
+    values: PyReadonlyArray2<'_, f64>,
+    phi: Floats<'_>,
+) -> PyResult<Table<'py>> {
+    let of = directions(plan, plan.parameters(&q)?, &values)?;
+    let phi = phi.as_slice()?;
+    filled(py, "derivatives of the inertia", [2 * phi.len(), of.n], |to| along::inertias_along(of, phi, to))
+}

@@ -66,8 +66,9 @@ mod _core {
     #[pymodule_export]
     use super::drive::{
         MotionInTime, MotionVariations, MotorTorques, NoSteadyMotion, OtherMotion, Reductions, SteadyCurves,
-        SteadyGradient, SteadyMotion, SteadyRows, SteadySolution, kinks, kinks_along, law_torques, motion_at,
-        motor_torques, reductions, steady_rows, steady_state, transient, transient_along,
+        SteadyGradient, SteadyMotion, SteadyRows, SteadySolution, inertias_along, kinks, kinks_along,
+        law_torques, motion_at, motor_torques, reductions, steady_rows, steady_state, transient,
+        transient_along,
     };
     #[pymodule_export]
     use super::equations::solve_systems;

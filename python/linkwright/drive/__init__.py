@@ -13,6 +13,7 @@
 | `figures_of_cycle` | Figures of sliders, rockers and coupler points over the cycle |
 | `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `gradient` | Derivatives of steady motion by entries of the machine |
+| `gradient_at_constant_energy` | Derivatives of δ, H and k_p at constant energy |
 | `gradient_in_time` | Derivatives of run-up and run-down by entries of the machine |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |

@@ -8,6 +8,7 @@
 | `collect` | From the unknowns to the result |
 | `commands` | ``linkwright forces`` and ``linkwright balance`` |
 | `envelope` | Peaks, root mean squares, means and harmonics of forces; load cases side by side |
+| `contact` | Contacts that can be lost, and whether they are in steady motion |
 | `contact_in_time` | Where does a motion in time lose the contact of a follower, the tension of a cable? |
 | `couple` | Forces of inertia along the crankshaft: shaking couples |
 | `equilibrium` | The linear system, its solution, and the iteration over friction |

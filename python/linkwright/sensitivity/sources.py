@@ -122,6 +122,14 @@ def _nothing(tangents: Mapping[str, Tangent], rounding: Mapping[str, float]) -> 
     return nothing | {ratio for ratio, of in _RATIOS.items() if nothing & {*of} and ratio in tangents}
 
 
+def _constant_energy(machine: Machine, variables: Sequence[str]) -> Source:
+    """Measures of speed fluctuation at constant kinetic energy."""
+    from linkwright.drive.evenness import ConstantEnergy
+    from linkwright.drive.gradient_at_constant_energy import constant_energy_tangents
+
+    return _of_scalars("constant_energy", ConstantEnergy, constant_energy_tangents(machine, variables))
+
+
 def _run_up(machine: Machine, variables: Sequence[str]) -> Source:
     """Time, revolutions and peak speed of the run-up."""
     from linkwright.drive.gradient_in_time import run_up_tangents
@@ -322,6 +330,7 @@ def _of_scalars(
 # Analysis → its results with derivatives.
 SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "steady_state": _steady,
+    "constant_energy": _constant_energy,
     "run_up": _run_up,
     "run_down": _run_down,
     "free_vibration": _free,

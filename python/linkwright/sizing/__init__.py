@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `beside` | Contacts that are lost with the motor, limits that are not judged |
 | `checks` | Does a motor suffice: power, start, heat, overload, run-up? |
 | `commands` | ``linkwright size`` and ``linkwright motors`` |
 | `flywheel` | What flywheel keeps the speed within a wanted speed fluctuation? |

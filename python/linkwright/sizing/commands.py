@@ -329,22 +329,21 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
 
 def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
     """Motor and flywheel, or why no motor suffices."""
-    from linkwright.drive.cautions import unjudged_limits
-    from linkwright.kinetostatics.contact import lost_contacts
+    from linkwright.sizing.beside import lost, unjudged
 
     results = {
         "required_power": motor.required.to_dict(),
         "motor": motor.to_dict(),
         "flywheel": flywheel.to_dict() if flywheel else None,
     }
-    fitted, chosen = flywheel and flywheel.machine, motor.chosen
-    moved = fitted or (chosen and chosen.machine)
+    fitted, chosen = None if flywheel is None else flywheel.machine, motor.chosen
+    moved = chosen.machine if fitted is None and chosen else fitted
     return Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: results,
-        findings=[*([] if chosen else [motor.reason]), *(lost_contacts(moved) if moved else ())],
-        warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged_limits(machine)],
+        findings=[*([] if chosen else [motor.reason]), *lost(moved)],
+        warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged(machine)],
         head=partial(_lead, machine.name, motor, flywheel),
         tables=partial(_tables_of_choice, motor),
         machine_file=partial(_file_text, fitted, chosen) if fitted and chosen else None,
@@ -353,17 +352,16 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     """The flywheel for the motor of the file."""
-    from linkwright.drive.cautions import unjudged_limits
-    from linkwright.kinetostatics.contact import lost_contacts
     from linkwright.machine.write import dumps
+    from linkwright.sizing.beside import lost, unjudged
 
     machine = flywheel.machine
     return Answer(
         machine=machine.name,
         units=machine.units,
         results=lambda _: {"flywheel": flywheel.to_dict()},
-        findings=lost_contacts(machine),
-        warnings=[*flywheel.warnings, *unjudged_limits(machine)],
+        findings=lost(machine),
+        warnings=[*flywheel.warnings, *unjudged(machine)],
         head=lambda: "\n".join(_flywheel_words(flywheel)),
         tables=partial(_table_of_flywheel, flywheel),
         machine_file=partial(dumps, machine),

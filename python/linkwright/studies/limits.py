@@ -131,13 +131,11 @@ class _ActiveLimit(NamedTuple):
 def _multipliers(
     plan: StudyPlan, goal: str, rates: Floats, near: list[Slopes], listed: list[_ActiveLimit]
 ) -> Floats | None:
-    """Multipliers of active limits that explain why a place is the best; None if they do not.
-
-    Of a kink each side has its weight: weights of the goal's sides add up to one, those of a limit's to its
-    multiplier. `rates`: of the shares, negative where the goal is to be large.
-    """
+    """Multipliers of active limits that explain why a place is the best; None if they do not."""
     from scipy.optimize import nnls
 
+    # Of a kink each side has its weight: weights of the goal's sides add up to one, those of a limit's to its
+    # multiplier.
     places = free(plan)
     goals = np.array([slopes.slopes[goal] * rates for slopes in near])[:, places]
     size = float(np.linalg.norm(goals, axis=1).max()) or 1.0
@@ -148,8 +146,8 @@ def _multipliers(
     weights, rest = nnls(system, np.concatenate([np.zeros(len(places)), [_TOGETHER * size]]))
     if rest > _EXPLAINED * size:
         return None
-    found: Floats = np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
-    return found
+    multipliers: Floats = np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
+    return multipliers
 
 
 def _active(plan: StudyPlan, near: list[Slopes], values: Floats, rates: Floats) -> Iterator[_ActiveLimit]:

@@ -378,16 +378,16 @@ def as_high(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
     step, rivals = 2 * np.pi / _DRIVE_ANGLES, [place]
     for at in DRIVE_ANGLES[tops].tolist():
         angles = np.linspace(at - step, at + step, _CLOSE + 1)
-        found = forces(machine, speed=speed, angles=angles).torque_drive
-        top, angle = _highest(machine, speed, angles, found, sign)
+        beside = forces(machine, speed=speed, angles=angles).torque_drive
+        top, angle = _highest(machine, speed, angles, beside, sign)
         apart = np.abs((np.array(rivals) - angle + np.pi) % (2 * np.pi) - np.pi).min()
         if apart > step and sign * value - top <= _AS_HIGH * abs(value):
             rivals.append(angle)
     return rivals[1:]
 
 
-# Share of its range within which the torque of the revolution's angles is looked at more closely, and share of
-# an extreme within which another is as large: their tops are found to 1e-12.
+# Share of its range within which the torque of the revolution's angles is looked at more closely, and share
+# of an extreme within which another is as large: their tops are found to 1e-12.
 _WITHIN, _AS_HIGH = 0.01, 1e-9
 
 

@@ -82,8 +82,8 @@ def _in_common(one: Tangent, other: Tangent) -> Tangent:
     return Tangent(one.value, np.where(apart, np.nan, one.d))
 
 
-# Share of the largest derivative by which those of heads that are mirror images differ: their places are good to
-# 1e-8.
+# Share of the largest derivative by which those of heads that are mirror images differ: their places are good
+# to 1e-8.
 _ALIKE = 1e-6
 
 

@@ -98,7 +98,7 @@ def heads_as_bad(
 
     `offset`, `phase`, `measure`: as of `worst_head`.
     """
-    found: list[Worst] = []
+    heads: list[Worst] = []
     for edge in edges:
         phases, offsets, wide = _grid(edge, offset, phase)
         phi, delta = np.meshgrid(phases, offsets, indexing="ij")
@@ -108,13 +108,13 @@ def heads_as_bad(
             np.pad(values, ((0, 0), (1, 1)), constant_values=-np.inf)[:, at:][:, : phi.shape[1]]
             for at in (0, 2)
         ]
-        tops = np.logical_and.reduce([values >= each for each in beside]) & (values >= worst * (1 - _NEAR))
+        tops = np.logical_and.reduce([values >= side for side in beside]) & (values >= worst * (1 - _NEAR))
         for i, k in zip(*np.nonzero(tops), strict=True):
             first = Worst(float(values[i, k]), float(phases[i]), float(offsets[k]), edge)
             top = _narrowed(first, wide, offset, measure)
-            if top.value >= worst * (1 - _SAME) and all(_are_apart(top, other, wide) for other in found):
-                found.append(top)
-    return found
+            if top.value >= worst * (1 - _SAME) and all(_are_apart(top, other, wide) for other in heads):
+                heads.append(top)
+    return heads
 
 
 def _are_apart(one: Worst, other: Worst, wide: list[float]) -> bool:

@@ -1,4 +1,4 @@
-//! Derivatives by the numbers of the machine at given crank angles: of motions, and of the kinks there.
+//! Derivatives by the numbers of the machine at given crank angles: of motions, of the inertia, and of the kinks there.
 //!
 //! The kernels themselves in dual numbers, with a direction of the parameters in every lane.
 
@@ -89,6 +89,38 @@ impl Job for MotionsAlong<'_> {
                 store(&m, channels, 0, &mut lists, |x: Dual<R>, to| x.d.store(to));
                 for (row, lanes) in found.iter().enumerate() {
                     put(R::load(lanes), some, &mut out[(row * phi.len() + at) * of.n..][..of.n]);
+                }
+            }
+        }
+    }
+}
+
+/// Derivatives of the reduced inertia and of its slope at crank angles: `out` is (2, angles, directions), zero at first.
+pub fn inertias_along(of: Directions<'_>, phi: &[f64], out: &mut [f64]) {
+    in_single_lanes(InertiasAlong { of, phi, out });
+}
+
+struct InertiasAlong<'a> {
+    of: Directions<'a>,
+    phi: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl Job for InertiasAlong<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real>(self) {
+        let InertiasAlong { of, phi, out } = self;
+        for some in of.moving().chunks(R::LANES) {
+            poll();
+            let q = of.numbers::<R>(some);
+            let mut m = Motion::new(&of.plan.mechanism, &q);
+            for (at, &angle) in phi.iter().enumerate() {
+                let angle = Angle::new(Dual::constant(R::splat(angle)));
+                let reduced = of.plan.reduce::<Dual<R>, 2>(&q, angle, 1.0, &mut m);
+                for (row, number) in [reduced.J, reduced.J_d1].into_iter().enumerate() {
+                    put(number.d, some, &mut out[(row * phi.len() + at) * of.n..][..of.n]);
                 }
             }
         }

@@ -198,6 +198,13 @@ class CompiledMachine:
         way = np.ascontiguousarray(directions)
         return _core.kinks_along(self.plan, self.one, way, np.ascontiguousarray(angles))
 
+    def inertias_along(self, directions: Floats, angles: Floats) -> Floats:
+        """Derivatives of reduced inertia and its slope by directions (parameters, k), (2, n, k)."""
+        require("inertias_along")
+        way, phi = np.ascontiguousarray(directions), np.ascontiguousarray(angles)
+        along = _core.inertias_along(self.plan, self.one, way, phi)
+        return along.reshape(2, len(phi), way.shape[1])
+
     def without_conservative(self) -> CompiledMachine:
         """The machine without loads that have a potential: gravity, springs, forces fixed in the frame."""
         return replace(self, plan=self.resisting)
@@ -285,8 +292,8 @@ def compile_machine(machine: Machine, *, motor: bool = True, brake: bool = False
     except (ValueError, TypeError) as error:
         # Of an array numpy says what a user cannot know.
         varies = next(iter(arrays(machine)), None) is not None
-        found = "values that vary where one number is taken" if varies else str(error)
-        raise _not_usable(machine, found) from None
+        why = "values that vary where one number is taken" if varies else str(error)
+        raise _not_usable(machine, why) from None
     except ArithmeticError as error:
         raise _not_usable(machine, str(error)) from None
     if not np.isfinite(compiled.parameters).all():

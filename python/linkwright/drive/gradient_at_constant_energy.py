@@ -1,0 +1,146 @@
+r"""Derivatives of the measures of speed fluctuation at constant kinetic energy.
+
+With E = 1 the extreme speeds are :math:`\sqrt{2/J}` and the acceleration is :math:`-J'/J^2`. Their extremes
+have the derivatives at their crank angles (envelope theorem); where an extreme is reached at two angles with
+other derivatives, or on a joint of a motion law that an entry moves, there is one on either side only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkwright.drive.evenness import mean_of_extremes, motion_coefficient, unevenness
+from linkwright.drive.reduction import NO_INERTIA
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import SteadyStateError
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.turn_curve import TurnCurve
+from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.machine.tangents import Derivatives, Directions, directions
+
+# Share of the peak within which extremes at two angles are one: the series are good to 1e-13.
+_SAME = 1e-11
+
+# Share of the largest derivative by which those of an extreme at two angles may differ: angles are good to
+# 1e-7.
+_ALIKE = 1e-5
+
+# An extreme this near to a joint of a motion law is on it [rad].
+_ON_JOINT = 1e-7
+
+# Share of the inertia by which one that is constant varies: rounding.
+_CONSTANT = 1e-12
+
+# Quantities of the revolution.
+_INERTIA, _ACCELERATION = 0, 1
+
+
+class _Extreme(NamedTuple):
+    """An extreme with its derivatives, NaN by entries that have none, and why that is."""
+
+    number: Tangent
+    why: str
+
+
+def constant_energy_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+    """δ, H and k_p at constant energy by some entries. Raises what `constant_energy` raises."""
+    # Loads do not count: their kinks are none of the inertia.
+    bare = machine.with_entries({"loads": {}})
+    own = [name for name in variables if not name.startswith("loads.")]
+    program = directions(bare, own)
+    refused = dict(program.refused)
+    listed = tuple(name for name in variables if name not in refused)
+    compiled = compile_machine(bare).first()
+    turn = turn_curve(_curves(compiled), compiled.kinks(), "inertia reduced to the crank")
+    high, low = turn.extreme(1, _INERTIA)[0], turn.extreme(-1, _INERTIA)[0]
+    if high - low <= _CONSTANT * high:
+        nothing = "it is zero: the inertia is constant"
+        names = ("unevenness", "dynamism", "motion_coefficient")
+        return Derivatives(listed, {}, {}, dict.fromkeys(names, nothing), refused)
+    reads = _Reads(compiled, program, turn)
+    largest, smallest = reads.inertia(1), reads.inertia(-1)
+    peak = reads.acceleration()
+    slow, fast = (2 / largest.number) ** 0.5, (2 / smallest.number) ** 0.5
+    mean = mean_of_extremes(slow, fast)
+    delta, dynamic = unevenness(slow, fast, mean), peak.number / mean**2
+    numbers = {
+        "unevenness": delta,
+        "dynamism": dynamic,
+        "motion_coefficient": motion_coefficient(delta, dynamic),
+    }
+    of_speed = largest.why or smallest.why
+    whys = {"unevenness": of_speed, "dynamism": of_speed or peak.why}
+    whys["motion_coefficient"] = whys["dynamism"]
+    at = {name: i for i, name in enumerate(program.variables)}
+    tangents = {
+        name: Tangent(
+            number.value, np.array([number.d[at[entry]] if entry in at else 0.0 for entry in listed])
+        )
+        for name, number in numbers.items()
+    }
+    ties = {name: why for name, why in whys.items() if why and np.isnan(tangents[name].d).any()}
+    return Derivatives(listed, tangents, ties, {}, refused)
+
+
+def _curves(compiled: CompiledMachine) -> Any:
+    """Inertia, and acceleration at E = 1 with its sign turned, over the crank angle."""
+
+    def curves(phi: Floats) -> Floats:
+        at = compiled.reductions(phi)
+        if not (at.inertia > 0).all():
+            raise SteadyStateError(NO_INERTIA)
+        return np.stack([at.inertia, at.inertia_slope / at.inertia**2])
+
+    return curves
+
+
+class _Reads:
+    """Reads extremes of a revolution with their derivatives."""
+
+    def __init__(self, compiled: CompiledMachine, program: Directions, turn: TurnCurve) -> None:
+        self.compiled, self.program, self.turn = compiled, program, turn
+        joints = compiled.kinks()
+        moves = compiled.kinks_along(program.values, joints) != 0
+        self.joints, self.moves = joints[moves.any(axis=1)], moves[moves.any(axis=1)]
+
+    def inertia(self, sign: int) -> _Extreme:
+        """The maximum or minimum inertia."""
+        angles = self.turn.extremes(sign, _INERTIA, _SAME)
+        along = self.compiled.inertias_along(self.program.values, angles)[0]
+        return self._extreme(self.turn.extreme(sign, _INERTIA)[0], angles, along)
+
+    def acceleration(self) -> _Extreme:
+        """The peak of |J′|/J²."""
+        peak = max(abs(self.turn.extreme(sign, _ACCELERATION)[0]) for sign in (1, -1))
+        angles, slopes = [], []
+        for sign in (1, -1):
+            if abs(self.turn.extreme(sign, _ACCELERATION)[0]) < peak * (1 - _SAME):
+                continue
+            at = self.turn.extremes(sign, _ACCELERATION, _SAME)
+            here = self.compiled.reductions(at)
+            inertia, slope = here.inertia[:, None], here.inertia_slope[:, None]
+            along = self.compiled.inertias_along(self.program.values, at)
+            angles.append(at)
+            slopes.append(sign * (along[1] / inertia**2 - 2 * slope * along[0] / inertia**3))
+        return self._extreme(peak, np.concatenate(angles), np.concatenate(slopes))
+
+    def _extreme(self, value: float, angles: Floats, along: Floats) -> _Extreme:
+        """An extreme that is reached at some angles, with the derivatives that it has at all of them."""
+        apart = np.abs(along - along[0]) > _ALIKE * np.abs(along).max(initial=0.0)
+        lost = apart.any(axis=0)
+        why = "" if not lost.any() else "it is reached at " + " and ".join(map(_degrees, angles))
+        for angle in angles:
+            on = np.abs(np.remainder(self.joints - angle + np.pi, 2 * np.pi) - np.pi) <= _ON_JOINT
+            if on.any():
+                lost |= self.moves[on].any(axis=0)
+                why = f"it is reached at {_degrees(angle)}, on a joint of a motion law that an entry moves"
+        return _Extreme(Tangent(value, np.where(lost, np.nan, along[0])), why)
+
+
+def _degrees(angle: float) -> str:
+    return f"{np.degrees(angle):.4g}°"
