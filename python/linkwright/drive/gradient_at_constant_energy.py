@@ -133,7 +133,9 @@ class _Reads:
         """An extreme that is reached at some angles, with the derivatives that it has at all of them."""
         apart = np.abs(along - along[0]) > _ALIKE * np.abs(along).max(initial=0.0)
         lost = apart.any(axis=0)
-        why = "" if not lost.any() else "it is reached at " + " and ".join(map(_degrees, angles))
+        why = (
+            "" if not lost.any() else "it is reached at " + " and ".join(dict.fromkeys(map(_degrees, angles)))
+        )
         for angle in angles:
             on = np.abs(np.remainder(self.joints - angle + np.pi, 2 * np.pi) - np.pi) <= _ON_JOINT
             if on.any():
