@@ -33,6 +33,7 @@ from linkwright.kinetostatics.contact_in_time import contact_losses
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
+from linkwright.linkages.cautions import linkage_cautions
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
@@ -229,6 +230,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         return _topped(Study(machine, turning_moment=diagram, findings=findings.findings), cut)
     unit, rotator = _pumped(machine, findings)
     moved = findings.of(linkage, machine)
+    findings.warn(linkage_cautions(moved) if moved is not None else ())
     result = _turned(machine, findings, accuracy, step)
     result = replace(
         result,

@@ -1,0 +1,29 @@
+"""What the designer of a linkage should know although it moves, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.kernel.page.numbers import degrees
+from linkwright.linkages.cycle import Linkage
+
+# Links this near to a line go on one way or the other by tolerances of their lengths; nearer than the first
+# they are in line, as in a parallelogram, and go on as they came [rad].
+_IN_LINE, _NEAR = 1e-6, np.radians(1.0)
+
+
+def linkage_cautions(linkage: Linkage) -> Iterator[str]:
+    """Elements whose links almost come into line."""
+    for element in linkage.elements:
+        worst = element.transmission_angle_worst
+        if worst is None or not _IN_LINE < worst < _NEAR:
+            continue
+        is_least = worst == element.transmission_angle_min
+        at = element.transmission_angle_min_angle if is_least else element.transmission_angle_max_angle
+        yield (
+            f"The links of {element.element} come within {degrees(worst)} of a line at a crank angle of "
+            f"{degrees(at or 0.0)}, next to a change point: slightly other lengths move it another way from "
+            "there on, and velocities and forces there grow as the angle falls"
+        )
