@@ -39,7 +39,7 @@ def test_units_stand_in_the_head(tmp_path: Path) -> None:
         ("angle [deg], speed [1/min]\n0, 600\n", 2, "revolutions or radians"),
         ("angle [deg], speed [rpm]\n0, 600\n1,\n", 3, "an empty cell"),
         ("angle [deg], speed [rpm]\n0, 600\n1, 2, 3\n", 3, "2 values, one for each column"),
-        ("angle [deg], speed [rpm]\n", 1, "a row for each point"),
+        ("angle [deg], speed [rpm]\n", 1, "at least one row"),
     ],
 )
 def test_what_is_wrong_has_its_line(tmp_path: Path, text: str, line: int, words: str) -> None:

@@ -108,5 +108,13 @@ def test_lists_are_no_tolerances(path: Path) -> None:
     assert not lw.read(path).tolerances
 
 
+@pytest.mark.parametrize("text", ["10 - 4 - 3", "10 + 4 - 3", "-400*(tanh((v - 0.1)/0.01) - 3)", "5 +4 -3*v"])
+def test_formulas_are_no_tolerances(text: str) -> None:
+    load = {"loads.push": {"kind": "formula", "on": "cart1", "force": text}}
+    machine = lw.read("roller_one_cart", load)
+    assert not machine.tolerances
+    assert lw.get(machine, "loads.push.force") == text
+
+
 def test_words_are_no_tolerances() -> None:
     assert not lw.read("roller_two_carts", {"name": "25 H7", "description": "5 ± 1"}).tolerances

@@ -43,11 +43,15 @@ def size_and_limits(text: str) -> tuple[str, str] | None:
     if sized is None or "," in text or not _MEASURE.fullmatch(sized[1].strip()):
         return None
     size, limits = sized[1].strip(), sized[2].strip()
-    match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
+    even = _EVEN.fullmatch(limits)
+    match = even or _UNEVEN.fullmatch(limits)
     if match is None:
         return None
-    # On a drawing the unit at the end is that of all numbers.
     unit = match[match.re.groups].strip()
+    # A sum as "10 + 4 - 3" is a formula: deviations without ± have a unit.
+    if even is None and (not unit or factor_of(unit) is None):
+        return None
+    # On a drawing the unit at the end is that of all numbers.
     return (f"{size} {unit}".strip() if NUMBER.fullmatch(size) and not _is_share(unit) else size), limits
 
 

@@ -19,7 +19,7 @@ from linkwright.machine.size_limits import size_and_limits, toleranced
 TABLE = "tolerances"
 
 # Entries that are words, and tables that are not of the machine.
-_WORDS, _OTHERS = ("name", "description", "source"), (TABLE, "study", "units")
+_WORDS, _OTHERS = ("name", "description", "source", "type", "catalogue"), (TABLE, "study", "units")
 
 Place = tuple[str, ...]
 
