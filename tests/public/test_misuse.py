@@ -10,7 +10,7 @@ import pickle
 import re
 import warnings
 from collections.abc import Callable, Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, SteadyStateError
+from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
 from linkwright.kernel.public.arguments import checks_of
 from linkwright.machine.write import dumps as lw_dumps
 from linkwright.topping.verdict import PAPER
@@ -511,3 +511,14 @@ MISUSES = {
 def test_misuses_are_named(misuse: str) -> None:
     with pytest.raises(InputError):
         MISUSES[misuse](lw.read("roller_one_cart"))
+
+
+def test_crank_angles_without_digits_and_masks_are_refused() -> None:
+    machine = lw.read("roller_one_cart")
+    for compute in (partial(lw.kinematics, machine), partial(lw.forces, machine, speed=1.0)):
+        name = "angles"
+        with pytest.raises(InputError, match=r"found 1e\+300 rad at index 1, expected at most 100000 rad"):
+            compute(**{name: [0.0, 1e300]})
+        with pytest.raises(ShapeError, match="masked"):
+            compute(**{name: np.ma.array([0.0, 1.0], mask=[False, True])})
+        compute(**{name: np.ma.array([0.0, 1.0], mask=[False, False])})

@@ -13,11 +13,13 @@ from linkwright.drive.transient import Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
 from linkwright.kernel.public import public
+from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
+from linkwright.linkages.kinematics import crank_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -118,11 +120,8 @@ def _require_full_turn(machine: Machine) -> None:
 
 def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
     """The same speed and acceleration at every angle."""
-    try:
-        phi = np.atleast_1d(np.asarray(angles, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise ShapeError(f"crank angles in radians are needed, found {angles!r}") from None
-    if phi.ndim != 1 or not phi.size or not np.isfinite(phi).all():
-        raise ShapeError(f"a list of finite crank angles is needed, found an array of shape {phi.shape}")
+    phi = crank_angles(np.atleast_1d(array("crank angles", angles)))
+    if not phi.size:
+        raise ShapeError("crank angles: found an empty list, expected at least one")
     time = phi / speed if abs(speed) >= SPEED.least else phi
     return Motion(phi, np.full_like(phi, speed), np.full_like(phi, acceleration), time)

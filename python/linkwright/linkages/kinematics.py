@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import MachineError, Problem, ShapeError
+from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
@@ -101,7 +101,7 @@ def kinematics(machine: Machine, angles: ArrayLike | None = None, *, third: bool
     Derivatives are exact. Angles count counter-clockwise from x; signs in ``docs/signs.md``.
     """
     compiled = compile_machine(machine)
-    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else checked_angles(angles)
+    phi = np.linspace(0, 2 * np.pi, 361) if angles is None else crank_angles(angles)
     what = everything(compiled)
     out = motion_arrays(compiled, phi, what)
     is_finite = bool(np.isfinite(out).all())
@@ -196,6 +196,22 @@ def checked_angles(angles: ArrayLike) -> Floats:
     return phi
 
 
+# Crank angles to this are known to 1e-11 rad, and the core has their sines to rounding [rad].
+_FARTHEST = 1e5
+
+
+def crank_angles(angles: ArrayLike) -> Floats:
+    """The same of crank angles, which beyond some thousand revolutions have no digits left."""
+    phi = checked_angles(angles)
+    far = np.flatnonzero(np.abs(phi) > _FARTHEST)
+    if len(far):
+        at = int(far[0])
+        raise InputError(
+            f"crank angles: found {phi[at]:g} rad at index {at}, expected at most {_FARTHEST:g} rad in size"
+        )
+    return phi
+
+
 def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
     """Rows of the core's table by name."""
     makers: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
@@ -271,7 +287,7 @@ def motions(
     compiled = compile_machine(machine)
     asked: Mapping[str, Iterable[str]] = {"points": points, "links": links, "slides": slides}
     what = [(part, name) for part, names in asked.items() for name in names]
-    result, is_finite = _filled(compiled, checked_angles(angles), what, out)
+    result, is_finite = _filled(compiled, crank_angles(angles), what, out)
     if not is_finite:
         result[np.isinf(result)] = np.nan
     return result

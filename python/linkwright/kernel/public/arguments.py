@@ -117,6 +117,9 @@ def array(name: str, value: Any, *, finite: bool = True, complex_too: bool = Fal
     if given.dtype == object and all(isinstance(entry, numbers.Real) for entry in given.flat):
         # Fractions, and whole numbers beyond those of machines.
         given = np.array([number(name, entry) for entry in given.flat]).reshape(given.shape)
+    # Of a masked array the masks would be lost.
+    if isinstance(value, np.ndarray) and np.any(getattr(value, "mask", False)):
+        raise ShapeError(f"{name}: found masked values, expected numbers; leave the masked ones out")
     kinds = "iufc" if complex_too else "iuf"
     if given.dtype.kind not in kinds:
         raise ShapeError(f"{name}: found {shown(value)}, expected {'' if complex_too else 'real '}numbers")
