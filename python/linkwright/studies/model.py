@@ -63,9 +63,7 @@ class Variable(CheckedDescription):
     steps: Whole | None = Field(None, ge=2, description="Number of values of the range in a grid.")
     scale: Literal["linear", "log"] = Field("linear", description="Division of the range.")
     whole: bool = Field(False, description="Whether the range contains only integers.")
-    values: tuple[Any, ...] | None = Field(
-        None, min_length=1, description="List of values: numbers, texts or tables."
-    )
+    values: tuple[Any, ...] | None = Field(None, description="List of values: numbers, texts or tables.")
     distribution: Distribution | None = Field(None, description="Distribution.")
     tolerance: str | None = Field(
         None,
@@ -85,6 +83,8 @@ class Variable(CheckedDescription):
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.cost is not None and self.tolerance is None:
             yield fault("cost", found=self.cost, expected="nothing without tolerance")
+        if self.values is not None and not self.values:
+            yield fault("values", found="an empty list", expected="at least one value")
         given = [way for way in WAYS if getattr(self, way) is not None]
         is_loose = given == ["tolerance", "clearance"]
         if self.cost is not None and is_loose:

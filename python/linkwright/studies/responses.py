@@ -154,8 +154,10 @@ def _require_part(
     else:
         raise wrong(f"leave out {'.'.join(of)}")
     given = ".".join(of)
+    if given not in known and not known:
+        raise wrong("the machine has no cams")
     if given not in known:
-        raise wrong(suggestion(given, known) if of else f"name one of {', '.join(known) or 'no cams'}")
+        raise wrong(suggestion(given, known) if of else f"name one of {', '.join(known)}")
 
 
 def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:
