@@ -1,0 +1,34 @@
+"""A linkage that almost comes into line is told to hang on its lengths; one that does, or is far, is not."""
+
+from __future__ import annotations
+
+import pytest
+
+import linkwright as lw
+from linkwright.linkages.cautions import linkage_cautions
+
+RHOMBUS = """
+format = 1
+name = "Rhombus"
+[mechanism.points]
+D = { x = 0.3 }
+[mechanism.cranks.A]
+radius = 0.3
+[mechanism.rockers.B]
+crank = "A"
+pivot = "D"
+coupler = 0.3
+rocker = 0.3
+"""
+
+
+@pytest.mark.parametrize(("radius", "is_near"), [(0.3, False), (0.29999, True), (0.299, True), (0.25, False)])
+def test_a_rhombus_and_its_neighbours(radius: float, is_near: bool) -> None:
+    machine = lw.loads(RHOMBUS, {"mechanism.cranks.A.radius": radius})
+    told = list(linkage_cautions(lw.linkage(machine)))
+    assert len(told) == is_near
+    if is_near:
+        # Crank and frame differ by so much, which leaves the dyad out of line by as much over its length.
+        angle = lw.linkage(machine).elements[0].transmission_angle_worst
+        assert angle == pytest.approx((0.3 - radius) / 0.3, rel=1e-2)
+        assert "B" in told[0]
