@@ -221,6 +221,31 @@ inertia = "minimise"
     assert "would make inertia" in best.worth[0]
 
 
+def test_what_limits_cost_where_branches_meet() -> None:
+    """Three branches of a limit meet in a point, or hardly differ: the multiplier is that of moving it."""
+    machine = lw.read("roller_two_carts")
+    entries = {"r": "bodies.cart1.mass", "q": "bodies.cart2.mass", "p": "drive.gearbox.ratio"}
+
+    def multiplier(variables: str, goal: str, limited: str, limit: float) -> float:
+        study = {
+            "variables": {name: {"address": entries[name], "range": [0.5, 2.0]} for name in variables},
+            "responses": {
+                "y": {"formula": goal},
+                "c": {"formula": limited},
+                "mass": {"entry": "bodies.cart1.mass"},
+            },
+            "constraints": {"c": {"max": limit}},
+            "goals": {"y": "minimise"},
+        }
+        return lw.optimise(lw.new_study(machine, study), 400).multipliers["maximum of c"]
+
+    three = "max(r + 0.2*p, max(q - 0.2*p + 0.4, 0.3*r + 0.3*q + 0.05*p + 0.55))"
+    assert multiplier("rqp", "-(0.42*r + 0.42*q + 0.02*p)", three, 1.15) == pytest.approx(1.0, rel=1e-6)
+    for limit in (1.99, 2.0, 2.01):
+        weak = multiplier("rq", "-(r + 1.04*q)", "max(r + q, r + 1.08*q - 0.08)", limit)
+        assert weak == pytest.approx(1.0, rel=1e-6)
+
+
 def test_a_front_of_two_goals(tmp_path: Path) -> None:
     """The front is the line between both places, √f₁ + √f₂ their distance."""
     (tmp_path / "study.toml").write_text(FRONT)

@@ -10,7 +10,7 @@ import linkwright as lw
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.machine.tolerances import tolerance_names
 from linkwright.machine.write import dumps
-from linkwright.studies.plan import toleranced
+from linkwright.studies.plan import with_tolerances
 
 RADIUS = "mechanism.cranks.A1.radius"
 STUDY = {"study.responses.delta": "steady_state.unevenness"}
@@ -46,7 +46,7 @@ def test_the_size_is_computed_with_and_the_tolerance_scatters(
     # What is written is the machine with its tolerance.
     assert lw.loads(dumps(read)) == read
     found = lw.tolerance(lw.read_study(path), rows=100)
-    (axis,) = toleranced(lw.read_study(path)).axes
+    (axis,) = with_tolerances(lw.read_study(path)).axes
     assert (axis.low, axis.high) == pytest.approx(ends, rel=1e-12)
     # The same study with the tolerance as a variable of its own has the same machines.
     plain = machine(tmp_path, "0.2 m")
@@ -59,6 +59,10 @@ def test_a_variable_of_the_study_goes_before_the_tolerance(tmp_path: Path) -> No
     wide = {"study.variables.r": {"address": RADIUS, "tolerance": "± 2 mm"}}
     found = lw.tolerance(lw.read_study(path, wide), rows=100)
     assert list(found.variables) == ["r"]
+    for address in ('mechanism.cranks."A1".radius', "mechanism.cranks.A1"):
+        values = [{"radius": 0.2, "phase": 0.0}] if address.endswith("A1") else [0.2, 0.21]
+        other = {"study.variables.r": {"address": address, "values": values}}
+        assert [axis.name for axis in with_tolerances(lw.read_study(path, other)).axes] == ["r"]
 
 
 def test_sweeps_do_not_vary_tolerances(tmp_path: Path) -> None:
@@ -75,6 +79,8 @@ def test_sweeps_do_not_vary_tolerances(tmp_path: Path) -> None:
         ("0.2 m ± 2 kg", "± 2 kg", "a length"),
         ("0.2 m Z7", "Z7", "D to H"),
         ("0.2 m ± 0 mm", "± 0 mm", "two limits that differ"),
+        ("0.2 m ± 0.2", "± 0.2", "with its unit"),
+        ("0.2 m ± 5 m", "-4.8 m to 5.2 m", "greater than 0"),
     ],
 )
 def test_what_is_no_tolerance_is_told_at_its_entry(
@@ -97,6 +103,16 @@ def test_the_table_of_tolerances(tmp_path: Path) -> None:
     for address, words in (("bodies.cart9.mass", "cart1"), ("name", "number")):
         with pytest.raises(MachineFileError, match=words):
             lw.read("roller_two_carts", {"tolerances": {address: "± 1 %"}})
+    for spelled in ('mechanism.cranks."A1".radius', RADIUS):
+        with pytest.raises(MachineFileError, match="has a tolerance"):
+            lw.read(machine(tmp_path, "0.2 m ± 1 mm"), {"tolerances": {spelled: "± 2 mm"}})
+    twice = {"tolerances": {RADIUS: "± 1 mm", 'mechanism.cranks."A1".radius': "± 2 mm"}}
+    with pytest.raises(MachineFileError, match="has a tolerance"):
+        lw.read("roller_two_carts", twice)
+    # Without its size a tolerance holds for another size too.
+    sized = lw.read("roller_two_carts", {"tolerances": {RADIUS: "0.2 m ± 1 mm"}})
+    assert dict(sized.tolerances) == {RADIUS: "± 1 mm"}
+    assert lw.get(lw.loads(dumps(lw.replace(sized, {RADIUS: 0.25}))), RADIUS) == 0.25
     both = {"tolerances": {RADIUS: "H7", "mechanism.cranks.A2.radius": "± 0.1 mm"}}
     names = tolerance_names(lw.read("roller_two_carts", both))
     assert names == {"A1_radius": RADIUS, "A2_radius": "mechanism.cranks.A2.radius"}
@@ -108,7 +124,7 @@ def test_lists_are_no_tolerances(path: Path) -> None:
     assert not lw.read(path).tolerances
 
 
-@pytest.mark.parametrize("text", ["10 - 4 - 3", "10 + 4 - 3", "-400*(tanh((v - 0.1)/0.01) - 3)", "5 +4 -3*v"])
+@pytest.mark.parametrize("text", ["10 - 4 - 3", "10 + 4 - 3", "-400*(tanh((v - 0.1)/0.01) - 3)", "5 +4 -3*t"])
 def test_formulas_are_no_tolerances(text: str) -> None:
     load = {"loads.push": {"kind": "formula", "on": "cart1", "force": text}}
     machine = lw.read("roller_one_cart", load)

@@ -6,6 +6,7 @@ Results of a motion are those of a machine that stays in contact. The forces alo
 from __future__ import annotations
 
 from linkwright.kernel.findings import Findings
+from linkwright.kinetostatics.collect import KEEPS, TIGHTENS
 from linkwright.kinetostatics.forces import forces
 from linkwright.machine.machine import Machine
 
@@ -25,4 +26,4 @@ def lost_contacts(machine: Machine) -> tuple[str, ...]:
         return ()
     collected = Findings()
     collected.of(forces, machine)
-    return collected.findings
+    return tuple(text for text in collected.findings if KEEPS in text or TIGHTENS in text)

@@ -96,8 +96,7 @@ class Machine(WholeDescription):
     units: ShownUnits | None = Field(None, description="Units of tables, figures and CSV.")
     tolerances: dict[str, str] = Field(
         default_factory=dict,
-        description='Tolerances by the address of their entry: "± 0.2 mm", "+0.1 -0.3 mm", "± 1 %", "H7"; '
-        'also behind the value, "0.2 m ± 0.2 mm" or "25 H7".',
+        description='Tolerances by the address of their entry; also behind the value, "0.2 m ± 0.2 mm".',
     )
     study: StudyFile | None = Field(None, description="Study of variants: variables and responses.")
 

@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from pydantic import BaseModel
 
@@ -25,7 +25,7 @@ from linkwright.kernel.units import show
 from linkwright.linkages.model.dxf_points import with_dxf_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all
-from linkwright.machine.tolerances import require_tolerances, with_tolerances
+from linkwright.machine.tolerances import with_known_tolerances, with_tolerances
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -147,7 +147,7 @@ def loads_as(
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
-    behind: dict[str, tuple[str, ...]] = {}
+    behind: dict[str, tuple[tuple[str, ...], str]] = {}
     try:
         if model is Machine:
             behind = with_tolerances(tables)
@@ -156,12 +156,12 @@ def loads_as(
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         described = model.model_validate(tables)
         if isinstance(described, Machine):
-            require_tolerances(described)
+            described = cast("Model", with_known_tolerances(described))
         return described
     except MachineError as error:
         # A tolerance behind a value stands where the value does.
         problems = [
-            replace(problem, key=join(behind[problem.key])) if problem.key in behind else problem
+            replace(problem, key=join(behind[problem.key][0])) if problem.key in behind else problem
             for problem in error.problems
         ]
         raise MachineFileError(_located(problems, text, path, places, columns)) from None

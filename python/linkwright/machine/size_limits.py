@@ -39,20 +39,24 @@ def size_and_limits(text: str) -> tuple[str, str] | None:
     if code := _CODED.fullmatch(text):
         return f"{code[1]} {code[2] or 'mm'}", code[3]
     sized = _SIZED.fullmatch(text.replace("−", "-"))
-    # A text with commas is a list, of which numbers may be negative.
-    if sized is None or "," in text or not _MEASURE.fullmatch(sized[1].strip()):
+    if sized is None or not _MEASURE.fullmatch(sized[1].strip()):
         return None
     size, limits = sized[1].strip(), sized[2].strip()
-    even = _EVEN.fullmatch(limits)
-    match = even or _UNEVEN.fullmatch(limits)
+    match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
     if match is None:
         return None
     unit = match[match.re.groups].strip()
-    # A sum as "10 + 4 - 3" is a formula: deviations without ± have a unit.
-    if even is None and (not unit or factor_of(unit) is None):
-        return None
     # On a drawing the unit at the end is that of all numbers.
     return (f"{size} {unit}".strip() if NUMBER.fullmatch(size) and not _is_share(unit) else size), limits
+
+
+def is_bare(text: str) -> bool:
+    """Whether a tolerance has no unit although its size has one: "90 deg ± 0.5"."""
+    sized = _SIZED.fullmatch(text.replace("−", "-"))
+    match = sized and (_EVEN.fullmatch(sized[2].strip()) or _UNEVEN.fullmatch(sized[2].strip()))
+    if not sized or not match:
+        return False
+    return not match[match.re.groups].strip() and not NUMBER.fullmatch(sized[1].strip())
 
 
 def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
@@ -60,7 +64,9 @@ def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, f
     if not isinstance(value, int | float):
         raise problem(key, "an entry without a value", "an entry that the machine has")
     stripped = text.replace("−", "-")
-    if code := iso286.CODE.fullmatch(stripped):
+    # Behind a value the size may have another unit than millimetres.
+    coded = _CODED.fullmatch(stripped)
+    if code := iso286.CODE.fullmatch(coded[3] if coded and coded[2] not in ("", "mm") else stripped):
         return _coded(key, float(value), text, code, kind)
     sized = _SIZED.fullmatch(stripped)
     size, limits = sized.groups() if sized else (None, stripped)

@@ -9,51 +9,65 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
+import numpy as np
+
 from linkwright.kernel.description.place import join
+from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import MachineError, Problem, show
-from linkwright.machine.address import get, kind, known_place
+from linkwright.kernel.units import LENGTH, Quantity, worded
+from linkwright.machine.address import get, kind, known_place, outside
 from linkwright.machine.machine import Machine
-from linkwright.machine.size_limits import size_and_limits, toleranced
+from linkwright.machine.size_limits import is_bare, size_and_limits, toleranced
 
 # The table of a machine file: address → text.
 TABLE = "tolerances"
 
-# Entries that are words, and tables that are not of the machine.
-_WORDS, _OTHERS = ("name", "description", "source", "type", "catalogue"), (TABLE, "study", "units")
-
 Place = tuple[str, ...]
 
 
-def with_tolerances(tables: dict[str, Any]) -> dict[str, Place]:
-    """Move tolerances from behind values into their table; keys there → the entries that they come from."""
+def with_tolerances(tables: dict[str, Any]) -> dict[str, tuple[Place, str]]:
+    """Move tolerances from behind values into their table; keys there → places and texts that they come from.
+
+    Only where a quantity stands: in a formula the same text is a sum.
+    """
     given = tables.get(TABLE, {})
     if not isinstance(given, Mapping):
         return {}  # the description says what is wrong
-    found = {join(place): (place, *parts) for place, parts in _behind_values(tables, ())}
-    for address, (place, size, _) in found.items():
+    behind = {join(place): (place, text) for place, text in _behind_values(tables, tables, ())}
+    moved = {}
+    for address, (place, text) in behind.items():
+        parts = size_and_limits(text)
+        assert parts is not None
         if address in given:
             key = join((TABLE, address))
             raise MachineError([Problem(key, show(given[address]), f"nothing: {address} has a tolerance")])
-        _set(tables, place, size)
-    if found:
-        tables[TABLE] = {**given, **{address: limits for address, (_, _, limits) in found.items()}}
-    return {join((TABLE, address)): place for address, (place, _, _) in found.items()}
+        if is_bare(text):
+            expected = 'a tolerance with its unit, such as "0.2 m ± 0.2 mm"'
+            raise MachineError([Problem(address, show(text), expected)])
+        _set(tables, place, parts[0])
+        moved[address] = text
+    if moved:
+        tables[TABLE] = {**given, **moved}
+    return {join((TABLE, address)): origin for address, origin in behind.items()}
 
 
-def _behind_values(node: Any, place: Place) -> Iterator[tuple[Place, tuple[str, str]]]:
-    """Places of values with a tolerance: the size and the tolerance."""
-    items: Iterator[tuple[Any, Any]] = iter(())
+def _behind_values(tables: Mapping[str, Any], node: Any, place: Place) -> Iterator[tuple[Place, str]]:
+    """Places of quantities with a tolerance behind them, and what stands there."""
+    entries: list[tuple[Any, Any]] = []
     if isinstance(node, Mapping):
-        items = iter(node.items())
+        entries = list(node.items())
     elif isinstance(node, list):
-        items = iter(enumerate(node))
-    for key, entry in items:
-        if isinstance(entry, str):
-            parts = None if key in _WORDS else size_and_limits(entry)
-            if parts is not None:
-                yield (*place, str(key)), parts
-        elif place or key not in _OTHERS:
-            yield from _behind_values(entry, (*place, str(key)))
+        entries = list(enumerate(node))
+    for key, entry in entries:
+        at = (*place, str(key))
+        if not isinstance(entry, str):
+            yield from _behind_values(tables, entry, at)
+        elif (parts := size_and_limits(entry)) is not None:
+            mark = mark_of(annotation_at(Machine, at, tables))
+            # Classes of ISO 286 are of lengths: behind another size they are no unit.
+            is_class = parts[1].isalnum()
+            if isinstance(mark, Quantity) and not (is_class and mark.kind.unit != LENGTH.unit):
+                yield at, entry
 
 
 def _set(tables: Any, place: Place, size: str) -> None:
@@ -63,21 +77,38 @@ def _set(tables: Any, place: Place, size: str) -> None:
     node[int(place[-1]) if isinstance(node, list) else place[-1]] = size
 
 
-def require_tolerances(machine: Machine) -> None:
-    """Raise `MachineError` for tolerances of no entry, or that are none of its quantity."""
+def with_known_tolerances(machine: Machine) -> Machine:
+    """The machine with tolerances as they count: without the size, one for each entry.
+
+    Raises `MachineError` for those of no entry, that are none of its quantity, or that it cannot have.
+    """
     problems: list[Problem] = []
+    known: dict[str, str] = {}
     for address, text in machine.tolerances.items():
         key = join((TABLE, address))
         try:
-            known_place(machine, address)
-            quantity = kind(machine, address)
-            if quantity is None:
-                raise MachineError([Problem(key, show(text), "the tolerance of a number")])
-            toleranced(key, get(machine, address), text, quantity)
+            place = join(known_place(machine, address))
+            if place in known:
+                raise MachineError([Problem(key, show(text), f"nothing: {place} has a tolerance")])
+            _require_possible(machine, key, address, text)
+            known[place] = (size_and_limits(text) or ("", text))[1]
         except MachineError as error:
             problems += [Problem(key, wrong.found, wrong.expected, wrong.remedy) for wrong in error.problems]
     if problems:
         raise MachineError(problems)
+    return machine.with_entries({TABLE: known}) if known != dict(machine.tolerances) else machine
+
+
+def _require_possible(machine: Machine, key: str, address: str, text: str) -> None:
+    """Refuse what is no tolerance of an entry, or what it cannot have."""
+    quantity = kind(machine, address)
+    if quantity is None:
+        raise MachineError([Problem(key, show(text), "the tolerance of a number")])
+    low, high = toleranced(key, get(machine, address), text, quantity)
+    wrong, expected = outside(machine, address, np.array([low, high]))
+    if wrong.any():
+        found = f"{show(text)}, which is {worded(low, quantity)} to {worded(high, quantity)}"
+        raise MachineError([Problem(key, found, f"limits that are each {expected}", "make it narrower")])
 
 
 def tolerance_names(machine: Machine, taken: Collection[str] = ()) -> dict[str, str]:
@@ -88,9 +119,8 @@ def tolerance_names(machine: Machine, taken: Collection[str] = ()) -> dict[str, 
     places = {address: known_place(machine, address) for address in machine.tolerances}
     names: dict[str, str] = {}
     for address, place in places.items():
-        others = {
-            _name(other, n) for other in places.values() if other != place for n in range(2, len(other) + 1)
-        }
+        rest = [other for other in places.values() if other != place]
+        others = {_name(other, n) for other in rest for n in range(2, len(other) + 1)}
         lengths = range(min(2, len(place)), len(place) + 1)
         free = (_name(place, n) for n in lengths)
         name = next((name for name in free if name not in others and name not in taken), "")

@@ -36,7 +36,7 @@ from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate
 from linkwright.studies.limits import limits
-from linkwright.studies.plan import StudyPlan, toleranced
+from linkwright.studies.plan import StudyPlan, with_tolerances
 from linkwright.studies.rows import FastStarts, OneByOne
 from linkwright.studies.slopes import slopes
 from linkwright.studies.tolerance import yield_of
@@ -110,7 +110,7 @@ def allocate(
     FindingError
         The machine in the middle of the tolerances does not keep the limits, or no tolerances give the yield.
     """
-    plan = toleranced(plan)
+    plan = with_tolerances(plan)
     _check(wanted, power, rows)
     problem = _Problem(plan, power)
     yields = _Yields(plan, sampling.random(len(plan.axes), seed, 0, rows))

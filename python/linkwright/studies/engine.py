@@ -265,7 +265,8 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
             # Forces of a contact that is lost are not those of the machine.
             lost = getattr(result, "findings", ()) if asked.analysis in _IN_CONTACT else ()
             if lost:
-                raise FindingError(lost[0])
+                # Without its numbers one reason stands for all rows.
+                raise FindingError(lost[0].partition(":")[0])
             results[asked.key] = result
         answers.append(asked.number(results[asked.key]))
     return answers

@@ -25,12 +25,16 @@ from linkwright.studies.slopes import Slopes
 # A limit counts as active where a response is as near to it, relative to its size.
 _ACTIVE = 1e-4
 
-# A residual of the multipliers above this share of the goal's gradient: they explain nothing.
-_EXPLAINED = 0.05
+# Residuals of the multipliers as shares of the goal's gradient: above the first there may be a kink, above
+# the second they explain nothing.
+_SMOOTH, _EXPLAINED = 1e-3, 1e-2
 
 # So far to both sides the slopes on a kink are taken, as a share of a range: best machines lie on kinks to
 # 1e-10, and over this distance slopes of one side hardly change.
 _SIDE = 1e-6
+
+# Random directions besides, for each variable: branches that meet in a point may lie between the axes.
+_ROUND = 4
 
 # Weight of the condition that the goal's sides add up to one, over the size of its slopes.
 _TOGETHER = 1e3
@@ -90,14 +94,14 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLo
     listed = list(_active(plan, near, values, rates))
     if not listed:
         return [], f"{goal} has a kink there: {slopes.ties[goal]}" if goal in slopes.ties else ""
-    multipliers = _multipliers(plan, goal, sign * rates, near, listed)
+    tied = [name for name in (goal, *(limit.of for limit in listed)) if name in slopes.ties]
+    multipliers = None if tied else _multipliers(plan, goal, sign * rates, near, listed, _SMOOTH)
     if multipliers is None:
         # Best machines stand on kinks, where extremes tie: each side of them has slopes of its own.
         near += [log.slopes(plan, beside)[2] for beside in _beside(share, free(plan))]
         listed = list(_active(plan, near, values, rates))
-        multipliers = _multipliers(plan, goal, sign * rates, near, listed)
+        multipliers = _multipliers(plan, goal, sign * rates, near, listed, _EXPLAINED)
     if multipliers is None:
-        tied = [name for name in (goal, *(limit.of for limit in listed)) if name in slopes.ties]
         if tied:
             return [], f"{tied[0]} has a kink there: {slopes.ties[tied[0]]}"
         return [], "the machine is not yet at the very minimum; more evaluations get closer"
@@ -108,13 +112,15 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLo
 
 
 def _beside(share: Floats, places: list[int]) -> Iterator[Floats]:
-    """Places on both sides of one along each variable, within the ranges."""
-    for i in places:
-        for step in (-_SIDE, _SIDE):
-            beside = share.copy()
-            beside[i] += step
-            if 0.0 <= beside[i] <= 1.0:
-                yield beside
+    """Places all round one, within the ranges: both ways along each variable and in random directions."""
+    n = len(places)
+    random = np.random.default_rng(0).standard_normal((_ROUND * n if n > 1 else 0, n))
+    ways = np.concatenate([np.eye(n), random / np.abs(random).max(axis=1, keepdims=True, initial=1e-300)])
+    for way in (*ways, *-ways):
+        beside = share.copy()
+        beside[places] += _SIDE * way
+        if beside.min() >= 0.0 and beside.max() <= 1.0:
+            yield beside
 
 
 class _ActiveLimit(NamedTuple):
@@ -129,10 +135,15 @@ class _ActiveLimit(NamedTuple):
 
 
 def _multipliers(
-    plan: StudyPlan, goal: str, rates: Floats, near: list[Slopes], listed: list[_ActiveLimit]
+    plan: StudyPlan,
+    goal: str,
+    rates: Floats,
+    near: list[Slopes],
+    listed: list[_ActiveLimit],
+    within: float,
 ) -> Floats | None:
     """Multipliers of active limits that explain why a place is the best; None if they do not."""
-    from scipy.optimize import nnls
+    from scipy.optimize import linprog, nnls
 
     # Of a kink each side has its weight: weights of the goal's sides add up to one, those of a limit's to its
     # multiplier.
@@ -141,12 +152,25 @@ def _multipliers(
     size = float(np.linalg.norm(goals, axis=1).max()) or 1.0
     ways = np.array([way[places] for limit in listed for way in limit.outward])
     of = np.repeat(np.arange(len(listed)), [len(limit.outward) for limit in listed])
-    ones = _TOGETHER * size * np.concatenate([np.ones(len(goals)), np.zeros(len(ways))])
-    system = np.vstack([np.concatenate([goals, ways]).T, ones])
-    weights, rest = nnls(system, np.concatenate([np.zeros(len(places)), [_TOGETHER * size]]))
-    if rest > _EXPLAINED * size:
+    columns = np.concatenate([goals, ways]).T / size
+    together = np.concatenate([np.ones(len(goals)), np.zeros(len(ways))])
+    weights, _ = nnls(np.vstack([columns, _TOGETHER * together]), np.append(0.0 * columns[:, 0], _TOGETHER))
+    rest = float(np.linalg.norm(columns @ weights))
+    if rest > within:
         return None
-    multipliers: Floats = np.bincount(of, weights[len(goals) :], len(listed)) / weights[: len(goals)].sum()
+    # Where limits are active that depend on each other, one that gives way alone gains the least of all
+    # multipliers that explain the place.
+    slack = np.abs(columns @ weights).max() * (1 + 1e-6) + 1e-9
+    multipliers = np.zeros(len(listed))
+    for nth in range(len(listed)):
+        least = linprog(
+            np.append(0.0 * goals[:, 0], of == nth),
+            A_ub=np.vstack([columns, -columns]),
+            b_ub=np.full(2 * len(columns), slack),
+            A_eq=together[None],
+            b_eq=[1.0],
+        )
+        multipliers[nth] = least.fun if least.success else np.bincount(of, weights[len(goals) :])[nth]
     return multipliers
 
 

@@ -234,14 +234,17 @@ def _lost_points(machine: Machine, study: StudyFile) -> Iterable[Problem]:
             yield Problem(f"paths.{name}.point", show(path.point), "a point of the machine", remedy)
 
 
-def toleranced(ready: StudyPlan) -> StudyPlan:
+def with_tolerances(ready: StudyPlan) -> StudyPlan:
     """The study with the tolerances of its machine as variables, but for entries that it sets itself."""
     machine, study = ready.machine, ready.study
-    taken = {address for one in ready.axes for address in one.addresses}
-    taken |= {address for one in ready.derived for address in one.addresses}
+    named = [address for one in ready.axes for address in one.addresses]
+    named += [address for one in ready.derived for address in one.addresses]
+    taken = [known_place(machine, address) for address in named]
     added: dict[str, Variable] = {}
     for name, address in tolerance_names(machine, ready.columns).items():
-        if address not in taken:
+        place = known_place(machine, address)
+        # A variable may be a whole table, of which the entry is a part.
+        if all(place[: len(other)] != other for other in taken):
             text = machine.tolerances[address]
             added[name] = Variable.model_validate({"address": address, "tolerance": text})
     axes = tuple(axis(machine, name, variable) for name, variable in added.items())

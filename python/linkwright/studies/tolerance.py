@@ -32,7 +32,7 @@ from linkwright.kernel.result import Result
 from linkwright.studies import sampling
 from linkwright.studies.engine import evaluate
 from linkwright.studies.indices import NONE, Interval, intervals, sobol_indices, values
-from linkwright.studies.plan import StudyPlan, toleranced
+from linkwright.studies.plan import StudyPlan, with_tolerances
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
 from linkwright.studies.slopes import slopes
 
@@ -172,7 +172,7 @@ def tolerance(
     FindingError
         The machine in the middle of all tolerances, or a neighbour of it, has no answer.
     """
-    plan = toleranced(plan)
+    plan = with_tolerances(plan)
     _check(plan, rows, indices)
     scatters = _Scatters(plan)
     middle, bends = _bends(plan, scatters)

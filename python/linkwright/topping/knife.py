@@ -363,6 +363,11 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
     )
 
 
+# Share of its range within which the torque of the revolution's angles is looked at more closely, and share
+# of an extreme within which another is as large: their tops are found to 1e-12.
+_WITHIN, _AS_HIGH = 0.01, 1e-9
+
+
 def as_high(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
     """Other crank angles at which the driving torque is as large, or as small [rad].
 
@@ -384,11 +389,6 @@ def as_high(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
         if apart > step and sign * value - top <= _AS_HIGH * abs(value):
             rivals.append(angle)
     return rivals[1:]
-
-
-# Share of its range within which the torque of the revolution's angles is looked at more closely, and share
-# of an extreme within which another is as large: their tops are found to 1e-12.
-_WITHIN, _AS_HIGH = 0.01, 1e-9
 
 
 def _highest(

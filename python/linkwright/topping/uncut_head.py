@@ -67,7 +67,7 @@ def worst_left_along(
             at = next(i for i, edge in enumerate(edges) if edge is head.edge)
             there = replace(study, uncut_phase=head.phase, uncut_offset=head.offset)
             other = _Worst(described, topper, edges[at], along[at], there).numbers()[0]
-            numbers |= {name: _in_common(numbers[name], other[name]) for name in ("uncut_share",)}
+            numbers["uncut_share"] = _in_common(numbers["uncut_share"], other["uncut_share"])
     return numbers, missing
 
 

@@ -91,6 +91,10 @@ def _narrowed(best: Worst, wide: list[float], offset: float, measure: Measure) -
     return Worst(best.value, float(np.mod(best.phase, 2 * np.pi)), best.offset, edge)
 
 
+# Share by which tops of the first look may be lower than the worst head.
+_NEAR = 0.02
+
+
 def heads_as_bad(
     edges: Sequence[Edge], offset: float, phase: float | None, measure: Measure, worst: float
 ) -> list[Worst]:
@@ -122,9 +126,6 @@ def _are_apart(one: Worst, other: Worst, wide: list[float]) -> bool:
     phase = abs((one.phase - other.phase + np.pi) % (2 * np.pi) - np.pi)
     return one.edge is not other.edge or phase > wide[0] or abs(one.offset - other.offset) > wide[1]
 
-
-# Share by which tops of the first look may be lower than the worst head.
-_NEAR = 0.02
 
 # Share by which values that are the same may differ: areas are good to 1e-12 of a head.
 _SAME = 1e-9

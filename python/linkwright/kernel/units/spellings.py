@@ -265,7 +265,7 @@ def _registry() -> pint.UnitRegistry[Any]:
 def unknown(unit: str) -> str:
     """What to change in a unit that nobody knows."""
     if _TOLERANCE.search(unit):
-        return "a tolerance belongs to a variable of a study: address and tolerance of [study.variables.NAME]"
+        return 'write a tolerance with a decimal point and one unit behind it: "0.2 m ± 0.2 mm", "200 H7"'
     text = normal(unit)
     if _OTHER_ZERO.fullmatch(text):
         return (

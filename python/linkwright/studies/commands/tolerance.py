@@ -49,13 +49,13 @@ def tolerance(
 
     Exit code 1 if no machine within the tolerances keeps the constraints.
     """
-    from linkwright.studies.plan import toleranced
+    from linkwright.studies.plan import with_tolerances
     from linkwright.studies.read import read_study
     from linkwright.studies.rows import fast_start_warnings
     from linkwright.studies.tables import tolerance_tables
     from linkwright.studies.tolerance import tolerance as compute
 
-    plan = toleranced(read_study(file, set or [], allow_outside=allow_outside))
+    plan = with_tolerances(read_study(file, set or [], allow_outside=allow_outside))
     if wanted is not None:
         belong_to("the scatter of the tolerances as they are, without --allocate", "indices")
         _hand_over_allocation(plan, wanted, power, rows, seed, json=json)
