@@ -1,4 +1,4 @@
-"""A linkage that almost comes into line is told to hang on its lengths; one that does, or is far, is not."""
+"""A linkage next to a change point gives a warning; one that passes it, or is far from it, gives none."""
 
 from __future__ import annotations
 

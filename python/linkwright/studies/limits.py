@@ -158,7 +158,7 @@ def _multipliers(
     rest = float(np.linalg.norm(columns @ weights))
     if rest > within:
         return None
-    # Where limits are active that depend on each other, one that gives way alone gains the least of all
+    # Where active limits depend on each other, a wider one gains alone no more than the least of all
     # multipliers that explain the place.
     slack = np.abs(columns @ weights).max() * (1 + 1e-6) + 1e-9
     multipliers = np.zeros(len(listed))

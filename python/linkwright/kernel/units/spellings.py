@@ -265,7 +265,10 @@ def _registry() -> pint.UnitRegistry[Any]:
 def unknown(unit: str) -> str:
     """What to change in a unit that nobody knows."""
     if _TOLERANCE.search(unit):
-        return 'write a tolerance with a decimal point and one unit behind it: "0.2 m ± 0.2 mm", "200 H7"'
+        return (
+            "a tolerance belongs behind the value of an entry of the machine file, "
+            '"0.2 m ± 0.2 mm" or "200 H7", or into [study.variables.NAME]'
+        )
     text = normal(unit)
     if _OTHER_ZERO.fullmatch(text):
         return (
