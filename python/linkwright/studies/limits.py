@@ -158,8 +158,8 @@ def _multipliers(
     rest = float(np.linalg.norm(columns @ weights))
     if rest > within:
         return None
-    # Where active limits depend on each other, a wider one gains alone no more than the least of all
-    # multipliers that explain the place.
+    # Where active limits depend on each other, the multipliers of one have a range: its minimum is what one
+    # wider limit gains while the others stay.
     slack = np.abs(columns @ weights).max() * (1 + 1e-6) + 1e-9
     multipliers = np.zeros(len(listed))
     for nth in range(len(listed)):
