@@ -27,6 +27,9 @@ def with_motor(
     drive = tables.setdefault("drive", {})
     drive["motor"] = {**_motor_table(known, ratio, drive.get("speed")), "inertia": inertia}
     drive["gearbox"] = {**drive.get("gearbox", {}), "ratio": ratio}
+    # Tolerances of the motor that it had go with it.
+    for place in [place for place in machine.tolerances if place.startswith("drive.motor.")]:
+        del tables["tolerances"][place]
     return _made(tables, note)
 
 
