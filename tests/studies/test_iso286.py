@@ -142,7 +142,7 @@ def test_in_a_study(tmp_path: Path) -> None:
     for text, words in (("25 H7", "200 mm"), ("Z7", "D to H"), ("H99", "grades"), ("H7 mm", "such as")):
         with pytest.raises(InputError, match=words):
             axis(text)
-    with pytest.raises(InputError, match="beyond 500 mm"):
+    with pytest.raises(InputError, match="to 500 mm"):
         axis("H7", "mechanism.sliders.cart1.rod")
     with pytest.raises(InputError, match="classes are of lengths"):
         axis("H7", "bodies.cart1.mass")

@@ -280,3 +280,14 @@ if __name__ == "__main__":
     print(
         f"{held} of {intervals} intervals hold the truth: {100 * held / intervals:.2f} %, expected 94 to 96 %"
     )
+
+
+@pytest.mark.parametrize(("head", "factor"), [("current", 1.0), ("current [A]", 1.0), ("current [mA]", 1e-3)])
+def test_a_current_may_have_its_unit(tmp_path: Path, head: str, factor: float) -> None:
+    (tmp_path / "record.csv").write_text(f"time [s], {head}\n0, 9.5\n1, 9.25\n")
+    record = lw.read_record(tmp_path / "record.csv")
+    assert record.channels["current"].tolist() == pytest.approx([9.5 * factor, 9.25 * factor])
+    assert record.unit("current") == "A"
+    (tmp_path / "record.csv").write_text("time [s], current [N m]\n0, 9.5\n1, 9.25\n")
+    with pytest.raises(InputError, match="current"):
+        lw.read_record(tmp_path / "record.csv")

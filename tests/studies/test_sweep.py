@@ -513,3 +513,19 @@ def test_names_of_choices(values: list[Any], names: tuple[str, ...]) -> None:
 def test_numbers_among_choices_are_no_places(cell: str, place: float | None) -> None:
     """However they are written: 1.0 was the second value, not the number 1."""
     assert place_of(cell, choice_names(["same", 1.25, 1])) == place
+
+
+def test_a_variable_of_one_value_makes_no_map_and_a_constant_no_colour() -> None:
+    columns = {
+        "x": np.array([0.0, 1.0, 2.0]),
+        "y": np.ones(3),
+        "low": np.array([1.0, 0.5, 2.0]),
+        "same": np.zeros(3),
+    }
+    labels = {name: name for name in columns}
+    assert set(figures(StudyRows(columns, labels, ("x", "y"), ("low",), is_grid=True))) == {"curve"}
+    drawn = figures(StudyRows(columns, labels, ("x", "y"), ("low", "same"), is_grid=False))
+    assert "low" in drawn["parallel"].axes[0].get_title()
+    constant = {**columns, "x": np.ones(3), "low": np.ones(3)}
+    plain = figures(StudyRows(constant, labels, ("x", "y"), ("low", "same"), is_grid=False))
+    assert not plain["parallel"].axes[0].get_title()

@@ -19,6 +19,9 @@ from bisect import bisect_left
 # Upper ends of the ranges of nominal sizes [mm], each with its end.
 _SIZES = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
 
+# Largest nominal size [mm].
+GREATEST = _SIZES[-1]
+
 # Standard tolerances by grade [µm], [1] table 1.
 GRADES = {
     4: (3, 4, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20),

@@ -141,8 +141,10 @@ def _coded(key: str, value: float, text: str, code: re.Match[str], kind: Kind) -
         raise problem(key, show(text), expected, f'"{letter}{grade}" takes that size')
     limits = iso286.deviations(value, letter, int(grade))
     if limits is None:
-        where = f"of {value * 1e3:.6g} mm" if 0 < value <= 0.5 else f"of {value * 1e3:.6g} mm, beyond 500 mm"
-        raise problem(key, f"{show(text)} {where}", iso286.KNOWN, "give the limits themselves")
+        found = f"{show(text)} of {value * 1e3:.6g} mm"
+        is_sized = 0 < value * 1e3 <= iso286.GREATEST
+        expected = iso286.KNOWN if is_sized else f"a size above 0 and to {iso286.GREATEST} mm"
+        raise problem(key, found, expected, "give the limits themselves")
     return value + limits[0], value + limits[1]
 
 
@@ -172,6 +174,8 @@ def _of_fit(key: str, fit: re.Match[str]) -> float:
         iso286.deviations(float(size) * 1e-3, letter, int(grade))
         for letter, grade in ((hole, hole_grade), (pin, pin_grade))
     ]
+    if not 0 < float(size) <= iso286.GREATEST:
+        raise problem(key, show(fit[0]), f"a size to {iso286.GREATEST} mm")
     if limits[0] is None or limits[1] is None or not hole.isupper() or not pin.islower():
         raise problem(key, show(fit[0]), f"a hole and a pin, {iso286.KNOWN}")
     if limits[0][0] < limits[1][1]:

@@ -8,7 +8,7 @@ of its ranges.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -162,12 +162,20 @@ def parallel_figure(shown: StudyRows) -> Figure:
     figure, (panel,) = panels(1, height=4.2)
     rows = _drawn(shown, _whole_rows(shown), _LINES)
     _say_how_many(figure, shown, len(rows))
-    panel.set_title(f"coloured by {broken(shown.labels[names[-1]], _WIDE)}", fontsize=8)
     scaled = np.stack([_scaled(shown.columns[name][rows]) for name in names], axis=1)
-    order = np.argsort(scaled[:, -1])
+    # The colour is that of the last response that varies.
+    ranked = (
+        next((k for k in reversed(range(len(names))) if np.ptp(scaled[:, k]) > 0), None)
+        if len(rows)
+        else None
+    )
+    if ranked is not None:
+        panel.set_title(f"coloured by {broken(shown.labels[names[ranked]], _WIDE)}", fontsize=8)
+    order = np.argsort(scaled[:, -1 if ranked is None else ranked], kind="stable")
     places = np.arange(len(names))
     lines = [np.column_stack([places, row]) for row in scaled[order]]
-    colours = colormaps["viridis"](np.linspace(0, 1, max(len(lines), 1)))
+    shades = np.zeros(len(lines)) if ranked is None else np.linspace(0, 1, len(lines))
+    colours = colormaps["viridis"](shades)
     panel.add_collection(LineCollection(lines, colors=colours, linewidths=0.6, alpha=0.7))
     panel.set(xlim=(0, max(len(names) - 1, 1)), ylim=(-0.08, 1.08), yticks=[])
     letters = int(_PER_INCH * WIDTH / len(names))
@@ -205,6 +213,10 @@ def _name_places(shown: StudyRows, name: str, axis: MatplotlibAxis, slope: float
 
 def figures(shown: StudyRows) -> dict[str, Figure]:
     """The pictures that suit the rows: a curve of one variable, maps of a grid of two, else two overviews."""
+    varying = tuple(name for name in shown.variables if len(np.unique(shown.columns[name])) > 1)
+    if shown.is_grid and len(varying) == 1:
+        # What has one value makes no map.
+        shown = replace(shown, variables=varying)
     if len(shown.variables) == 1:
         return {"curve": curve_figure(shown)}
     drawn: dict[str, Figure] = {}

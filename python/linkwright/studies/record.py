@@ -14,12 +14,12 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public, public_type
-from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, TORQUE, Kind
+from linkwright.kernel.units import ANGLE, CURRENT, SPEED, TIME, TORQUE, Kind
 from linkwright.machine.machine import Machine
 
-# What may be along the record, and what may have been measured of a drive. A current is in amperes.
+# What may be along the record, and what may have been measured of a drive.
 PLACES = {"time": TIME, "angle": ANGLE}
-CHANNELS = {"angle": ANGLE, "speed": SPEED, "motor_speed": SPEED, "torque": TORQUE, "current": COUNT}
+CHANNELS = {"angle": ANGLE, "speed": SPEED, "motor_speed": SPEED, "torque": TORQUE, "current": CURRENT}
 
 # SI units as they are printed.
 UNITS = {
@@ -120,7 +120,7 @@ def read_record(path: str | os.PathLike[str], machine: Machine | None = None) ->
         There is no column of time or angle, or none that was measured.
     """
     place = Path(path)
-    columns, _ = columns_of(place, "")
+    columns, _ = columns_of(place, "", "record")
     known: dict[str, Kind] = {**CHANNELS, **_of_train(machine)}
     over = next((name for name in PLACES if name in columns), None)
     measured = [name for name in columns if name in known and name != over]

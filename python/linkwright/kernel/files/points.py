@@ -33,6 +33,7 @@ _EXAMPLES = {
     "table": "angle [deg], lift [mm]",
     "response": "speed [rpm], stress [MPa]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
+    "record": "time [s], speed [rpm]",
 }
 
 

@@ -20,13 +20,14 @@ _ZEROS = re.compile(r"e\+?(-?)0*")
 
 
 class Dimension(NamedTuple):
-    """Exponents of metre, kilogram, second, radian and kelvin."""
+    """Exponents of metre, kilogram, second, radian, kelvin and ampere."""
 
     m: int = 0
     kg: int = 0
     s: int = 0
     rad: int = 0
     K: int = 0
+    A: int = 0
 
     @classmethod
     def of(cls, unit: str) -> Dimension:
@@ -48,6 +49,7 @@ _SYMBOLS = {
     "s": Dimension(s=1),
     "rad": Dimension(rad=1),
     "K": Dimension(K=1),
+    "A": Dimension(A=1),
     "N": Dimension(m=1, kg=1, s=-2),
     "Pa": Dimension(m=-1, kg=1, s=-2),
     "J": Dimension(m=2, kg=1, s=-2),
@@ -145,6 +147,8 @@ TORSIONAL_DAMPING = Kind(
 # Of vibration, counted in cycles; of a shaft it would leave open whether turns or radians are meant.
 FREQUENCY = Kind("a frequency", "Hz", "hertz", "50 Hz", 1e-9, 1e6)
 TEMPERATURE = Kind("an absolute temperature", "K", "kelvins", "330 K", 1e-3, 1e6)
+# Of a motor that was measured; no machine file has one.
+CURRENT = Kind("a current", "A", "amperes", "12 A", 1e-12, 1e9)
 RATIO = Kind("a ratio", "", "", "90 %", 1e-9, 1e9)
 # What is counted, such as teeth, or set by its author, such as an exponent: no share of anything.
 COUNT = Kind("a number", "", "", "4", 1e-9, 1e9)

@@ -247,7 +247,7 @@ def _from_pint(text: str) -> tuple[float, Dimension] | None:
         return None
     factor, base = reduced
     powers: dict[str, Any] = dict(base._units)
-    names = ("meter", "kilogram", "second", "radian", "kelvin")
+    names = ("meter", "kilogram", "second", "radian", "kelvin", "ampere")
     dimension = [powers.pop(name, 0) for name in names]
     return None if powers else (float(factor), Dimension(*dimension))
 
