@@ -23,8 +23,6 @@ _EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.,]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOT
 _UNEVEN = re.compile(r"\s*([+-]\s*[\d.,]+)\s+([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL)
 # A number and its unit.
 _MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
-
-
 # A size and its class, "25 H7", "25 mm H7", "0.2 m H7": grades are no powers of a unit.
 _CODED = re.compile(rf"\s*({NUMBER.pattern})\s*([A-Za-zµ]*)\s+([A-Za-z]{{1,2}}(?:[5-9]|1\d))\s*")
 
@@ -38,25 +36,28 @@ def size_and_limits(text: str) -> tuple[str, str] | None:
     """Size and tolerance of a text with both, "0.8 m ± 0.2 mm"; None of another."""
     if code := _CODED.fullmatch(text):
         return f"{code[1]} {code[2] or 'mm'}", code[3]
-    sized = _SIZED.fullmatch(text.replace("−", "-"))
-    if sized is None or not _MEASURE.fullmatch(sized[1].strip()):
+    parts = _divided(text)
+    if parts is None:
         return None
-    size, limits = sized[1].strip(), sized[2].strip()
-    match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
-    if match is None:
-        return None
-    unit = match[match.re.groups].strip()
+    size, limits, unit = parts
     # On a drawing the unit at the end is that of all numbers.
     return (f"{size} {unit}".strip() if NUMBER.fullmatch(size) and not _is_share(unit) else size), limits
 
 
 def is_bare(text: str) -> bool:
     """Whether a tolerance has no unit although its size has one: "90 deg ± 0.5"."""
+    parts = _divided(text)
+    return parts is not None and not parts[2] and not NUMBER.fullmatch(parts[0])
+
+
+def _divided(text: str) -> tuple[str, str, str] | None:
+    """Size, tolerance and its unit of a text with a size and limits about it."""
     sized = _SIZED.fullmatch(text.replace("−", "-"))
-    match = sized and (_EVEN.fullmatch(sized[2].strip()) or _UNEVEN.fullmatch(sized[2].strip()))
-    if not sized or not match:
-        return False
-    return not match[match.re.groups].strip() and not NUMBER.fullmatch(sized[1].strip())
+    if sized is None or not _MEASURE.fullmatch(sized[1].strip()):
+        return None
+    size, limits = sized[1].strip(), sized[2].strip()
+    match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
+    return None if match is None else (size, limits, match[match.re.groups].strip())
 
 
 def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
