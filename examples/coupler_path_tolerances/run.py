@@ -8,8 +8,8 @@ import numpy as np
 import linkwright as lw
 
 HERE, ANGLES = Path(__file__).parent, range(0, 360, 30)
-# Standard deviations of the six lengths [m], a third of their tolerances.
-SIZES = np.array([0.05, 0.1, 0.1, 0.1, 0.2, 0.2]) * 1e-3 / 3
+# Standard deviations of the six lengths [m], a third of their tolerances, in the order of the file.
+SIZES = np.array([0.1, 0.05, 0.1, 0.1, 0.2, 0.2]) * 1e-3 / 3
 
 
 @cache
@@ -34,7 +34,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
     return {
         "worst_angle_deg": float(worst),
         "deviation_max_um": size[worst] * 1e6,
-        "share_of_across_in_y": scatter().contributions[f"y{worst}"]["across"],
+        "share_of_across_in_y": scatter().contributions[f"y{worst}"]["K_across"],
         "first_order_over_random": np.sqrt(np.trace(spread(worst))) / drawn,
     }
 
