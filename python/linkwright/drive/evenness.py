@@ -152,14 +152,20 @@ def _exactly(compiled: CompiledMachine) -> float:
     """Peak of |J'|/J² from the series of the revolution."""
 
     def acceleration(phi: Floats) -> Floats:
-        at = compiled.reductions(phi)
-        if not (at.inertia > 0).all():
-            raise SteadyStateError(NO_INERTIA)
-        ratio: Floats = (at.inertia_slope / at.inertia**2)[None]
+        inertia, slope = inertias(compiled, phi)
+        ratio: Floats = (slope / inertia**2)[None]
         return ratio
 
     turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))
+
+
+def inertias(compiled: CompiledMachine, phi: Floats) -> tuple[Floats, Floats]:
+    """J and J' at crank angles, (n,) each; a `SteadyStateError` where there is no inertia."""
+    at = compiled.reductions(phi)
+    if not (at.inertia > 0).all():
+        raise SteadyStateError(NO_INERTIA)
+    return at.inertia, at.inertia_slope
 
 
 def _by_samples(reduced: Reduction) -> float:

@@ -12,10 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkwright.drive.evenness import mean_of_extremes, motion_coefficient, unevenness
-from linkwright.drive.reduction import NO_INERTIA
+from linkwright.drive.evenness import inertias, mean_of_extremes, motion_coefficient, unevenness
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
@@ -91,10 +89,8 @@ def _curves(compiled: CompiledMachine) -> Any:
     """Inertia, and acceleration at E = 1 with its sign turned, over the crank angle."""
 
     def curves(phi: Floats) -> Floats:
-        at = compiled.reductions(phi)
-        if not (at.inertia > 0).all():
-            raise SteadyStateError(NO_INERTIA)
-        return np.stack([at.inertia, at.inertia_slope / at.inertia**2])
+        inertia, slope = inertias(compiled, phi)
+        return np.stack([inertia, slope / inertia**2])
 
     return curves
 
@@ -122,8 +118,7 @@ class _Reads:
             if abs(self.turn.extreme(sign, _ACCELERATION)[0]) < peak * (1 - _SAME):
                 continue
             at = self.turn.extremes(sign, _ACCELERATION, _SAME)
-            here = self.compiled.reductions(at)
-            inertia, slope = here.inertia[:, None], here.inertia_slope[:, None]
+            inertia, slope = (values[:, None] for values in inertias(self.compiled, at))
             along = self.compiled.inertias_along(self.program.values, at)
             angles.append(at)
             slopes.append(sign * (along[1] / inertia**2 - 2 * slope * along[0] / inertia**3))
@@ -133,9 +128,8 @@ class _Reads:
         """An extreme that is reached at some angles, with the derivatives that it has at all of them."""
         apart = np.abs(along - along[0]) > _ALIKE * np.abs(along).max(initial=0.0)
         lost = apart.any(axis=0)
-        why = (
-            "" if not lost.any() else "it is reached at " + " and ".join(dict.fromkeys(map(_degrees, angles)))
-        )
+        places = " and ".join(dict.fromkeys(map(_degrees, angles)))
+        why = f"it is reached at {places}" if lost.any() else ""
         for angle in angles:
             on = np.abs(np.remainder(self.joints - angle + np.pi, 2 * np.pi) - np.pi) <= _ON_JOINT
             if on.any():

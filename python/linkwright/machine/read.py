@@ -13,7 +13,7 @@ from typing import Any, TypeVar, cast
 from pydantic import BaseModel
 
 from linkwright.drive.model.motor_file import with_motor_of_file
-from linkwright.kernel.description.place import join, split
+from linkwright.kernel.description.place import split
 from linkwright.kernel.errors import MachineError, MachineFileError, Problem
 from linkwright.kernel.files.library import library, library_path
 from linkwright.kernel.files.lines import key_lines, line_of
@@ -147,7 +147,7 @@ def loads_as(
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []
-    behind: dict[str, tuple[tuple[str, ...], str]] = {}
+    behind: dict[str, str] = {}
     try:
         if model is Machine:
             behind = with_tolerances(tables)
@@ -160,10 +160,7 @@ def loads_as(
         return described
     except MachineError as error:
         # A tolerance behind a value stands where the value does.
-        problems = [
-            replace(problem, key=join(behind[problem.key][0])) if problem.key in behind else problem
-            for problem in error.problems
-        ]
+        problems = [replace(problem, key=behind.get(problem.key, problem.key)) for problem in error.problems]
         raise MachineFileError(_located(problems, text, path, places, columns)) from None
 
 

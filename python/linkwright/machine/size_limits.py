@@ -154,13 +154,13 @@ def half_clearance(key: str, value: object, given: float | str, kind: Kind) -> f
     if not isinstance(value, int | float) or kind.unit != LENGTH.unit:
         raise problem(key, f"one of {kind.word}", "one of a length that the machine has")
     fit = iso286.FIT.fullmatch(given) if isinstance(given, str) else None
-    clearance = _parsed(key, given, kind) if fit is None else _of_fit(key, fit)
+    clearance = parsed(key, given, kind) if fit is None else _of_fit(key, fit)
     if not clearance > 0:
         raise problem(key, show(given), "more than 0")
     return 0.5 * clearance
 
 
-def _parsed(key: str, value: object, kind: Kind) -> float:
+def parsed(key: str, value: object, kind: Kind) -> float:
     """A value as the quantity of its entry."""
     try:
         return parse(value, kind)

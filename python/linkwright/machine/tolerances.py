@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,11 @@ import numpy as np
 from linkwright.kernel.description.place import join
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import MachineError, Problem, show
-from linkwright.kernel.units import LENGTH, Quantity, worded
+from linkwright.kernel.units import LENGTH, Kind, Quantity, worded
 from linkwright.machine.address import get, kind, known_place, outside
 from linkwright.machine.machine import Machine
-from linkwright.machine.size_limits import is_bare, size_and_limits, toleranced
+from linkwright.machine.overrides import Override, apply
+from linkwright.machine.size_limits import is_bare, problem, size_and_limits, toleranced
 
 # The table of a machine file: address → text.
 TABLE = "tolerances"
@@ -25,30 +26,28 @@ TABLE = "tolerances"
 Place = tuple[str, ...]
 
 
-def with_tolerances(tables: dict[str, Any]) -> dict[str, tuple[Place, str]]:
-    """Move tolerances from behind values into their table; keys there → places and texts that they come from.
+def with_tolerances(tables: dict[str, Any]) -> dict[str, str]:
+    """Move tolerances from behind values into their table; keys there → addresses that they come from.
 
     Only where a quantity stands: in a formula the same text is a sum.
     """
     given = tables.get(TABLE, {})
     if not isinstance(given, Mapping):
         return {}  # the description says what is wrong
-    behind = {join(place): (place, text) for place, text in _behind_values(tables, tables, ())}
-    moved = {}
-    for address, (place, text) in behind.items():
+    behind = {join(place): text for place, text in _behind_values(tables, tables, ())}
+    for address, text in behind.items():
         parts = size_and_limits(text)
         assert parts is not None
         if address in given:
             key = join((TABLE, address))
-            raise MachineError([Problem(key, show(given[address]), f"nothing: {address} has a tolerance")])
+            raise problem(key, show(given[address]), f"nothing: {address} has a tolerance")
         if is_bare(text):
             expected = 'a tolerance with its unit, such as "0.2 m ± 0.2 mm"'
-            raise MachineError([Problem(address, show(text), expected)])
-        _set(tables, place, parts[0])
-        moved[address] = text
-    if moved:
-        tables[TABLE] = {**given, **moved}
-    return {join((TABLE, address)): origin for address, origin in behind.items()}
+            raise problem(address, show(text), expected)
+        apply(tables, Override(address, parts[0], ""))
+    if behind:
+        tables[TABLE] = {**given, **behind}
+    return {join((TABLE, address)): address for address in behind}
 
 
 def _behind_values(tables: Mapping[str, Any], node: Any, place: Place) -> Iterator[tuple[Place, str]]:
@@ -70,13 +69,6 @@ def _behind_values(tables: Mapping[str, Any], node: Any, place: Place) -> Iterat
                 yield at, entry
 
 
-def _set(tables: Any, place: Place, size: str) -> None:
-    node = tables
-    for key in place[:-1]:
-        node = node[int(key)] if isinstance(node, list) else node[key]
-    node[int(place[-1]) if isinstance(node, list) else place[-1]] = size
-
-
 def with_known_tolerances(machine: Machine) -> Machine:
     """The machine with tolerances as they count: without the size, one for each entry.
 
@@ -89,7 +81,7 @@ def with_known_tolerances(machine: Machine) -> Machine:
         try:
             place = join(known_place(machine, address))
             if place in known:
-                raise MachineError([Problem(key, show(text), f"nothing: {place} has a tolerance")])
+                raise problem(key, show(text), f"nothing: {place} has a tolerance")
             _require_possible(machine, key, address, text)
             known[place] = (size_and_limits(text) or ("", text))[1]
         except MachineError as error:
@@ -103,12 +95,27 @@ def _require_possible(machine: Machine, key: str, address: str, text: str) -> No
     """Refuse what is no tolerance of an entry, or what it cannot have."""
     quantity = kind(machine, address)
     if quantity is None:
-        raise MachineError([Problem(key, show(text), "the tolerance of a number")])
-    low, high = toleranced(key, get(machine, address), text, quantity)
-    wrong, expected = outside(machine, address, np.array([low, high]))
-    if wrong.any():
-        found = f"{show(text)}, which is {worded(low, quantity)} to {worded(high, quantity)}"
-        raise MachineError([Problem(key, found, f"limits that are each {expected}", "make it narrower")])
+        raise problem(key, show(text), "the tolerance of a number")
+    limits = toleranced(key, get(machine, address), text, quantity)
+    require_limits(machine, (address,), key, text, limits, quantity)
+
+
+def require_limits(
+    machine: Machine,
+    addresses: Sequence[str],
+    key: str,
+    given: object,
+    limits: tuple[float, float],
+    quantity: Kind,
+) -> None:
+    """Raise `MachineError` for limits that an entry cannot have; `key`, `given`: what has them."""
+    for address in addresses:
+        wrong, expected = outside(machine, address, np.array(limits))
+        if wrong.any():
+            ends = " to ".join(worded(end, quantity) for end in limits)
+            raise problem(
+                key, f"{show(given)}, which is {ends}", f"limits that are each {expected}", "make it narrower"
+            )
 
 
 def tolerance_names(machine: Machine, taken: Collection[str] = ()) -> dict[str, str]:

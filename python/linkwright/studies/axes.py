@@ -12,11 +12,12 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, show
-from linkwright.kernel.units import COUNT, Kind, is_number, worded
+from linkwright.kernel.units import COUNT, Kind, is_number
 from linkwright.machine.address import addresses, get, kind, known_place, outside
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
 from linkwright.machine.size_limits import half_clearance, of_pin, toleranced
+from linkwright.machine.tolerances import require_limits
 from linkwright.studies.choices import choice_names
 from linkwright.studies.distributions import loosened, normal_shares, scattered
 from linkwright.studies.model import Distribution, Variable
@@ -184,21 +185,17 @@ def _made(machine: Machine, named: Axis, variable: Variable, kind: Kind) -> Axis
         play = half_clearance(f"{key}.clearance", value, variable.clearance, kind)
     if variable.tolerance is None:
         made = replace(named, low=value - play, high=value + play, distribution=of_pin(value, play))
-        _require_possible_ends(machine, made, "clearance", variable.clearance, kind)
+        require_limits(
+            machine, made.addresses, f"{key}.clearance", variable.clearance, (made.low, made.high), kind
+        )
         return made
     low, high = toleranced(f"{key}.tolerance", value, variable.tolerance, kind)
     scatter = ("normal", 0.5 * (low + high), (high - low) / _SPREAD)
     made = replace(named, low=low - play, high=high + play, distribution=scatter, play=play)
-    _require_possible_ends(machine, made, "tolerance", variable.tolerance, kind)
+    require_limits(
+        machine, made.addresses, f"{key}.tolerance", variable.tolerance, (made.low, made.high), kind
+    )
     return made
-
-
-def _require_possible_ends(machine: Machine, made: Axis, key: str, given: object, kind: Kind) -> None:
-    """Refuse limits that an entry cannot have."""
-    expected = _impossible(machine, made, [made.low, made.high])
-    if expected:
-        found = f"{show(given)}, which is {worded(made.low, kind)} to {worded(made.high, kind)}"
-        raise problem(made.name, key, found, f"limits that are each {expected}", "make it narrower")
 
 
 def _require_possible_truncation(machine: Machine, cut: Axis, given: Distribution, kind: Kind) -> None:

@@ -28,7 +28,7 @@ from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, SOLVED, Rows
 from linkwright.studies.study_response import ENTRY, MOTION, PATH, StudyResponse
 
 # Analyses of forces that keep contacts.
-_IN_CONTACT = ("forces", "cam_force")
+IN_CONTACT = ("forces", "cam_force")
 
 # Rows whose points are in memory at once.
 _TOGETHER = 2000
@@ -263,7 +263,7 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
         if asked.key not in results:
             result = analysis(asked.analysis)(machine, *asked.arguments, **asked.options)
             # Forces of a contact that is lost are not those of the machine.
-            lost = getattr(result, "findings", ()) if asked.analysis in _IN_CONTACT else ()
+            lost = getattr(result, "findings", ()) if asked.analysis in IN_CONTACT else ()
             if lost:
                 # Without its numbers one reason stands for all rows.
                 raise FindingError(lost[0].partition(":")[0])

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.errors import MachineError, Problem, UnitError
-from linkwright.kernel.units import Kind, parse
+from linkwright.kernel.errors import MachineError
+from linkwright.kernel.units import Kind
+from linkwright.machine import size_limits
 
 
 def problem(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:
     """What is wrong at a key of a variable."""
-    return MachineError([Problem(f"variables.{name}.{key}", found, expected, remedy)])
+    return size_limits.problem(f"variables.{name}.{key}", found, expected, remedy)
 
 
 def parsed(name: str, key: str, value: object, kind: Kind) -> float:
     """A value as the quantity of its entry."""
-    try:
-        return parse(value, kind)
-    except UnitError as error:
-        wrong = error.problem
-        raise problem(name, key, wrong.found, wrong.expected, wrong.remedy) from None
+    return size_limits.parsed(f"variables.{name}.{key}", value, kind)

@@ -103,10 +103,11 @@ def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
 def unwatched_contacts(plan: StudyPlan) -> list[str]:
     """That steady motion alone does not tell whether followers stay on their cams."""
     from linkwright.kinetostatics.contact import contacts
+    from linkwright.studies.engine import IN_CONTACT
 
     analyses = {asked.analysis for asked in plan.asked}
     watched = contacts(plan.machine)
-    if not watched or "steady_state" not in analyses or analyses & {"forces", "cam_force"}:
+    if not watched or "steady_state" not in analyses or analyses.intersection(IN_CONTACT):
         return []
     names = ", ".join(f"{kind} {name}" for kind, name in watched)
     return [
