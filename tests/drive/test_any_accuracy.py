@@ -103,3 +103,49 @@ def test_a_peak_within_a_soft_sign_is_the_same_in_a_batch() -> None:
     rows = lw.steady_states(machine, {"bodies.E.mass": np.full(2, lw.get(machine, "bodies.E.mass"))})
     assert rows.acceleration_max == pytest.approx(alone.acceleration_max, rel=1e-6)
     assert rows.acceleration_min == pytest.approx(alone.acceleration_min, rel=1e-6)
+
+
+# A crank that idles under a motor with a table: it passes the kink of its table, and of the gearbox, where the torque changes its sign.
+IDLE = """
+format = 1
+name = "Idling yoke"
+[drive.motor]
+kind = "table"
+speed = [0.0, {low}, {peak}, {idle}, {fast}]
+torque = [{torque}, {torque}, {most}, 0.0, {brake}]
+inertia = {inertia}
+[drive.gearbox]
+ratio = 30.0
+efficiency = 0.95
+[mechanism.cranks.A]
+radius = 0.129
+[mechanism.yokes.E]
+pin = "A"
+[bodies]
+E = {{ mass = {mass} }}
+A = {{ mass = 0.438, inertia = 0.00744 }}
+"""
+
+
+def idling(random: np.random.Generator) -> lw.Machine:
+    """One whose motor changes ε by up to 1e6 per rad²/s² of ½ω²."""
+    idle, torque = 10 ** random.uniform(1, 2.5), 10 ** random.uniform(1, 5)
+    speeds = {"low": 0.7 * idle, "peak": 0.9 * idle, "idle": idle, "fast": 1.2 * idle}
+    torques = {"torque": torque, "most": 1.4 * torque, "brake": -torque}
+    masses = {"inertia": 10 ** random.uniform(-4, 1), "mass": 10 ** random.uniform(0, 3)}
+    return lw.loads(IDLE.format(**speeds, **torques, **masses))
+
+
+def test_extremes_beside_a_kink_of_a_steep_motor() -> None:
+    """A step ends on the kink, and on which side of it its last stage lies, to rounding, counts for the acceleration."""
+    random, names = np.random.default_rng(1), ("acceleration_min", "acceleration_max")
+    for number in range(150):
+        machine = idling(random)
+        best = lw.steady_state(machine, accuracy=1e-12)
+        size = max(*(abs(getattr(best, name)) for name in names), 1e-4 * best.speed_max**2)
+        for accuracy in (1e-7, 1e-9, 1e-10, 1e-11):
+            motion = lw.steady_state(machine, accuracy=accuracy)
+            # Each is off by no more than it says; the factor allows for what both say being an estimate.
+            told = 2.5 * (max(motion.accuracy, accuracy) + best.accuracy) * size
+            for name in names:
+                assert abs(getattr(motion, name) - getattr(best, name)) <= told, (number, name, accuracy)

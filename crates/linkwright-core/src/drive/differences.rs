@@ -75,8 +75,12 @@ impl<R: Real> Turn<R> {
             let X = stages_of_part(&quintic, zero, at);
             let (first, geometry) = machine.advance_within(limit, step.phi, step.u, x, X, m);
             let X = stages_of_part(&quintic, at, at);
-            let (second, geometry_second) = machine.advance_within(limit, step.phi + x, first.end(), x, X, m);
+            let (mut second, geometry_second) =
+                machine.advance_within(limit, step.phi + x, first.end(), x, X, m);
             if level == 0 {
+                if ends_on_kink.is_some() {
+                    machine.settle(&mut second, &geometry_second);
+                }
                 d.defect = second.end() - whole.end();
                 d.growths = [step.growth, first.growth * second.growth];
                 if let Some(flag) = ends_on_kink.filter(|flag| flag.max_lane() > 0.0) {

@@ -469,7 +469,8 @@ impl<R: Real> Promise<R> {
             return Extreme { value: self.is_speed.select_lt(R::splat(0.5), epsilon, u) * self.sign, phi };
         }
         let X = stages_of_part(&self.quintic, R::splat(0.0), at);
-        let (there, _) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
+        let (mut there, geometry) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
+        machine.settle(&mut there, &geometry);
         let value = self.is_speed.select_lt(R::splat(0.5), there.K[S - 1], there.end());
         Extreme { value: value * self.sign, phi: at.mul_add(self.h, self.phi) }
     }

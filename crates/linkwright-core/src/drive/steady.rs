@@ -26,6 +26,7 @@ use crate::drive::measures::Totals;
 use crate::drive::mesh::{Crossing, Mesh, Piece, speed_along};
 use crate::drive::reading::Mark;
 use crate::drive::steep::{Along, SteepKind, Steepness};
+use crate::drive::step::OVER_KINK;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
@@ -499,7 +500,11 @@ impl Job for Search<'_> {
             if leap > USABLE.max(self.accuracy) {
                 break;
             }
-            let is_better = turn.polish(&machine, last_correction(multiplier, self.accuracy));
+            let mut is_better = turn.polish(&machine, last_correction(multiplier, self.accuracy));
+            let over_kinks = if mesh.crossings.is_empty() { 0 } else { OVER_KINK };
+            for _ in 0..over_kinks {
+                is_better |= turn.polish(&machine, 0.0);
+            }
             let pieces = if is_better { turn.pieces() } else { pieces };
             let passages = events.passages(&mesh, &pieces, &mut plain_motion);
             let kinks = events.kinks_at_ends(&passages, &pieces, &mut plain_motion);

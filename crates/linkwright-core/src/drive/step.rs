@@ -37,6 +37,10 @@ const STEP_SWEEPS: usize = 16;
 /// Relative correction after which the stages of a step have converged: the next would be about its square.
 pub const CONVERGED: f64 = 1e-8;
 
+/// Sweeps more after which the stages of a step that ends on a kink of the drive have converged: the last one may take its end
+/// over the kink with the slope of the other side, which leaves ε there, and the next one may take it back.
+pub const OVER_KINK: usize = 2;
+
 /// Largest correction of the last sweep that counts as converged at all.
 const SOLVED: f64 = 1e-6;
 
@@ -168,8 +172,7 @@ impl<R: Real> Machine<'_, R> {
         self.advance_near(phi, u, h, [u; S], m)
     }
 
-    /// The same with stages to start from. After the last correction there is one more: of duals the derivatives have converged
-    /// too then, and a stage that the last one took over a kink of the drive lies on the torque of its side.
+    /// The same with stages to start from, and sweeps over kinks: of duals the derivatives have converged too then.
     #[inline(always)]
     pub fn advance_near(
         &self,
@@ -180,15 +183,23 @@ impl<R: Real> Machine<'_, R> {
         m: &mut Motion<R>,
     ) -> (Step<R>, Vec<LawGeometry<R>>) {
         let (mut step, geometry) = self.advance_within(CONVERGED, phi, u, h, X, m);
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let once = R::splat(f64::INFINITY);
-                let newton = self.step_newton(&mut step, &geometry, once, 0.0);
-                step.take(&newton, R::splat(0.0), once, 0.0);
-            },
-        );
+        self.settle(&mut step, &geometry);
         (step, geometry)
+    }
+
+    /// The sweeps of [`OVER_KINK`] over a solved step.
+    #[inline(always)]
+    pub fn settle(&self, step: &mut Step<R>, geometry: &[LawGeometry<R>]) {
+        let once = R::splat(f64::INFINITY);
+        for _ in 0..OVER_KINK {
+            R::out_of_line(
+                #[inline(always)]
+                || {
+                    let newton = self.step_newton(step, geometry, once, 0.0);
+                    step.take(&newton, R::splat(0.0), once, 0.0);
+                },
+            );
+        }
     }
 
     /// The same until the relative correction is below a limit.
