@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 from pathlib import Path
 
 import pytest
 
+import linkwright as lw
 from linkwright.app.report.figures import figures
 from linkwright.app.study import Study, study
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.figures import motor_figure, reduction_figure, run_up_figure
 from linkwright.kernel.figure.svg import svg
-from linkwright.machine.read import read
+from linkwright.kinetostatics.figures import forces_figure
+from linkwright.machine.read import loads, read
+from linkwright.sensitivity.figures import influence_figure
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
@@ -72,3 +76,17 @@ def test_style_of_the_user_does_not_matter() -> None:
     usual = svg(reduction_figure(reduced))
     with rc_context({"font.size": 30, "axes.grid": False, "svg.fonttype": "none"}):
         assert svg(reduction_figure(reduced)) == usual
+
+
+def test_the_longest_names_leave_axes_room() -> None:
+    """A name may have 100 letters: figures show both of its ends."""
+    text = TWO_CARTS.read_text(encoding="utf-8")
+    for cart in ("cart1", "cart2"):
+        text = text.replace(cart, f"cart_{'long' * 22}_{cart[-1]}")
+    machine = loads(text)
+    gradient = lw.gradient(machine, ["steady_state.unevenness"])
+    with warnings.catch_warnings():
+        # The layout only warns where it leaves axes no room.
+        warnings.simplefilter("error")
+        svg(forces_figure(lw.forces(machine)))
+        svg(influence_figure(gradient, "steady_state.unevenness"))

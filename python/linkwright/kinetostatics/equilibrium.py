@@ -23,7 +23,7 @@ from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
-from linkwright.linkages.model.structure import FRAME
+from linkwright.linkages.model.structure import FRAME, Structure
 from linkwright.machine.program.core import solve_systems
 
 # Relative change of the forces at which the iteration over friction ends.
@@ -205,6 +205,12 @@ class Equilibrium:
         everywhere = np.zeros(len(where), dtype=bool)
         everywhere[where] = singular
         return x, everywhere
+
+
+def require_room(structure: Structure, n: int) -> None:
+    """Raise if the matrices of `n` angles are too large even with no more unknowns than equations."""
+    equations = sum(3 if member.turns else 2 for member in structure.members.values())
+    _require_room(n, equations, equations)
 
 
 def _require_room(n: int, equations: int, unknowns: int) -> None:

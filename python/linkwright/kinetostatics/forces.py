@@ -27,11 +27,11 @@ from linkwright.kernel.units import ANGLE, Bound, Quantity
 from linkwright.kinetostatics.applied import AppliedLoad, applied, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.couple import has_axial, inertia_force_and_couple
-from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
+from linkwright.kinetostatics.equilibrium import Equilibrium, Solution, require_room
 from linkwright.kinetostatics.friction import Friction, checked
 from linkwright.kinetostatics.motion import Motion, motion_at
 from linkwright.kinetostatics.pairs import PairModel, pair_models, with_pulls
-from linkwright.kinetostatics.places import Scene
+from linkwright.kinetostatics.places import Scene, structure_of
 from linkwright.kinetostatics.result import Forces
 from linkwright.kinetostatics.wrench import Wrenches, inertia_forces
 from linkwright.machine.machine import Machine
@@ -109,6 +109,9 @@ def forces(
     in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
     if motion is not None and angles is not None:
         raise InputError("angles: found them beside a motion, which has its own; leave them out")
+    if motion is None:
+        # Before a motion of as many angles is worked out.
+        require_room(structure_of(machine), n if angles is None else np.size(angles))
     scene = Scene(
         machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
     )

@@ -20,6 +20,15 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.wrench import Mass
 
 
+def structure_of(machine: Machine) -> Structure:
+    """Members and pairs of a machine, worked out once."""
+    kept = compile_machine(machine).kept
+    known: Structure | None = kept.get("structure")
+    if known is None:
+        known = kept["structure"] = structure(machine.linkage)
+    return known
+
+
 class Scene:
     """A machine at all crank angles of a motion.
 
@@ -47,10 +56,7 @@ class Scene:
         self.machine = machine
         self.mechanism = machine.linkage
         self.motion = motion
-        known: Structure | None = compiled.kept.get("structure")
-        if known is None:
-            known = compiled.kept["structure"] = structure(self.mechanism)
-        self.structure = known
+        self.structure = structure_of(machine)
         if not self.structure.members:
             raise InputError("mechanism: found nothing that moves, expected a crank or a linear driver")
         self.links = self.mechanism.links()

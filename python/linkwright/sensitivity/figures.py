@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import BLUE, INK, RED, panels, styled
+from linkwright.kernel.figure.style import ADDRESS_LETTERS, BLUE, INK, RED, panels, shortened, styled
 from linkwright.sensitivity.tables import ROWS, ranked
 
 if TYPE_CHECKING:
@@ -24,9 +24,10 @@ def influence_figure(gradient: Gradient, response: str) -> Figure:
     row = gradient.responses.index(response)
     shown = [at for at in ranked(gradient, response) if np.isfinite(gradient.elasticities[row, at])][:ROWS]
     shares = gradient.elasticities[row, shown][::-1]
-    names = [gradient.variables[at] for at in shown][::-1]
+    names = [shortened(gradient.variables[at], ADDRESS_LETTERS) for at in shown][::-1]
     figure, (axes,) = panels(1, height=0.9 + 0.24 * max(len(shown), 3))
-    axes.barh(names, shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)
+    axes.barh(range(len(names)), shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)
+    axes.set_yticks(range(len(names)), names)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")
     # The axes stand to the right of long names: one line would leave the picture.

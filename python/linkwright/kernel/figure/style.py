@@ -167,16 +167,31 @@ def _power_of_ten(value: float) -> str:
     return "10" + str(round(np.log10(value))).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
 
 
+# Letters of a name, and of an address, that a label has room for: longer ones would leave axes none.
+NAME_LETTERS, ADDRESS_LETTERS = 28, 44
+
+
+def shortened(name: str, letters: int) -> str:
+    """A name without its middle where it is long: its end tells it from others."""
+    half = letters // 2
+    return f"{name[:half]}…{name[-half:]}" if len(name) > letters else name
+
+
 def named(name: str) -> str:
-    """A name of a machine file as a label: what begins with an underscore would stand in no legend."""
-    return f" {name}" if name.startswith("_") else name
+    """A name of a machine file, or some words, as a label."""
+    return _in_legend(name if " " in name else shortened(name, NAME_LETTERS))
+
+
+def _in_legend(label: str) -> str:
+    """What begins with an underscore would stand in no legend."""
+    return f" {label}" if label.startswith("_") else label
 
 
 def broken(name: str, width: int) -> str:
     """A label in lines of about so many letters: a name of a file has no spaces, but underscores."""
     lines = [""]
     # The unit in brackets at the end stays whole.
-    for part in re.findall(r"\[[^\[\]]*\]$|[^_ ]*[_ ]|[^_ ]+$", named(name)):
+    for part in re.findall(r"\[[^\[\]]*\]$|[^_ ]*[_ ]|[^_ ]+$", _in_legend(name)):
         if len(lines[-1]) + len(part.rstrip()) > width and lines[-1].strip():
             lines.append("")
         lines[-1] += part
