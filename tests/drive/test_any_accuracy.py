@@ -105,8 +105,8 @@ def test_a_peak_within_a_soft_sign_is_the_same_in_a_batch() -> None:
     assert rows.acceleration_min == pytest.approx(alone.acceleration_min, rel=1e-6)
 
 
-# A crank that idles under a motor with a table: it passes the kink of its table, and of the gearbox, where the
-# torque changes its sign.
+# A crank that idles under a motor with a table: it passes the kink of its table, and of the gearbox, where
+# the torque changes its sign.
 IDLE = """
 format = 1
 name = "Idling yoke"
@@ -138,7 +138,7 @@ def idling(random: np.random.Generator) -> lw.Machine:
 
 
 def test_extremes_beside_a_kink_of_a_steep_motor() -> None:
-    """A step ends on the kink: on which side its last stage lies, to rounding, counts for the acceleration."""
+    """A step ends on the kink: on which side its last stage lies to rounding counts for the acceleration."""
     random, names = np.random.default_rng(1), ("acceleration_min", "acceleration_max")
     for number in range(150):
         machine = idling(random)
