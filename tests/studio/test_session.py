@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import time
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -19,12 +20,20 @@ from linkwright.studio.drag import drag
 
 from .conftest import Served, Tab
 
-CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
+ROOT = Path(__file__).parents[2]
+CARTS = ROOT / "machines" / "roller_two_carts.toml"
+TOLERANCED = ROOT / "examples" / "coupler_path_tolerances" / "machine.toml"
 
 
 def scalar(answer: dict, result: str, name: str) -> float:  # type: ignore[type-arg]
     found = next(each for each in answer["results"] if each["name"] == result)
     return float(next(each["value"] for each in found["scalars"] if each["name"] == name))
+
+
+def entries(group: dict) -> dict[str, dict]:  # type: ignore[type-arg]
+    """All entries of a group of controls and of those in it, by address."""
+    own = {entry["address"]: entry for entry in group["entries"]}
+    return own | {address: entry for part in group["groups"] for address, entry in entries(part).items()}
 
 
 def test_numbers_are_those_of_the_package(tab: Tab) -> None:
@@ -143,23 +152,26 @@ def test_changes_keep_comments_order_and_units() -> None:
 
 @pytest.mark.parametrize("name", ["four-bar", "two-carts", "press", "topper", "flywheel"])
 def test_every_entry_has_its_control(name: str) -> None:
-    import tomllib
-
     raw = tomllib.loads(template(name))
-    listed: list[str] = []
-
-    def walk(group: dict) -> None:  # type: ignore[type-arg]
-        listed.extend(each["address"] for each in group["entries"])
-        for each in group["groups"]:
-            walk(each)
 
     def leaves(node: object, place: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
         if isinstance(node, dict) and node:
             return [leaf for key, value in node.items() for leaf in leaves(value, (*place, key))]
         return [place]
 
-    walk(controls(raw))
-    assert len(listed) == len(leaves(raw))
+    assert len(entries(controls(raw))) == len(leaves(raw))
+
+
+def test_a_size_with_a_tolerance_has_a_slider_and_keeps_it() -> None:
+    text = TOLERANCED.read_text(encoding="utf-8").replace('rocker = "110 ± 0.1 mm"', 'rocker = "110 H7"')
+    parts = entries(controls(tomllib.loads(text)))
+    assert [parts["mechanism.cranks.A.radius"][key] for key in ("si", "tolerance")] == [0.05, "± 0.05 mm"]
+    assert [parts["mechanism.rockers.C.rocker"][key] for key in ("si", "tolerance")] == [0.11, "H7"]
+    assert "tolerance" not in parts["bodies.A.mass"]
+    moved = changed(text, {"mechanism.cranks.A.radius": 0.052, "mechanism.rockers.C.rocker": 0.1125})
+    assert 'radius = "52 mm ± 0.05 mm"' in moved
+    assert 'rocker = "112.5 mm H7"' in moved
+    assert lw.get(loads(moved), "mechanism.rockers.C.rocker") == pytest.approx(0.1125)
 
 
 def test_a_drag_brings_the_joint_to_its_place() -> None:

@@ -18,6 +18,7 @@ from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, m
 from linkwright.kernel.errors import UnitError
 from linkwright.kernel.units import Quantity, QuantityList, parse
 from linkwright.machine.machine import Machine
+from linkwright.machine.size_limits import size_and_limits
 
 Control = dict[str, Any]
 
@@ -100,9 +101,11 @@ def _holds(annotation: Any, value: Any) -> Control:
 
 
 def _number(value: Any, mark: Quantity) -> Control:
-    """The SI value of what is written; none if it is no such quantity."""
+    """The SI value of what is written and the tolerance behind it; none if it is no such quantity."""
+    parts = size_and_limits(value) if isinstance(value, str) else None
+    size, tolerance = parts or (value, "")
     try:
-        return {"si": parse(value, mark.kind)}
+        return {"si": parse(size, mark.kind)} | ({"tolerance": tolerance} if tolerance else {})
     except UnitError:
         return {"si": None}
 

@@ -20,6 +20,7 @@ from linkwright.linkages.model.topology import Topology
 from linkwright.machine.address import resolve
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
+from linkwright.machine.size_limits import size_and_limits
 
 # A number and what stands behind it.
 _WRITTEN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(.*)", re.DOTALL)
@@ -49,17 +50,19 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
 
 
 def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
-    """A new value at a place of the file as it writes it: an SI number in the unit of the old one."""
+    """A new value at a place of the file, a number in the unit, and with the tolerance, of the old one."""
     if not is_number(value):
         return value
     mark = mark_of(annotation_at(Machine, place, raw))
     if not isinstance(mark, Quantity):
         return value
-    old = _at(raw, place)
+    old, tolerance = _at(raw, place), ""
+    if isinstance(old, str) and (parts := size_and_limits(old)) is not None:
+        old, tolerance = parts
     if isinstance(old, str) and (match := _WRITTEN.fullmatch(old)):
         known = factor_of(match[1].strip())
         if known is not None:
-            return f"{short(value / known[0])} {match[1].strip()}".strip()
+            return " ".join(filter(None, (short(value / known[0]), match[1].strip(), tolerance)))
     if isinstance(old, int | float) or not mark.kind.unit:
         return float(short(value))
     return to_text(float(short(value)), mark.kind)

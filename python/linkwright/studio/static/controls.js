@@ -71,7 +71,7 @@ function Quantity({ entry }) {
           if (pressed === "Escape") setDraft(null);
           if (pressed === "Enter") commit(target);
         }} />
-      <span class="unit">${word}</span>
+      <span class="unit">${word}${entry.tolerance ? ` ${entry.tolerance}` : ""}</span>
     </div>
     ${typeof si === "number" ? html`
       <div class="slide">

@@ -24,7 +24,7 @@ type Answers = { results: Shown[], findings: string[], warnings: string[], figur
 type Chip = { name: string, word: string, lane: string, obstacle?: string, mend?: string, entries?: Record<string, any> };
 
 type Entry = { address: string, key: string, about: string, written: any, holds: string, unit?: string, bounds?: Record<string, number>,
-  si?: number | null, choices?: string[], expected?: string };
+  si?: number | null, tolerance?: string, choices?: string[], expected?: string };
 type Missing = { address: string, key: string, about: string, expected: string, usual: any, kinds: string[], choices?: string[],
   unit?: string };
 type Group = { address: string, key: string, about: string, entries: Entry[], groups: Group[], missing: Missing[] };
