@@ -14,13 +14,16 @@ from linkwright.kernel.units.kinds import Dimension
 from linkwright.kernel.units.spellings import factor_of
 from linkwright.machine import iso286
 
-# "± 0.2 mm"; "+0.1 -0.3 mm", in either order; before both there may be the size, "0.8 m ± 0.2 mm". A comma
-# belongs to the number, so that it is that which is refused.
+# "± 0.2 mm"; "+0.1 -0.3 mm" or "+0.1/-0.3 mm", in either order; before it there may be the size,
+# "0.8 m ± 0.2 mm". A comma belongs to the number, so that it is that which is refused.
+_AND = r"(?:\s*/\s*|\s+)"
 _SIZED = re.compile(
-    r"\s*(-?[\d.,]+(?:[eE][+-]?\d+)?[^±+-]*?)\s*((?:±|\+/-|[+-]\s*[\d.,]+\s+[+-]\s*[\d.,]).*)", re.DOTALL
+    r"\s*(-?[\d.,]+(?:[eE][+-]?\d+)?[^±+-]*?)"
+    rf"\s*((?:±|\+/-|[+-]\s*[\d.,]+{_AND}[+-]\s*[\d.,]).*)",
+    re.DOTALL,
 )
 _EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.,]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
-_UNEVEN = re.compile(r"\s*([+-]\s*[\d.,]+)\s+([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL)
+_UNEVEN = re.compile(rf"\s*([+-]\s*[\d.,]+){_AND}([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL)
 # A number and its unit.
 _MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
 # A size and its class, "25 H7", "25 mm H7", "0.2 m H7": grades are no powers of a unit.
