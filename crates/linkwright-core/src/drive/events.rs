@@ -447,6 +447,7 @@ impl Events<'_, f64> {
     ) -> Vec<Crossing> {
         let mut crossings = Vec::new();
         let cycle = self.machine.plan.cycle();
+        let reaches: Vec<[f64; 2]> = pieces.iter().map(reach).collect();
         for (nth, event) in self.within_reach(pieces) {
             let values = self.at_ends(event, pieces, m);
             let near = ON_KINK * self.size(event, &values);
@@ -456,7 +457,14 @@ impl Events<'_, f64> {
             let is_at = |phi: f64| stays.iter().any(|&at| at == phi || (at == 0.0 && phi == cycle));
             let middle = |piece: &Piece, m: &mut Motion<f64>| self.on_piece(event, piece, C[REFERENCE], m);
             let mut passed = Vec::new();
-            for (k, piece) in pieces.iter().enumerate() {
+            let may_pass = |k: usize| match event {
+                Event::Speed(nth) => {
+                    let [low, high] = reaches[k];
+                    (low..=high).contains(&(0.5 * self.speeds[nth].powi(2)))
+                }
+                Event::Law(_) => true,
+            };
+            for (k, piece) in pieces.iter().enumerate().filter(|&(k, _)| may_pass(k)) {
                 // On the kink at its start and on either side of it around there: that end of a step is the kink's.
                 let before = &pieces[(k + pieces.len() - 1) % pieces.len()];
                 if values[k].abs() <= near && !is_at(piece.phi) && middle(before, m) * middle(piece, m) < 0.0
@@ -532,13 +540,11 @@ impl Events<'_, f64> {
     /// The same of a speed of the drive's kinks. Where the quintic clearly passes it, it is not made more exact.
     fn turns_near_speed(&self, nth: usize, piece: &Piece, m: &mut Motion<f64>) -> Vec<(f64, f64)> {
         let kink = 0.5 * self.speeds[nth].powi(2);
-        let (low, high) =
-            piece.X.iter().fold((piece.u, piece.u), |(low, high), &u| (low.min(u), high.max(u)));
-        let range = high - low;
-        // The quintic leaves the range of its six samples by less than three quarters of it.
-        if kink < low - range || kink > high + range {
+        let [low, high] = reach(piece);
+        if kink < low || kink > high {
             return Vec::new();
         }
+        let range = (high - low) / 3.0;
         let quintic = piece.quintic();
         let turns = Bernstein::of_powers(&quintic).turns(ON_KINK * kink).into_iter();
         let exact = |share: f64| {
@@ -803,6 +809,14 @@ pub fn leap(mesh: &Mesh, pieces: &[Piece]) -> f64 {
         (behind.u / before.X[S - 1] - 1.0).abs()
     });
     leaps.fold(0.0, f64::max)
+}
+
+/// The least and the greatest u that a step may have: its quintic leaves the range of its six samples by less than three
+/// quarters of it, and an end on a kink leaves it by rounding.
+fn reach(piece: &Piece) -> [f64; 2] {
+    let (low, high) = piece.X.iter().fold((piece.u, piece.u), |(low, high), &u| (low.min(u), high.max(u)));
+    let room = (high - low).max(4.0 * ON_KINK * high);
+    [low - room, high + room]
 }
 
 /// Number of the step that ends at a crank angle: the last one for the start of the revolution.

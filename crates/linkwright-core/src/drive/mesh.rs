@@ -196,8 +196,8 @@ impl Mesh {
     fn drop_ordinary(&mut self, phi: f64, room: f64, breaks: &[f64]) {
         let crossings = &self.crossings;
         self.edges.retain(|edge| {
-            let is_ordinary = !breaks.contains(edge) && crossings.iter().all(|other| other.phi != *edge);
-            !(is_ordinary && (edge - phi).abs() < room)
+            let is_asked_for = || breaks.contains(edge) || crossings.iter().any(|other| other.phi == *edge);
+            (edge - phi).abs() >= room || is_asked_for()
         });
     }
 

@@ -502,13 +502,10 @@ impl Path {
                 apart && (left - speed) * (right - speed) < 0.0
             };
             let passed = self.speeds.iter().copied().chain([0.0]).filter(|&speed| is_past(speed));
-            let time = |speed: f64| {
+            // On its way to the other end the speed passes first what lies next to it.
+            if let Some(speed) = passed.min_by(|a, b| (left - a).abs().total_cmp(&(left - b).abs())) {
                 let excess = |x: f64| attempt.to(from + x).y[1] - speed;
-                (from + crossing(excess, to - from, left - speed, right - speed), speed)
-            };
-            let first = passed.map(time).min_by(|a, b| a.0.total_cmp(&b.0));
-            if first.is_some() {
-                return first;
+                return Some((from + crossing(excess, to - from, left - speed, right - speed), speed));
             }
             (from, left) = (to, right);
         }
