@@ -543,7 +543,10 @@ impl<R: Real> Machine<'_, R> {
             let middle = (low + high) * 0.5;
             let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
             let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
-            (change, phi) = ((next - phi).abs(), next);
+            // A lane that is there stays: its last bits do not depend on how long another takes.
+            let there = R::splat(if polish < POLISHES { 0.0 } else { POLISHED });
+            let moved = change.select_lt(there, change, (next - phi).abs());
+            (phi, change) = (change.select_lt(there, phi, next), moved);
         }
         zero.select_lt(self.room(watch, m), phi, R::splat(f64::NAN))
     }
