@@ -12,7 +12,8 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
-from linkwright.pumping.model.rod_rotator import diagonal_extremes, lengths
+from linkwright.pumping.model.rod_rotator import diagonal_extremes
+from linkwright.pumping.model.rotator_lengths import lengths
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
