@@ -1,4 +1,4 @@
-r"""Derivatives of the rotator of a rod string: lengths, swing, transfer functions, days, force in the link.
+r"""Derivatives of lengths, swing, transfer functions and forces of a rotator of a rod string.
 
 The lever's angle is a function of the beam's alone. Diagonal, swing and the way of the worm lie between
 places of the stroke, at its ends or where the lever turns back, and have the derivative of the curve there
@@ -8,7 +8,7 @@ places of the stroke, at its ends or where the lever turns back, and have the de
     \qquad c = \cos\gamma = \frac{l_d^2 + l_5^2 - l_4^2}{2\,l_d\,l_5},
 
 with λ the lean of the diagonal and s the side of the joint. At a change point it is 0/0 with a limit: the
-curve is smooth there, and so are its derivatives, which are read between angles around it.
+curve is smooth there, and so are its derivatives, which are interpolated between angles around it.
 
 The clutch takes the lever along at every place of the beam either on the way up or on the way down, and the
 arm of the link depends on the diagonal alone: its force is largest at an extreme of the diagonal.
@@ -53,9 +53,12 @@ _SAME = 1e-8
 # Places of a tie closer than this are one [rad].
 _APART = 1e-2
 
-# Distance from a change point [rad] within which derivatives are read between angles around it, and how many
-# angles: the transfer function of a lever bends within a radian.
+# Distance from a change point [rad] within which derivatives are interpolated, and between how many angles
+# around it: the transfer function of a lever bends within a radian.
 _NEAR, _NODES = 0.06, 12
+
+# Extremes by the ends of their names, and signs of the values of which they are the maximum.
+_ENDS = (("min", -1), ("max", 1))
 
 _WHOLE = "it is a whole number of revolutions"
 _NO_ARM = "the link loses its arm where it comes into line with the lever"
@@ -63,34 +66,15 @@ _NO_ARM = "the link loses its arm where it comes into line with the lever"
 
 def rotator_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of a rotator by some entries. Raises what `rod_rotator` raises."""
-    result = rod_rotator(machine, n=8)
-    assert machine.pumping_unit is not None
-    assert machine.rod_rotator is not None
-    rod = PolishedRod.of(machine, machine.pumping_unit)
-    lever = Lever.of(machine, machine.pumping_unit, machine.rod_rotator)
-    own = [name for name in variables if name.startswith((_UNIT, _ROTATOR))]
-    program = directions(rod.machine, [name for name in own if name.startswith(_UNIT)])
-    refused = dict(program.refused)
-    if result.change_points and machine.rod_rotator.link_length is not None:
-        refused |= dict.fromkeys(_of_lengths(own), CHANGE_POINTS)
-    asked = [name for name in own if name not in refused]
-    asked += [name for name in variables if name == "drive.speed"]
-    known, parts = followed(machine, asked, _Parts.of, refused)
-    values = np.zeros((len(program.values), len(known)))
-    for k, name in enumerate(known):
-        if name in program.variables:
-            values[:, k] = program.values[:, program.variables.index(name)]
-    still = _Parts.of(machine)
-    scalars = _Scalars(still, parts, RodAlong.of_unit(rod, parts.unit, values), lever, result, known)
-    listed = tuple(name for name in variables if name not in refused)
-    numbers = scalars.all()
+    along = RotatorAlong.of(machine, variables)
+    listed = tuple(name for name in variables if name not in along.refused)
 
     def tangent(name: str, number: Any) -> Tangent:
-        d = dict(zip(known, lifted(number, len(known)).d, strict=True))
-        return Tangent(float(getattr(result, name)), np.array([d.get(v, 0.0) for v in listed]))
+        d = dict(zip(along.entries, lifted(number, len(along.entries)).d, strict=True))
+        return Tangent(float(getattr(along.result, name)), np.array([d.get(v, 0.0) for v in listed]))
 
-    tangents = {name: tangent(name, number) for name, number in numbers.items()}
-    return Derivatives(listed, tangents, scalars.ties, _missing(result), refused)
+    tangents = {name: tangent(name, number) for name, number in along.scalars().items()}
+    return Derivatives(listed, tangents, along.ties, _missing(along.result), along.refused)
 
 
 def _missing(result: RodRotatorMotion) -> dict[str, str]:
@@ -143,24 +127,47 @@ class _Parts:
 
 
 @dataclass(frozen=True)
-class _Scalars:
-    """Scalars of a rotator with derivatives by some entries."""
+class RotatorAlong:
+    """A rotator with derivatives by some entries."""
 
+    result: RodRotatorMotion
     still: _Parts
     along: _Parts
     rod: RodAlong
     lever: Lever
-    result: RodRotatorMotion
+    # entries: those by which there are derivatives; refused: those that have none, with the reason.
     entries: tuple[str, ...]
+    refused: dict[str, str]
     ties: dict[str, str] = field(default_factory=dict)
 
-    def all(self) -> dict[str, Any]:
+    @classmethod
+    def of(cls, machine: Machine, variables: Sequence[str]) -> RotatorAlong:
+        """The rotator of a machine, by some entries. Raises what `rod_rotator` raises."""
+        result, still = rod_rotator(machine, n=8), _Parts.of(machine)
+        rod = PolishedRod.of(machine, still.unit)
+        # The motion of the beam is that of the unit alone, which has no other entries.
+        program = directions(rod.machine, [name for name in variables if name.startswith(_UNIT)])
+        refused = dict(program.refused)
+        if result.change_points and still.rotator.link_length is not None:
+            refused |= dict.fromkeys(_of_lengths(variables), CHANGE_POINTS)
+        own = (_UNIT, _ROTATOR, "drive.speed")
+        asked = [name for name in variables if name.startswith(own) and name not in refused]
+        known, parts = followed(machine, asked, _Parts.of, refused)
+        values = np.zeros((len(program.values), len(known)))
+        for place, name in enumerate(known):
+            if name in program.variables:
+                values[:, place] = program.values[:, program.variables.index(name)]
+        beam = RodAlong.of_unit(rod, parts.unit, values)
+        lever = Lever.of(machine, still.unit, still.rotator)
+        return cls(result, still, parts, beam, lever, known, refused)
+
+    def scalars(self) -> dict[str, Any]:
         """Numbers by name."""
         rotator: Any = self.along.rotator
         result = self.result
         numbers = dict(zip(("link_length", "lever_length"), self.along.lengths, strict=True))
         numbers |= self._diagonal() | self._way()
-        numbers |= {f"transfer_{end}": self._transfer(end, sign) for end, sign in (("min", -1), ("max", 1))}
+        numbers |= self._transfer()
         if result.string_turn_days is not None:
             cycle = 2 * np.pi / self.along.speed
             turns = numbers.get("worm_turns_per_cycle", result.worm_turns_per_cycle)
@@ -184,10 +191,7 @@ class _Scalars:
 
         shares = zeros_of_stroke(slope)
         distance = self._array(self.along.stroke(shares).distance[0])
-        return {
-            f"diagonal_{end}": self._extreme(f"diagonal_{end}", distance, sign)
-            for end, sign in (("min", -1), ("max", 1))
-        }
+        return {f"diagonal_{end}": self._extreme(f"diagonal_{end}", distance, sign) for end, sign in _ENDS}
 
     def _way(self) -> dict[str, Any]:
         """Range of the lever's angle, and revolutions of the worm."""
@@ -206,27 +210,29 @@ class _Scalars:
     def _force(self, torque: Any, numbers: dict[str, Any]) -> Any:
         """Maximum force in the link: at one end of the diagonal its arm l_5 sin(φ_4 − φ_5) is smallest."""
         link, lever = self.along.lengths
-        distances = [numbers[f"diagonal_{end}"] for end in ("min", "max")]
+        distances = [numbers[f"diagonal_{end}"] for end, _ in _ENDS]
         forces = [torque * link / (d * lever * _sine(d, link, lever)) for d in distances]
         row = self._array(np.stack([lifted(force, len(self.entries)) for force in forces]))
         return self._extreme("link_force_max", row, 1)
 
     # -- over the revolution -----------------------------------------------------------------------------
 
-    def _transfer(self, end: str, sign: int) -> Any:
-        """An extreme of the transfer function of the lever."""
-        curve = turn_curve(
-            lambda at: self.lever.motion(at).lever_d1[None], np.array([0.0, 2 * np.pi]), "motion"
-        )
-        angles: list[float] = []
-        for angle in (curve.extreme(sign)[1], *curve.extremes(sign, 0, _TIE).tolist()):
-            if all(abs(np.sin(0.5 * (angle - other))) > 0.5 * _APART for other in angles):
-                angles.append(angle)
-        rates = np.stack([self._rate_at(angle) for angle in angles])
-        return self._extreme(f"transfer_{end}", self._array(rates), sign)
+    def _transfer(self) -> dict[str, Any]:
+        """Extremes of the transfer function of the lever."""
+        turn = np.array([0.0, 2 * np.pi])
+        curve = turn_curve(lambda at: self.lever.motion(at).lever_d1[None], turn, "motion")
+        numbers = {}
+        for end, sign in _ENDS:
+            angles: list[float] = []
+            for angle in (curve.extreme(sign)[1], *curve.extremes(sign, 0, _TIE).tolist()):
+                if all(abs(np.sin(0.5 * (angle - other))) > 0.5 * _APART for other in angles):
+                    angles.append(angle)
+            rates = self._array(np.stack([self.transfer_at(angle) for angle in angles]))
+            numbers[f"transfer_{end}"] = self._extreme(f"transfer_{end}", rates, sign)
+        return numbers
 
-    def _rate_at(self, angle: float) -> Any:
-        """The transfer function at a crank angle."""
+    def transfer_at(self, angle: float) -> Any:
+        """The transfer function of the lever at a crank angle."""
         for change in self.result.change_points:
             if abs(np.sin(0.5 * (angle - change))) < 0.5 * _NEAR:
                 off = (angle - change + np.pi) % (2 * np.pi) - np.pi
@@ -237,35 +243,36 @@ class _Scalars:
 
     def _rates(self, angles: Floats) -> Any:
         """The transfer function at crank angles off the change points."""
-        unit, rotator, (link, lever) = self.along.unit, self.along.rotator, self.along.lengths
+        unit, (link, lever) = self.along.unit, self.along.lengths
         rise, rise_d1, _ = self.rod.motion(angles)
         front = unit.front_angle(unit.psi_bottom) + rise / unit.A
-        dx, dy = diagonal(unit, rotator, front)
+        dx, dy = diagonal(unit, self.along.rotator, front)
+        way = self.along.rotator.pin_distance * np.sin(front)
         distance = np.hypot(dx, dy)
-        lean = np.arctan2(dx, dy) * (-1.0 if unit.is_mirrored else 1.0)
-        # +1 for a joint on the left of the diagonal, as drawn.
+        # From the vertical, counter-clockwise as drawn.
+        sense = -1.0 if unit.is_mirrored else 1.0
+        lean, lean_d1 = sense * np.arctan2(dx, dy), sense * (way * dy + dx * dx) / distance**2
+        # +1 for a joint on the left of the diagonal, seen from the pin.
         side = np.sign(np.sin(0.5 * np.pi + primal(lean) - self.lever.motion(angles).lever))
-        l_3 = rotator.pin_distance
-        lean_d1 = (l_3 * np.sin(front) * dy + dx * dx) / distance**2 * (-1.0 if unit.is_mirrored else 1.0)
-        distance_d1 = -dx * (dy - l_3 * np.sin(front)) / distance
+        distance_d1 = -dx * (dy - way) / distance
         cosine_d1 = distance_d1 * (distance**2 + self.along.excess) / (2 * lever * distance**2)
         return (lean_d1 + side * cosine_d1 / _sine(distance, link, lever)) * (rise_d1 / unit.A)
 
-    # -- what extremes have in common ---------------------------------------------------------------------
+    # -- what extremes have in common ----------------------------------------------------------------------
 
     def _array(self, x: Any) -> Any:
         return lifted(x, len(self.entries))
 
     def _extreme(self, name: str, row: Any, sign: int) -> Any:
-        """The maximum (+1) or minimum (−1) of some values; NaN by entries that its rivals follow otherwise."""
+        """The maximum (+1) or minimum (−1); NaN by entries by which those as large have other derivatives."""
         values = sign * row.value
         best = int(values.argmax())
-        rivals = np.flatnonzero(values >= values[best] - _TIE * np.abs(values).max())
-        d = row.d[rivals]
+        tied = np.flatnonzero(values >= values[best] - _TIE * np.abs(values).max())
+        d = row.d[tied]
         differs = np.ptp(d, axis=0) > _SAME * np.abs(d).max(initial=0.0)
         if differs.any():
             by = ", ".join(entry for entry, yes in zip(self.entries, differs, strict=True) if yes)
-            self.ties[name] = f"it is reached at {len(rivals)} places, with other derivatives by {by}"
+            self.ties[name] = f"it is reached at {len(tied)} places, with other derivatives by {by}"
         return TangentArray(row.value[best], np.where(differs, np.nan, row.d[best]))
 
 

@@ -1,4 +1,4 @@
-r"""Link and lever of a rotator of the rod string, given or made for the unit and the regime.
+r"""Link and lever of a rotator, given or made for the unit and the regime.
 
 In the continuous regime link and lever are in line at both ends of the stroke, :math:`l_5 = (M-m)/2`,
 :math:`l_4 = (M+m)/2`, with m and M the extremes of the distance l_d from the pin to the hanger
@@ -26,8 +26,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkwright.kernel.description.base import Description
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.description.base import Description
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import (
@@ -190,7 +190,7 @@ class LeverStroke(NamedTuple):
 
     @classmethod
     def of(cls, unit: PumpingUnit, rotator: RodRotator, share: Any = None) -> LeverStroke:
-        """The stroke of each unit at shares of the beam's way from bottom to top; evenly if none are given."""
+        """The stroke of each unit at shares of the way from bottom to top, evenly if none are given."""
         unit, rotator = _as_columns(unit), _as_columns(rotator)
         share = np.linspace(0.0, 1.0, _SAMPLES) if share is None else share
         bottom, top = (unit.front_angle(psi) for psi in (unit.psi_bottom, unit.psi_top))
