@@ -309,6 +309,28 @@ def test_force_in_the_link_by_power(rocking: RodRotatorMotion) -> None:
     assert rocking.link_force_max >= np.abs(fine).max() * (1 - 1e-12)
 
 
+@pytest.mark.parametrize("seed", range(2))
+def test_maximum_force_and_turns_of_the_worm_by_samples(seed: int) -> None:
+    """Where the clutch begins to slip at the largest force, and where the lever reverses within a stroke."""
+    made = reversing = 0
+    for entries in rotators(seed, 40):
+        entries |= {"rod_rotator.clutch": ("upstroke", "downstroke")[made % 2]}
+        try:
+            found = rod_rotator(lw.replace(INTERMITTENT, entries), n=20_000)
+        except AssemblyError:
+            continue
+        made += 1
+        reversing += found.worm_turns_per_cycle > found.lever_swing / (2 * np.pi) + 1e-6
+        forward = np.maximum(np.diff(found.lever_angle), 0).sum() / (2 * np.pi)
+        assert found.worm_turns_per_cycle == pytest.approx(forward, abs=1e-6), entries
+        if found.link_force_max is not None:
+            most = np.abs(found.link_force).max()
+            assert most * (1 - 1e-12) <= found.link_force_max, entries
+            assert found.link_force_max == pytest.approx(most, rel=2e-3), entries
+    assert made > 10
+    assert reversing > 0
+
+
 def test_no_arm_at_change_points(turning: RodRotatorMotion) -> None:
     assert turning.link_force_max is None
     assert any("in line twice" in each for each in lw.study(CONTINUOUS).warnings)

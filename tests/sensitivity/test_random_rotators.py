@@ -116,7 +116,7 @@ def _wrong(machine: lw.Machine, derived: Source, many: int, rng: np.random.Gener
 @pytest.mark.parametrize("regime", ["continuous", "intermittent"])
 def test_derivatives_are_those_of_the_rotator(regime: str, lengths: str) -> None:
     compared = 0
-    for case in range(cases(9, 80)):
+    for case in range(cases(7, 80)):
         rng = np.random.default_rng([31, case])
         try:
             machine = _machine(rng, regime, lengths)

@@ -98,9 +98,8 @@ def swing_of(lever: Lever, fine: LeverMotion) -> float:
 
 
 def _about_middle(lever: Lever, fine: LeverMotion) -> Callable[[Floats], Floats]:
-    """The lever's angle at crank angles, about the middle of its range, where none is near the cut of the arc
-    tangent.
-    """
+    """The lever's angle at crank angles, about the middle of its range [rad]."""
+    # None comes near the cut of the arc tangent there.
     middle = 0.5 * (fine.lever.min() + fine.lever.max())
 
     def angle(at: Floats) -> Floats:

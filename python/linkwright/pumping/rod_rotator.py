@@ -334,11 +334,9 @@ def _forces(
 
 
 def _greatest(lever: Lever, torque: float) -> float | None:
-    """Peak absolute value of the link's force over the revolution [N]; None where the link loses its arm.
-
-    The clutch takes the lever along at every place of the beam, on the way up or on the way down, and the arm
-    depends on the place alone.
-    """
+    """Peak absolute value of the link's force over the revolution [N]; None where the link loses its arm."""
+    # The clutch takes the lever along at every place of the beam, on the way up or on the way down, and the
+    # arm depends on the place alone.
 
     def arm(angles: Floats) -> Floats:
         motion = lever.motion(angles)

@@ -80,7 +80,7 @@ def rotator_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
 def _missing(result: RodRotatorMotion) -> dict[str, str]:
     """Numbers without derivatives, with the reason."""
     missing = {"lever_turns_per_cycle": _WHOLE}
-    if result.regime == "continuous":
+    if result.regime == "continuous" or result.lever_turns_per_cycle:
         missing["worm_turns_per_cycle"] = _WHOLE
     if result.lever_turns_per_cycle:
         missing["lever_swing"] = "the lever rotates fully"
@@ -150,8 +150,8 @@ class RotatorAlong:
         refused = dict(program.refused)
         if result.change_points and still.rotator.link_length is not None:
             refused |= dict.fromkeys(_of_lengths(variables), CHANGE_POINTS)
-        own = (_UNIT, _ROTATOR, "drive.speed")
-        asked = [name for name in variables if name.startswith(own) and name not in refused]
+        own = [name for name in variables if name.startswith((_UNIT, _ROTATOR)) or name == "drive.speed"]
+        asked = [name for name in own if name not in refused]
         known, parts = followed(machine, asked, _Parts.of, refused)
         values = np.zeros((len(program.values), len(known)))
         for place, name in enumerate(known):
@@ -197,7 +197,11 @@ class RotatorAlong:
         """Range of the lever's angle, and revolutions of the worm."""
         if self.result.lever_turns_per_cycle:
             return {}
-        still, along = self.still, self.along
+        still, along, name = self.still, self.along, "worm_turns_per_cycle"
+        if self.result.change_points:
+            # Entries that move the lever have no derivatives then.
+            numbers = {"lever_swing": self.result.lever_swing, name: self.result.worm_turns_per_cycle}
+            return {key: number for key, number in numbers.items() if key not in _missing(self.result)}
         shares = turning_shares(still.unit, still.rotator, still.lengths.lever, still.excess)
         angle = self._array(along.stroke(shares).angle(along.lengths.lever, along.excess)[0])
         high, low = (self._extreme("lever_swing", angle, sign) for sign in (1, -1))
@@ -205,7 +209,7 @@ class RotatorAlong:
             return {"lever_swing": high - low}
         # What goes forward in one stroke comes back in the other.
         turns: Any = np.abs(angle[1:] - angle[:-1]).sum() / (2 * np.pi)
-        return {"lever_swing": high - low, "worm_turns_per_cycle": turns}
+        return {"lever_swing": high - low, name: turns}
 
     def _force(self, torque: Any, numbers: dict[str, Any]) -> Any:
         """Maximum force in the link: at one end of the diagonal its arm l_5 sin(φ_4 − φ_5) is smallest."""
