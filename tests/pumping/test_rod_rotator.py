@@ -12,7 +12,8 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
-from linkwright.pumping.model.rod_rotator import diagonal_extremes, lengths
+from linkwright.pumping.model.rod_rotator import diagonal_extremes
+from linkwright.pumping.model.rotator_lengths import lengths
 from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
@@ -306,6 +307,28 @@ def test_force_in_the_link_by_power(rocking: RodRotatorMotion) -> None:
     fine = rod_rotator(INTERMITTENT, n=200_000).link_force
     assert rocking.link_force_max == pytest.approx(np.abs(fine).max(), rel=1e-8)
     assert rocking.link_force_max >= np.abs(fine).max() * (1 - 1e-12)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_maximum_force_and_turns_of_the_worm_by_samples(seed: int) -> None:
+    """Where the clutch begins to slip at the largest force, and where the lever reverses within a stroke."""
+    made = reversing = 0
+    for entries in rotators(seed, 40):
+        entries |= {"rod_rotator.clutch": ("upstroke", "downstroke")[made % 2]}
+        try:
+            found = rod_rotator(lw.replace(INTERMITTENT, entries), n=20_000)
+        except AssemblyError:
+            continue
+        made += 1
+        reversing += found.worm_turns_per_cycle > found.lever_swing / (2 * np.pi) + 1e-6
+        forward = np.maximum(np.diff(found.lever_angle), 0).sum() / (2 * np.pi)
+        assert found.worm_turns_per_cycle == pytest.approx(forward, abs=1e-6), entries
+        if found.link_force_max is not None:
+            most = np.abs(found.link_force).max()
+            assert most * (1 - 1e-12) <= found.link_force_max, entries
+            assert found.link_force_max == pytest.approx(most, rel=2e-3), entries
+    assert made > 10
+    assert reversing > 0
 
 
 def test_no_arm_at_change_points(turning: RodRotatorMotion) -> None:

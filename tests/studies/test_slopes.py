@@ -46,6 +46,30 @@ def test_exact_ones_are_those_of_differences(tmp_path: Path) -> None:
     assert lw.tolerance(plan, 100).exact == ("delta", "root", "power", "long")
 
 
+ROTATOR = """
+machine = "rod_rotator_intermittent"
+[variables.pin]
+address = "rod_rotator.pin_distance"
+tolerance = "± 5 mm"
+[variables.swing]
+address = "rod_rotator.swing"
+tolerance = "± 1 deg"
+[responses]
+days = "rod_rotator.string_turn_days"
+force = "rotator.link_force_max"
+"""
+
+
+def test_those_of_a_rotator_are_exact(tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text(ROTATOR)
+    plan = lw.read_study(tmp_path / "study.toml")
+    at, steps = np.array([2.5, 1.5]), np.array([1e-3, 1e-3])
+    found, measured = slopes(plan, at, steps), _differences(plan, at, steps, np.arange(len(at)))
+    assert found.exact == {"days", "force"}
+    for name in plan.responses:
+        assert found.slopes[name] == pytest.approx(measured[name].d, rel=1e-6, abs=1e-9), name
+
+
 KINK = """
 machine = "roller_two_carts"
 [variables.mass]

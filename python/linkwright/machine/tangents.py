@@ -140,7 +140,7 @@ _PARTING = (
     "jump at their common angle"
 )
 
-_CHANGE_POINTS = (
+CHANGE_POINTS = (
     "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
     "that keep it clear of them"
 )
@@ -170,7 +170,7 @@ def directions(
     )
     if any(getattr(element, "change_points", ()) for element in compiled.elements):
         moved = [name for name, column in derivatives.items() if column[: unvaried.n_own].any()]
-        refused.update(dict.fromkeys(moved, _CHANGE_POINTS))
+        refused.update(dict.fromkeys(moved, CHANGE_POINTS))
     if sum(isinstance(element, Element.Programme) for element in compiled.elements) > 1:
         refused.update(dict.fromkeys(_parting(compiled, derivatives), _PARTING))
     known = tuple(name for name in variables if name in derivatives and name not in refused)

@@ -10,6 +10,7 @@
 | `lever` | Link and lever of a rotator as functions of the crank angle, and what the lever gives the worm |
 | `model/` | Pumping units and rotators in a machine file; the mechanism that they are |
 | `rod_rotator` | The rotator of a sucker-rod string |
+| `rotator_gradient` | Derivatives of lengths, swing, transfer functions and forces of a rotator |
 | `tables` | Results of pumping units and of rotators as tables of text |
 | `unit` | Beam pumping units |
 """

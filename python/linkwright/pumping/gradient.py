@@ -38,7 +38,8 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     refused.update(program.refused)
     known, unit = followed(machine, program.variables, lambda along: _ends_known(along), refused)
     at = [program.variables.index(name) for name in known]
-    scalars = _scalars(rod, _along(rod, unit, program.values[:, at]), result)
+    along = RodAlong.of_unit(rod, unit, program.values[:, at])
+    scalars = _scalars(rod, along, result)
     listed = tuple(name for name in variables if name not in refused)
 
     def tangent(value: float, number: Any) -> Tangent:
@@ -46,7 +47,7 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         return Tangent(value, np.array([d.get(v, 0.0) for v in listed]))
 
     tangents = {name: tangent(float(getattr(result, name)), x) for name, x in scalars.items()}
-    gear, ties = gear_scalars(rod, _along(rod, unit, program.values[:, at]), result)
+    gear, ties = gear_scalars(rod, along, result)
     tangents |= {f"gear.{name}": tangent(float(getattr(result.gear, name)), x) for name, x in gear.items()}
     missing = {f"gear.{name}": why for name, why in without_derivatives(result.gear).items()}
     return Derivatives(listed, tangents | _at_speed(result, tangents, listed), ties, missing, refused)
@@ -61,20 +62,20 @@ def _ends_known(machine: Machine) -> PumpingUnit:
 
 
 @dataclass(frozen=True)
-class _RodAlong(PolishedRod):
+class RodAlong(PolishedRod):
     """The polished rod with derivatives by directions of the program's numbers."""
 
     values: Floats  # (parameters, k)
+
+    @classmethod
+    def of_unit(cls, rod: PolishedRod, unit: PumpingUnit, values: Floats) -> RodAlong:
+        """The polished rod of a unit with tangents."""
+        return cls(rod.machine, rod.compiled, unit, rod.stroke, rod.bottom, rod.top, values)
 
     def beam(self, angles: Floats) -> Any:
         """The motion of the beam at fixed crank angles."""
         rows = rows_along(self.compiled, angles, [("links", BEAM_LINK)], self.values)
         return TangentArray(super().beam(angles), rows)
-
-
-def _along(rod: PolishedRod, unit: PumpingUnit, values: Floats) -> _RodAlong:
-    """A rod of a unit with tangents."""
-    return _RodAlong(rod.machine, rod.compiled, unit, rod.stroke, rod.bottom, rod.top, values)
 
 
 def _scalars(rod: PolishedRod, along: Any, result: PumpingUnitMotion) -> dict[str, Any]:

@@ -9,20 +9,19 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import motion_arrays
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, Lengths, RodRotator, lengths
+from linkwright.pumping.model.rod_rotator import LEVER, LINK, PIN, RodRotator
+from linkwright.pumping.model.rotator_lengths import Lengths, lengths
 from linkwright.pumping.model.unit import ROD, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 
 # Angles over which the motion of a stroke is looked at.
 _ANGLES = 1440
-
-# Difference between the way forward by samples and the swing of a lever that rocks once [rad].
-_ONCE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -94,7 +93,13 @@ def swing_of(lever: Lever, fine: LeverMotion) -> float:
     """Range of the lever's angle [rad]."""
     if turns_of(fine):
         return 2 * np.pi
-    # Angles are taken about the middle of their range, where none comes near the cut of the arc tangent.
+    angle = _about_middle(lever, fine)
+    return turn_extreme(angle, +1)[0] - turn_extreme(angle, -1)[0]
+
+
+def _about_middle(lever: Lever, fine: LeverMotion) -> Callable[[Floats], Floats]:
+    """The lever's angle at crank angles, about the middle of its range [rad]."""
+    # None comes near the cut of the arc tangent there.
     middle = 0.5 * (fine.lever.min() + fine.lever.max())
 
     def angle(at: Floats) -> Floats:
@@ -102,7 +107,7 @@ def swing_of(lever: Lever, fine: LeverMotion) -> float:
         near: Floats = off - 2 * np.pi * np.round(off / (2 * np.pi))
         return near
 
-    return turn_extreme(angle, +1)[0] - turn_extreme(angle, -1)[0]
+    return angle
 
 
 def takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable[[LeverMotion], Floats]:
@@ -115,10 +120,13 @@ def takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable
     return lambda motion: (sense * motion.lever_d1 > 0).astype(np.float64)
 
 
-def worm_turns_of(rotator: RodRotator, fine: LeverMotion, swing: float) -> float:
+def worm_turns_of(rotator: RodRotator, lever: Lever, fine: LeverMotion) -> float:
     """Revolutions of the worm per revolution of the crank."""
-    if rotator.regime == "continuous":
-        return abs(turns_of(fine))
-    # What goes forward comes back; a lever that rocks once goes forward by its swing, which is known exactly.
-    forward = float(np.maximum(np.diff(fine.lever), 0).sum())
-    return (swing if abs(forward - swing) < _ONCE else forward) / (2 * np.pi)
+    turns = abs(turns_of(fine))
+    if rotator.regime == "continuous" or turns:
+        return turns
+    # What goes forward comes back: half of the way between the angles at which the lever turns back, with the
+    # start of the revolution, at which it may.
+    rate = turn_curve(lambda at: lever.motion(at).lever_d1[None], np.array([0.0, 2 * np.pi]), "motion")
+    back = _about_middle(lever, fine)(np.append(0.0, rate.crossings()))
+    return float(np.abs(np.diff(back, append=back[:1])).sum()) / (4 * np.pi)

@@ -31,11 +31,12 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.pumping.lever import Lever, LeverMotion, swing_of, takes_along, turns_of, worm_turns_of
-from linkwright.pumping.model.rod_rotator import Lengths, RodRotator
+from linkwright.pumping.model.rod_rotator import RodRotator
+from linkwright.pumping.model.rotator_lengths import Lengths
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 
 # Seconds of a day.
-_DAY = 86400.0
+DAY = 86400.0
 
 # Angles of the revolution at which conditions are looked at, a quarter of a degree.
 _ANGLES = 1440
@@ -200,7 +201,7 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     diagonal_ends = [turn_extreme(lambda at: lever.motion(at).diagonal, sign)[0] for sign in (-1, +1)]
     at_ends = lever.motion(np.array([rod.top, rod.bottom])).diagonal
     turns, swing = turns_of(fine), swing_of(lever, fine)
-    worm_turns = worm_turns_of(rotator, fine, swing)
+    worm_turns = worm_turns_of(rotator, lever, fine)
     takes = takes_along(rotator, rod, lever)
     days = _days(rotator, speed, worm_turns)
     return RodRotatorMotion(
@@ -289,7 +290,7 @@ def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float 
     """Days for a full revolution of the string; None without speed or ratio."""
     if speed is None or rotator.worm_ratio is None or not worm_turns:
         return None
-    return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / _DAY
+    return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / DAY
 
 
 def _at_speed(rotator: RodRotator, takes: Floats, curves: LeverMotion, speed: float | None) -> dict[str, Any]:
@@ -328,17 +329,18 @@ def _forces(
     return {
         "worm_torque": torque,
         "link_force": force(curves),
-        "link_force_max": _greatest(lever, force) if rotator.regime == "intermittent" else None,
+        "link_force_max": _greatest(lever, torque) if rotator.regime == "intermittent" else None,
     }
 
 
-def _greatest(lever: Lever, force: Callable[[LeverMotion], Floats]) -> float | None:
+def _greatest(lever: Lever, torque: float) -> float | None:
     """Peak absolute value of the link's force over the revolution [N]; None where the link loses its arm."""
+    # The clutch takes the lever along at every place of the beam, on the way up or on the way down, and the
+    # arm depends on the place alone.
 
     def arm(angles: Floats) -> Floats:
         motion = lever.motion(angles)
         return np.abs(np.sin(motion.link - motion.lever))
 
-    if turn_extreme(arm, -1)[0] < _NO_ARM:
-        return None
-    return turn_extreme(lambda angles: np.abs(force(lever.motion(angles))), +1)[0]
+    least = turn_extreme(arm, -1)[0]
+    return None if least < _NO_ARM else torque / (float(lever.lengths.lever) * least)

@@ -10,6 +10,7 @@
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
 | ``pumping_unit.…`` | the transfer functions of the beam (`linkwright.pumping.gradient`) |
+| ``rod_rotator.…`` | places of the stroke, the slope of the lever (`linkwright.pumping.rotator_gradient`) |
 | ``topper.…`` | closed forms, and conditions of the worst head (`linkwright.topping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
 | ``cam_force.CAM.…`` | the same, and Hertz' formula (`linkwright.cam.dynamics.gradient`) |
@@ -283,6 +284,14 @@ def _pumping(machine: Machine, variables: Sequence[str]) -> Source:
     return _of_scalars("pumping_unit", PumpingUnitMotion, derived, words, units)
 
 
+def _rotator(machine: Machine, variables: Sequence[str]) -> Source:
+    """Lengths, swing, transfer functions, days and forces of the rotator of a rod string."""
+    from linkwright.pumping.rod_rotator import RodRotatorMotion
+    from linkwright.pumping.rotator_gradient import rotator_tangents
+
+    return _of_scalars("rod_rotator", RodRotatorMotion, rotator_tangents(machine, variables))
+
+
 def _topper(machine: Machine, variables: Sequence[str]) -> Source:
     """Lengths, shares left, speeds and torques of the knife of a topper."""
     from linkwright.topping.gradient import topper_tangents
@@ -340,6 +349,7 @@ SOURCES: dict[str, Callable[[Machine, Sequence[str]], Source]] = {
     "forces": _forces,
     "turning_moment": _turning,
     "pumping_unit": _pumping,
+    "rod_rotator": _rotator,
     "topper": _topper,
     "cam_force": _cam_forces,
 }

@@ -165,11 +165,12 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
             tangents[asked.name] = _tangent(
                 entry_number(machine, *asked.of) if given is None else given, len(plan.axes)
             )
-        if asked.analysis not in SOURCES or asked.extreme is not None:
+        analysis = _analysis(asked)
+        if analysis not in SOURCES or asked.extreme is not None:
             continue
-        if asked.analysis not in sources:
-            sources[asked.analysis] = _source(machine, asked.analysis, tuple(entries))
-        own = sources[asked.analysis]
+        if analysis not in sources:
+            sources[analysis] = _source(machine, analysis, tuple(entries))
+        own = sources[analysis]
         named = [] if own is None else chosen(own.tangents, _address(asked))
         if own is None or len(named) != 1:
             continue
@@ -200,12 +201,17 @@ def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | N
     return None if tangents.refused else tangents
 
 
+def _analysis(asked: StudyResponse) -> str:
+    """The analysis of a response by the name that its derivatives have."""
+    return "rod_rotator" if asked.analysis == "rotator" else asked.analysis
+
+
 def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
     place = (str(asked.index),) if asked.index is not None else ()
     if asked.analysis == "forces":
         return ".".join((asked.analysis, asked.quantity, *asked.of))
-    return ".".join((asked.analysis, *asked.of, asked.quantity, *place))
+    return ".".join((_analysis(asked), *asked.of, asked.quantity, *place))
 
 
 # Places of differences in steps, and twelve times their weights: about the middle, and to either side of an

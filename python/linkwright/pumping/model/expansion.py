@@ -20,7 +20,8 @@ from linkwright.kernel.description.place import keys, look
 from linkwright.linkages.model.element import Cable, Crank, FixedPoint, RigidPoint, Rocker
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.topology import TABLES
-from linkwright.pumping.model.rod_rotator import PIN, ROTATOR, RodRotator, lengths
+from linkwright.pumping.model.rod_rotator import PIN, ROTATOR, RodRotator
+from linkwright.pumping.model.rotator_lengths import lengths
 from linkwright.pumping.model.unit import BEAM, BEAM_LINK, CRANK, CRANKSHAFT, ROD, SADDLE, PumpingUnit
 
 T = TypeVar("T", bound=BaseModel)
