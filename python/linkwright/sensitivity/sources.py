@@ -184,8 +184,18 @@ def _free(machine: Machine, variables: Sequence[str]) -> Source:
     }
     units = dict.fromkeys(frequencies, "Hz") | dict.fromkeys(shapes, "")
     ties = {f"free_vibration.natural_frequencies.{i}": reason for i, reason in tangents.ties.items()}
+    ties |= {
+        f"free_vibration.mode_shapes.{i}.{disc}": tangents.shape_ties[i]
+        for i, disc in tangents.mode_shapes
+        if i in tangents.shape_ties
+    }
+    missing = {
+        f"free_vibration.mode_shapes.{i}.{disc}": reason for (i, disc), reason in tangents.missing.items()
+    }
     return Source(
-        tangents.variables, frequencies | shapes, words, units, ties, tangents.refused, list(frequencies)
+        *(tangents.variables, frequencies | shapes, words, units, ties, tangents.refused),
+        usual=list(frequencies),
+        missing=missing,
     )
 
 

@@ -30,7 +30,7 @@ from linkwright.torsion.core.rod import Ends, Rod, ends, energies
 from linkwright.torsion.core.train import HELD, ReferredTrain
 
 # Largest β of a piece of which a shape is made: a quarter of that at which it could swing between its ends.
-_SHAPE = math.pi / 8
+SHAPE = math.pi / 8
 
 # Halvings of a bracket whose ends are at most a factor of 2 apart, down to rounding.
 _HALVINGS = 52
@@ -182,7 +182,7 @@ def _exact_modes(same: _Same, count: int) -> tuple[ExactMode, ...]:
 
 def _shapes(referred: ReferredTrain, omega: float, count: int) -> Iterator[ExactMode]:
     """As many modes as have one frequency."""
-    fine = [rod.refined(omega, _SHAPE)[0] for rod in referred.rods]
+    fine = [rod.refined(omega, SHAPE)[0] for rod in referred.rods]
     cut = cut_up(referred, [rod.parts() for rod in fine])
     at = lossless(cut, np.array([omega]))
     D = matrices(cut, at, np.array([omega]))[0]
