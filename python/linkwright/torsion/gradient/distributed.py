@@ -24,7 +24,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -213,11 +213,3 @@ def lossless(referred: ReferredTrain) -> ReferredTrain:
     """A train without the losses of its shafts."""
     nothing = np.zeros(len(referred.shafts))
     return replace(referred, damping=nothing, loss_factor=nothing)
-
-
-def solved(matrix: NDArray[Any], columns: NDArray[Any]) -> NDArray[Any]:
-    """Solution of a system with rows and columns brought to one size, as stiff and soft shafts ask for."""
-    size = 1 / np.sqrt(np.maximum(np.abs(matrix).max(axis=1, initial=0.0), np.finfo(float).tiny))
-    scaled = size[:, None] * matrix * size
-    solution: NDArray[Any] = size[:, None] * np.linalg.solve(scaled, size[:, None] * columns)
-    return solution

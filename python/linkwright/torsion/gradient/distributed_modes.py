@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Floats, Integers
-from linkwright.torsion.core.distributed import SHAPE, bare_inertia, exact_modes
+from linkwright.torsion.core.distributed import SHAPE, bare_inertia, bordered, exact_modes, null_vectors
 from linkwright.torsion.core.train import HELD, ReferredTrain
 from linkwright.torsion.gradient.distributed import (
     CutTrain,
@@ -32,7 +32,6 @@ from linkwright.torsion.gradient.distributed import (
     cut_train,
     lossless,
     rod_numbers,
-    solved,
 )
 from linkwright.torsion.gradient.train import TrainTangents
 
@@ -76,9 +75,13 @@ class DistributedModes:
     def angles(self, i: int, square: Floats) -> ModeAngles:
         """Of a mode whose frequency stands alone. `square`: (variables,) derivatives of its ω²."""
         basis, referred, d = self._basis((i,)), self._referred, self._d
-        x, momenta = self._sense(i, basis) * basis.shapes[:, 0], basis.momenta[:, 0]
-        right = self._sense(i, basis) * (np.outer(momenta, square) - basis.moved[:, 0])
-        dx = _bordered(basis.train.stiffness.real, basis.momenta, right, np.zeros((1, len(square))))
+        sense = self._sense(i, basis)
+        x, right = sense * basis.shapes[:, 0], np.outer(basis.momenta[:, 0], square) - basis.moved[:, 0]
+        # A train that rotates as a rigid body has one shape, whatever its parts.
+        dx = np.zeros_like(right)
+        if self.omega[i] > 0:
+            still = np.zeros((1, len(square)))
+            dx = sense * bordered(basis.train.stiffness.real, basis.momenta, right, still)
         node = np.concatenate([referred.mass, np.arange(len(self._bare), len(x))])
         disc = np.concatenate([np.arange(len(referred.speed)), _lead_discs(basis.train, len(self._bare))])
         speed = referred.speed[disc]
@@ -102,7 +105,7 @@ class DistributedModes:
         """As many modes as have one frequency [rad/s]."""
         referred, d = self._referred, self._d
         train = cut_train(referred, omega, [rod.refined(omega, SHAPE)[0] for rod in referred.rods])
-        shapes = _null_vectors(train, count)
+        shapes = null_vectors(train.stiffness.real, train.inertia, count).vectors
         momenta = np.stack([train.momenta(x, self._bare).real for x in shapes.T], axis=1)
         of_rods = rod_numbers(referred)
         rods = [rod.shaft for rod in referred.rods]
@@ -114,25 +117,6 @@ class DistributedModes:
         )
         moved = np.stack([train.moved(x, slopes).real for x in shapes.T], axis=1)
         return _Basis(train, shapes, momenta, moved)
-
-
-def _null_vectors(train: CutTrain, count: int) -> Floats:
-    """Angles of the nodes in the modes of one frequency, (nodes, modes)."""
-    D = train.stiffness.real
-    scale = 1 / np.sqrt(train.inertia)
-    values, vectors = np.linalg.eigh(scale[:, None] * D * scale)
-    found = scale[:, None] * vectors[:, np.argsort(np.abs(values), kind="stable")[:count]]
-    # Beside a stiff shaft eigenvectors are good for little; the system keeps the digits of each row.
-    border = found / scale[:, None] ** 2
-    return _bordered(D, border, np.zeros_like(found), border.T @ found)
-
-
-def _bordered(D: Floats, border: Floats, right: Floats, along: Floats) -> Floats:
-    """Solution x of D x = `right` but for multiples of the border, with borderᵀ x = `along`."""
-    r = border.shape[1]
-    matrix = np.block([[D, border], [border.T, np.zeros((r, r))]])
-    solution: Floats = solved(matrix, np.concatenate([right, along]))[: len(D)]
-    return solution
 
 
 def _lead_discs(train: CutTrain, masses: int) -> Integers:

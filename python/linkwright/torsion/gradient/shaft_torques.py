@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Complexes
+from linkwright.torsion.core.distributed import solved
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.gradient.distributed import (
@@ -32,7 +33,6 @@ from linkwright.torsion.gradient.distributed import (
     at_stiffness,
     cut_train,
     rod_numbers,
-    solved,
 )
 from linkwright.torsion.gradient.torques import TorqueTangents
 from linkwright.torsion.gradient.train import TrainTangents

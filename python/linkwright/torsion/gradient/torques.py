@@ -2,8 +2,9 @@ r"""Derivatives of the torques that act on a train, and of what its couplings ar
 
 Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through.
 Those of an engine come out of a working cycle that is solved for, couplings with a curve take the slope at
-their mean torque, and shafts in loops share it by stiffness: in such trains the derivatives of torques and
-stiffnesses, and of nothing else, are extrapolated differences (`linkwright.kernel.numerics.differences`).
+their mean torque, and shafts side by side or in loops share it by stiffness: in such trains the derivatives
+of torques and stiffnesses, and of nothing else, are extrapolated differences
+(`linkwright.kernel.numerics.differences`).
 """
 
 from __future__ import annotations
@@ -96,7 +97,11 @@ _ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares
 def _is_plain(machine: Machine, referred: ReferredTrain) -> bool:
     """Whether torques and stiffnesses follow from the entries by plain arithmetic."""
     assert machine.train is not None
-    return not machine.train.installed and not _curved(machine) and tree_of(referred) is not None
+    if machine.train.installed or _curved(machine) or tree_of(referred) is None:
+        return False
+    # Shafts side by side share the mean torque by their stiffnesses.
+    pairs = [tuple(sorted(pair)) for pair in referred.ends.tolist() if pair[0] != pair[1]]
+    return len(set(pairs)) == len(pairs)
 
 
 def _by_differences(
