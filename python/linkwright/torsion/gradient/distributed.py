@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.kernel.arrays import Complexes, Floats
+from linkwright.kernel.arrays import Complexes, Floats, Integers
 from linkwright.torsion.core.distributed import Dynamic, cut_up, dynamic
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.core.train import HELD, ReferredTrain
@@ -81,81 +81,105 @@ class CutTrain:
     @cached_property
     def stiffness(self) -> Complexes:
         """K − ω²J of the nodes with the losses of shafts, (nodes, nodes) [N m/rad]."""
-        at, joins = self._at, self.cut.joins
-        D: Complexes = (joins.T * at.stiffness[:, 0]) @ joins
-        D[np.diag_indices_from(D)] -= self.omega**2 * at.inertia[:, 0]
-        return D
+        at, n = self._at, len(self.cut.inertia)
+        D = np.zeros((n + 1, n + 1), complex)
+        spring, (a, b) = at.stiffness[:, 0], self._ends
+        np.add.at(D, (a, a), spring)
+        np.add.at(D, (b, b), spring)
+        np.add.at(D, (a, b), -spring)
+        np.add.at(D, (b, a), -spring)
+        D[np.arange(n), np.arange(n)] -= self.omega**2 * at.inertia[:, 0]
+        return np.ascontiguousarray(D[:n, :n])
 
     @cached_property
-    def _ends(self) -> tuple[Floats, Floats]:
-        """First and second end of each piece among the nodes, (pieces, nodes) each; the ground is none."""
-        nodes = np.arange(len(self.cut.inertia))
-        first, second = self.cut.ends[self.springs :].T
-        assert HELD == -1
-        return (first[:, None] == nodes) * 1.0, (second[:, None] == nodes) * 1.0
+    def _ends(self) -> Integers:
+        """First and second nodes of all shafts, (2, shafts); the ground comes after the last node."""
+        ends = self.cut.ends.T
+        nodes: Integers = np.where(ends == HELD, len(self.cut.inertia), ends)
+        return nodes
+
+    def _angles(self, q: Complexes) -> Complexes:
+        """Angles of both ends of all shafts, (2, shafts)."""
+        angles: Complexes = np.append(q, 0.0)[self._ends]
+        return angles
+
+    def _onto_nodes(self, first: Complexes, second: Complexes) -> Complexes:
+        """Sums over the nodes of what acts at both ends of all shafts, (nodes, ...)."""
+        sums = np.zeros((len(self.cut.inertia) + 1, *first.shape[1:]), complex)
+        np.add.at(sums, self._ends[0], first)
+        np.add.at(sums, self._ends[1], second)
+        return sums[:-1]
 
     @cached_property
-    def _of_pieces(self) -> tuple[Complexes, Complexes]:
-        """D of each piece, and ∂D/∂ln j, each as its own and its mixed entry, (2, pieces)."""
-        at = self._at
-        spring = at.stiffness[self.springs :, 0]
-        j = np.array([rod.inertia[0] for rod in self.cut.rods])
-        first = np.array([rod.first[0] for rod in at.rods], complex).reshape(len(j))
-        D = np.stack([spring - self.omega**2 * first, -spring])
-        return D, -(self.omega**2) * j * np.stack(_energy_shares(self.omega * np.sqrt(j / self._lossy)))
-
-    @cached_property
-    def _lossy(self) -> Complexes:
-        """Stiffness of each piece with its losses, (pieces,) [N m/rad]."""
+    def _inertia(self) -> tuple[Complexes, Complexes]:
+        """j u and j v of the pieces, (pieces,) each [kg m²]."""
         cut, pieces = self.cut, slice(self.springs, None)
-        k: Complexes = cut.stiffness[pieces] * (1 + 1j * cut.loss_factor[pieces])
-        return k + 1j * self.omega * cut.damping[pieces]
+        k = cut.stiffness[pieces] * (1 + 1j * cut.loss_factor[pieces]) + 1j * self.omega * cut.damping[pieces]
+        j = np.array([rod.inertia[0] for rod in cut.rods])
+        u, v = _energy_shares(self.omega * np.sqrt(j / k))
+        return j * u, j * v
+
+    @cached_property
+    def _pieces(self) -> tuple[Complexes, Complexes]:
+        """Own and mixed entry of D of each piece, (pieces,) each [N m/rad]."""
+        spring = self._at.stiffness[self.springs :, 0]
+        J = np.array([rod.first[0] for rod in self._at.rods], complex)
+        return spring - self.omega**2 * J, -spring
 
     def _forces(self, q: Complexes, slopes: PartSlopes) -> tuple[Complexes, Complexes]:
         """What ∂D of each piece does at its two ends by the variables, (pieces, variables) each."""
-        first, second = self._ends
-        a, b = first @ q, second @ q
-        (own, mixed), (own_j, mixed_j) = self._of_pieces
-        by_inertia = own_j * a + mixed_j * b, mixed_j * a + own_j * b
-        whole = own * a + mixed * b, mixed * a + own * b
+        a, b = self._angles(q)[:, self.springs :]
+        (own, mixed), (u, v) = self._pieces, self._inertia
         k, j = slopes.stiffness[self.of], slopes.inertia[self.of]
-        one, other = (
-            (total - part)[:, None] * k + part[:, None] * j
-            for total, part in zip(whole, by_inertia, strict=True)
-        )
-        return one, other
+
+        def force(here: Complexes, there: Complexes) -> Complexes:
+            by_inertia = -(self.omega**2) * (u * here + v * there)
+            by_stiffness = own * here + mixed * there - by_inertia
+            force: Complexes = by_stiffness[:, None] * k + by_inertia[:, None] * j
+            return force
+
+        return force(a, b), force(b, a)
 
     def moved(self, q: Complexes, slopes: PartSlopes) -> Complexes:
         """dD q by the variables, (nodes, variables) [N m]. `q`: (nodes,) [rad]."""
-        joins, (first, second) = self.cut.joins[: self.springs], self._ends
-        one, other = self._forces(q, slopes)
-        torques: Complexes = joins.T @ (slopes.springs * (joins @ q)[:, None])
-        torques = torques + first.T @ one + second.T @ other
-        torques[: len(slopes.masses)] += slopes.masses * q[: len(slopes.masses), None]
+        a, b = self._angles(q)[:, : self.springs]
+        spring = slopes.springs * (a - b)[:, None]
+        first, second = self._forces(q, slopes)
+        torques = self._onto_nodes(np.concatenate([spring, first]), np.concatenate([-spring, second]))
+        masses = len(slopes.masses)
+        torques[:masses] += slopes.masses * q[:masses, None]
         return torques
 
     def momenta(self, q: Complexes, masses: Floats) -> Complexes:
         """−∂D/∂ω² q, (nodes,) [kg m²]. `q`: (nodes,) [rad]; `masses`: without inertia of rods [kg m²]."""
-        first, second = self._ends
-        a, b = first @ q, second @ q
-        j = np.array([rod.inertia[0] for rod in self.cut.rods])
-        u, v = _energy_shares(self.omega * np.sqrt(j / self._lossy))
-        momenta: Complexes = first.T @ (j * (u * a + v * b)) + second.T @ (j * (v * a + u * b))
+        a, b = self._angles(q)[:, self.springs :]
+        (u, v), none = self._inertia, np.zeros(self.springs)
+        both = (np.concatenate([none, u * a + v * b]), np.concatenate([none, v * a + u * b]))
+        momenta = self._onto_nodes(*both)
         momenta[: len(masses)] += masses * q[: len(masses)]
         return momenta
 
     def spring_torque(self, spring: int, q: Complexes, slopes: PartSlopes) -> Output:
         """Torque of a shaft that is no rod, from its first end to its second."""
-        joins = self.cut.joins[spring]
-        return Output(self._at.stiffness[spring, 0] * joins, slopes.springs[spring] * (joins @ q))
+        k = self._at.stiffness[spring, 0]
+        a, b = self._angles(q)[:, spring]
+        return Output(self._row(spring, k, -k), slopes.springs[spring] * (a - b))
 
     def piece_torque(self, piece: int, end: int, q: Complexes, slopes: PartSlopes) -> Output:
         """Torque at an end, 0 or 1, of a piece, with which the part before drives the part after."""
-        (own, mixed), _ = self._of_pieces
-        here, there = (ends[piece] for ends in self._ends[:: 1 - 2 * end])
-        sign = 1 - 2 * end
-        row: Complexes = sign * (own[piece] * here + mixed[piece] * there)
-        return Output(row, sign * self._forces(q, slopes)[end][piece])
+        own, mixed = (entry[piece] for entry in self._pieces)
+        row = (
+            self._row(self.springs + piece, own, mixed)
+            if end == 0
+            else self._row(self.springs + piece, -mixed, -own)
+        )
+        return Output(row, (1 - 2 * end) * self._forces(q, slopes)[end][piece])
+
+    def _row(self, shaft: int, first: complex, second: complex) -> Complexes:
+        """A torque by the angles of both ends of a shaft, (nodes,) [N m/rad]."""
+        row = np.zeros(len(self.cut.inertia) + 1, complex)
+        np.add.at(row, self._ends[:, shaft], np.array([first, second]))
+        return row[:-1]
 
 
 def _energy_shares(beta: Complexes) -> tuple[Complexes, Complexes]:

@@ -151,7 +151,10 @@ class _Peaks:
         ratio = along.ratio[:, place]
         station = int(ratio.argmax())
         value, slope, tie = self._at_station(kind, shaft, place, station)
-        for rival in np.flatnonzero(ratio >= ratio[station] * (1 - _TIE)).tolist():
+        # The second end of a piece is where the first of the next one is.
+        end, part = np.divmod(np.arange(len(ratio)), len(ratio) // 2)
+        apart = end + part != end[station] + part[station]
+        for rival in np.flatnonzero(apart & (ratio >= ratio[station] * (1 - _TIE))).tolist():
             other, change, _ = self._at_station(kind, shaft, place, rival)
             differ = np.abs(change - slope).max(initial=0.0) > _ONE * np.abs(slope).max(initial=0.0)
             if differ or abs(other - value) > _TIE * value:

@@ -72,6 +72,7 @@ class ShaftTorques:
         self._springs = [s for s in range(len(at.referred.shafts)) if s not in self._rods]
         self._stiffness = spring_stiffness(at)
         self._flow = shaft_flow(at, q, self._stiffness)
+        self._slopes: dict[tuple[int, int, int], Complexes] = {}
         self._states: dict[tuple[int, int], _State] = {}
         self._along: dict[int, StationTorques] = {}
 
@@ -97,9 +98,11 @@ class ShaftTorques:
 
     def slopes(self, shaft: int, place: int, station: int) -> Complexes:
         """Its derivatives, (orders, variables) [N m]."""
-        rows = [self._slope(shaft, place, station, m) for m in range(len(self._at.torques.orders))]
-        slopes: Complexes = np.array(rows) / self._at.referred.lead[shaft]
-        return slopes
+        at = shaft, place, station
+        if at not in self._slopes:
+            rows = [self._slope(*at, m) for m in range(len(self._at.torques.orders))]
+            self._slopes[at] = np.array(rows) / self._at.referred.lead[shaft]
+        return self._slopes[at]
 
     def _slope(self, shaft: int, place: int, station: int, m: int) -> Complexes:
         """The derivatives at one order, referred, (variables,)."""

@@ -1,10 +1,10 @@
 r"""Derivatives of the torques that act on a train, and of what its couplings are under their mean.
 
 Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through.
-Those of an engine come out of a working cycle that is solved for, couplings with a curve take the slope at
-their mean torque, and shafts side by side or in loops share it by stiffness: in such trains the derivatives
-of torques and stiffnesses, and of nothing else, are extrapolated differences
-(`linkwright.kernel.numerics.differences`).
+Shafts side by side share their mean torque by stiffness, k/Σk. Those of an engine come out of a working cycle
+that is solved for, couplings with a curve take the slope at their mean torque, and shafts in loops share it
+by stiffness: in such trains the derivatives of torques and stiffnesses, and of nothing else, are extrapolated
+differences (`linkwright.kernel.numerics.differences`).
 """
 
 from __future__ import annotations
@@ -65,7 +65,8 @@ def torque_tangents(
     assert machine.train is not None
     if not _is_plain(machine, referred):
         return _by_differences(machine, referred, speeds, d, refused)
-    orders = excited_train(machine, speeds[:1]).torques.orders
+    at = excited_train(machine, speeds)
+    orders = at.torques.orders
     discs = list(train.discs)
     shape = (len(speeds), 2 * len(orders) + 2, len(discs))
     numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
@@ -85,9 +86,25 @@ def torque_tangents(
         .T
         for value in table[:, -2]
     ]
+    shared = [_shared(referred, mean, d.stiffness) for mean in at.mean_torques.T]
     return [
-        TorqueTangents(*values, stiffness=d.stiffness) for values in zip(waves, means, damping, strict=True)
+        TorqueTangents(wave, mean + share, rate, stiffness=d.stiffness)
+        for wave, mean, share, rate in zip(waves, means, shared, damping, strict=True)
     ]
+
+
+def _shared(referred: ReferredTrain, mean: Floats, dk: Floats) -> Floats:
+    """How shafts side by side share their mean torque anew as stiffnesses change, (shafts, variables).
+
+    `mean`: (shafts,) [N m]; `dk`: (shafts, variables).
+    """
+    pairs = np.sort(referred.ends, axis=1)
+    beside = (pairs[:, None] == pairs).all(axis=2).astype(float)
+    k = referred.stiffness
+    together = np.where(beside @ k > 0, beside @ k, 1.0)
+    own = dk / np.where(k > 0, k, 1.0)[:, None]
+    change: Floats = mean[:, None] * np.where((k > 0)[:, None], own - beside @ dk / together[:, None], 0.0)
+    return change
 
 
 # What acts on a train besides an engine.
@@ -97,11 +114,7 @@ _ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares
 def _is_plain(machine: Machine, referred: ReferredTrain) -> bool:
     """Whether torques and stiffnesses follow from the entries by plain arithmetic."""
     assert machine.train is not None
-    if machine.train.installed or _curved(machine) or tree_of(referred) is None:
-        return False
-    # Shafts side by side share the mean torque by their stiffnesses.
-    pairs = [tuple(sorted(pair)) for pair in referred.ends.tolist() if pair[0] != pair[1]]
-    return len(set(pairs)) == len(pairs)
+    return not machine.train.installed and not _curved(machine) and tree_of(referred) is not None
 
 
 def _by_differences(
