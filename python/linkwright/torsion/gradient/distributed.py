@@ -42,10 +42,12 @@ _SERIES = 0.05
 class PartSlopes(NamedTuple):
     """Derivatives of the parts of a train at a frequency by its variables, the last axis."""
 
-    masses: Complexes  # (masses, variables) of −ω²J + iωc without the inertia of rods [N m/rad]
-    springs: Complexes  # (springs, variables) of k(1 + iη) + iωc of shafts that are no rods [N m/rad]
-    stiffness: Complexes  # (pieces, variables) of ln k of the pieces of all rods, with their losses
-    inertia: Complexes  # (pieces, variables) of ln j
+    masses: Complexes | Floats  # (masses, variables) of −ω²J + iωc without the inertia of rods [N m/rad]
+    springs: (
+        Complexes | Floats
+    )  # (springs, variables) of k(1 + iη) + iωc of shafts that are no rods [N m/rad]
+    stiffness: Complexes | Floats  # (pieces, variables) of ln k of the pieces of all rods, with their losses
+    inertia: Floats  # (pieces, variables) of ln j
 
 
 class Output(NamedTuple):

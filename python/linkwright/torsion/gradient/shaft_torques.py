@@ -29,6 +29,7 @@ from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.gradient.distributed import (
     CutTrain,
+    Output,
     PartSlopes,
     at_stiffness,
     cut_train,
@@ -106,31 +107,45 @@ class ShaftTorques:
 
     def _slope(self, shaft: int, place: int, station: int, m: int) -> Complexes:
         """The derivatives at one order, referred, (variables,)."""
-        along, rods = self.along(shaft), list(self._at.referred.rods)
-        omega = float(self._at.torques.orders[m] * self._at.torques.speeds[place])
-        if along is None:
-            if (place, m) not in self._states:
-                fine = [rod.refined(omega, _PIECE)[0] for rod in rods]
-                self._states[place, m] = self._state(omega, fine, place, m)
-            state = self._states[place, m]
-            torque = state.train.spring_torque(self._springs.index(shaft), state.q, state.slopes)
-        else:
-            n = self._rods[shaft]
-            split = _split(rods[n], along, station)
-            rods[n] = split.rod
-            fine, of = zip(*(rod.refined(omega, _PIECE) for rod in rods), strict=True)
-            state = self._state(omega, fine, place, m)
-            # The first of the parts of a piece has its first end, the last its second.
-            part = int(np.flatnonzero(of[n] == split.piece)[-split.end])
-            part += sum(len(rod.stiffness) for rod in fine[:n])
-            torque = state.train.piece_torque(part, split.end, state.q, state.slopes)
+        along = self.along(shaft)
+        state, torque = (
+            self._of_spring(shaft, place, m)
+            if along is None
+            else self._of_rod(self._rods[shaft], along, station, place, m)
+        )
         adjoint = solved(state.stiffness, torque.row[:, None])[:, 0]
         slope: Complexes = torque.slopes + adjoint @ state.right
         return slope
 
-    def _state(self, omega: float, rods: Sequence[Rod], place: int, m: int) -> _State:
+    def _of_spring(self, shaft: int, place: int, m: int) -> tuple[_State, Output]:
+        """The train, and the torque of a shaft that is no rod."""
+        if (place, m) not in self._states:
+            omega = self._omega(place, m)
+            fine = [rod.refined(omega, _PIECE)[0] for rod in self._at.referred.rods]
+            self._states[place, m] = self._state(fine, place, m)
+        state = self._states[place, m]
+        return state, state.train.spring_torque(self._springs.index(shaft), state.q, state.slopes)
+
+    def _of_rod(
+        self, n: int, along: StationTorques, station: int, place: int, m: int
+    ) -> tuple[_State, Output]:
+        """The train with a rod cut at a station too, and the torque there."""
+        rods, omega = list(self._at.referred.rods), self._omega(place, m)
+        rods[n], piece, end = _split(rods[n], along, station)
+        refined = [rod.refined(omega, _PIECE) for rod in rods]
+        state = self._state([fine for fine, _ in refined], place, m)
+        # The first of the parts of a piece has its first end, the last its second.
+        part = int(np.flatnonzero(refined[n][1] == piece)[-end])
+        before = sum(len(fine.stiffness) for fine, _ in refined[:n])
+        return state, state.train.piece_torque(before + part, end, state.q, state.slopes)
+
+    def _omega(self, place: int, m: int) -> float:
+        """Angular frequency of an order at a speed [rad/s]."""
+        return float(self._at.torques.orders[m] * self._at.torques.speeds[place])
+
+    def _state(self, rods: Sequence[Rod], place: int, m: int) -> _State:
         """The train cut into the pieces of `rods` at an order and speed."""
-        at, torques = self._at, self._torques[place]
+        at, torques, omega = self._at, self._torques[place], self._omega(place, m)
         train = cut_train(at_stiffness(at.referred, at.operating.stiffness[:, place]), omega, rods)
         n = len(at.referred.inertia)
         H = train.stiffness.copy()
@@ -175,13 +190,6 @@ def _split(rod: Rod, along: StationTorques, station: int) -> _Split:
         return _Split(rod, piece, end)
     both = np.array([share, 1 - share])
     k, j = rod.stiffness, rod.inertia
-    return _Split(
-        Rod(
-            rod.shaft,
-            np.concatenate([k[:piece], k[piece] / both, k[piece + 1 :]]),
-            np.concatenate([j[:piece], j[piece] * both, j[piece + 1 :]]),
-            rod.ends,
-        ),
-        piece + 1,
-        0,
-    )
+    stiffness = np.concatenate([k[:piece], k[piece] / both, k[piece + 1 :]])
+    inertia = np.concatenate([j[:piece], j[piece] * both, j[piece + 1 :]])
+    return _Split(Rod(rod.shaft, stiffness, inertia, rod.ends), piece + 1, 0)
