@@ -273,7 +273,7 @@ def _rods(discs: dict[str, float], joined: dict[str, tuple[str, str]], modes: in
 def test_a_mode_whose_discs_are_at_rest() -> None:
     """Three like rods between two walls: β = π, ω = π √(k/j), in which each has a third of the energy.
 
-    The discs are at the nodes: no frequency follows them, and no shape of theirs can be told.
+    The discs are at the nodes: the frequency does not depend on them, their amplitudes have no derivative.
     """
     joined = {"p": ("ground", "a"), "q": ("a", "b"), "r": ("b", "ground")}
     machine = _rods({"a": 2.0, "b": 2.0}, joined, 4)
@@ -288,7 +288,7 @@ def test_a_mode_whose_discs_are_at_rest() -> None:
 
 
 def test_a_repeated_frequency_gives_its_invariant() -> None:
-    """Three like arms on a hub: of the mean of both squares each rod has a third, and is told to tie."""
+    """Three like arms on a hub: each rod has a third of the mean of both squares, and both modes tie."""
     joined = {f"arm{n}": ("hub", f"d{n}") for n in range(3)}
     machine = _rods({"hub": 5.0} | {f"d{n}": 1.0 for n in range(3)}, joined, 5)
     names = [f"train.shafts.{name}.{entry}" for name in joined for entry in ("stiffness", "own_inertia")]

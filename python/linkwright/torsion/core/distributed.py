@@ -186,12 +186,12 @@ def _shapes(referred: ReferredTrain, omega: float, count: int) -> Iterator[Exact
     cut = cut_up(referred, [rod.parts() for rod in fine])
     at = lossless(cut, np.array([omega]))
     D = matrices(cut, at, np.array([omega]))[0]
-    found = null_vectors(D, at.inertia.real[:, 0], count)
-    for value, vector in zip(found.values.tolist(), found.vectors.T, strict=True):
+    nearest = null_vectors(D, at.inertia.real[:, 0], count)
+    for value, vector in zip(nearest.values.tolist(), nearest.vectors.T, strict=True):
         mode, size = _normal(referred, omega, vector, fine)
         # Rods whose ends move alike leave the count unsure by the root of rounding: Newton on the shape.
         polished = math.sqrt(max(omega**2 + value * size**2, 0.0))
-        rounding = _ROUNDING * found.largest / omega
+        rounding = _ROUNDING * nearest.largest / omega
         unsure = abs(polished - omega) > rounding
         yield mode._replace(omega=polished) if unsure else mode
 
@@ -209,10 +209,10 @@ def null_vectors(D: Floats, inertia: Floats, count: int) -> NullVectors:
     scale = 1 / np.sqrt(inertia)
     values, vectors = np.linalg.eigh(scale[:, None] * D * scale)
     nearest = np.argsort(np.abs(values), kind="stable")[:count]
-    found = scale[:, None] * vectors[:, nearest]
+    rough = scale[:, None] * vectors[:, nearest]
     # Beside short pieces, or stiff shafts, eigenvectors have lost digits that the rows of D still have.
-    border = inertia[:, None] * found
-    refined = bordered(D, border, np.zeros_like(found), border.T @ found)
+    border = inertia[:, None] * rough
+    refined = bordered(D, border, np.zeros_like(rough), border.T @ rough)
     return NullVectors(values[nearest], refined, float(np.abs(values).max()))
 
 

@@ -73,23 +73,23 @@ def mode_tangents(machine: Machine, variables: Sequence[str]) -> ModeTangents:
         if referred.rods
         else _LumpedModes(referred, d)
     )
-    found = ModeTangents(d.variables, {}, {}, {}, {}, {}, refused)
+    tangents = ModeTangents(d.variables, {}, {}, {}, {}, {}, refused)
     for group in _groups(modes.omega, alone=bool(referred.rods)):
         slope = modes.square(group)
         for i in group:
             omega = float(modes.omega[i])
             if omega > 0:
-                found.natural_frequencies[i] = Tangent(
+                tangents.natural_frequencies[i] = Tangent(
                     omega / (2 * math.pi), slope / (2 * omega) / (2 * math.pi)
                 )
             if len(group) > 1 and omega > 0:
                 others = " and ".join(str(j) for j in group if j != i)
-                found.ties[i] = (
+                tangents.ties[i] = (
                     f"it is that of mode {others} too; the derivative is that of their mean square"
                 )
             elif len(group) == 1:
-                _add_shape(found, i, referred.discs, modes.angles(i, slope))
-    return found
+                _add_shape(tangents, i, referred.discs, modes.angles(i, slope))
+    return tangents
 
 
 def _groups(omega: Floats, *, alone: bool) -> list[list[int]]:
@@ -103,12 +103,12 @@ def _groups(omega: Floats, *, alone: bool) -> list[list[int]]:
     return groups
 
 
-def _add_shape(found: ModeTangents, i: int, discs: Sequence[str], angles: ModeAngles) -> None:
+def _add_shape(tangents: ModeTangents, i: int, discs: Sequence[str], angles: ModeAngles) -> None:
     """Amplitudes of the discs in mode i, the largest of the train 1."""
     values, slopes = angles
     size = np.abs(values)
     if size[: len(discs)].max() < _AT_REST * size.max():
-        found.missing.update({(i, name): _RESTING for name in discs})
+        tangents.missing.update({(i, name): _RESTING for name in discs})
         return
     # As `free_vibration` scales: of entries that are equal but for rounding the first counts.
     largest = np.flatnonzero(size > (1 - _EQUAL) * size.max())
@@ -117,9 +117,9 @@ def _add_shape(found: ModeTangents, i: int, discs: Sequence[str], angles: ModeAn
     scaled = values[: len(discs)] / top
     changes = slopes[: len(discs)] / top - scaled[:, None] * growth[0]
     for name, value, slope in zip(discs, scaled.tolist(), changes, strict=True):
-        found.mode_shapes[i, name] = Tangent(value, slope)
+        tangents.mode_shapes[i, name] = Tangent(value, slope)
     if np.abs(growth - growth[0]).max(initial=0.0) > _ONE * np.abs(changes).max(initial=0.0):
-        found.shape_ties[i] = "the largest amplitude is reached at several places"
+        tangents.shape_ties[i] = "the largest amplitude is reached at several places"
 
 
 class _LumpedModes:

@@ -94,10 +94,7 @@ def torque_tangents(
 
 
 def _shared(referred: ReferredTrain, mean: Floats, dk: Floats) -> Floats:
-    """How shafts side by side share their mean torque anew as stiffnesses change, (shafts, variables).
-
-    `mean`: (shafts,) [N m]; `dk`: (shafts, variables).
-    """
+    """How shafts side by side share their mean torque (shafts,) [N m] anew by `dk`, (shafts, variables)."""
     pairs = np.sort(referred.ends, axis=1)
     beside = (pairs[:, None] == pairs).all(axis=2).astype(float)
     k = referred.stiffness
