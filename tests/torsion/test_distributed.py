@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright.kernel.errors import MachineError
 
 # Ends of next to no inertia: they change a frequency by less than their share of the rod.
 _TINY = 1e-12
@@ -192,8 +192,3 @@ def test_modes_with_damping() -> None:
 def test_what_makes_no_sense(old: str, new: str, message: str) -> None:
     with pytest.raises(MachineError, match=message):
         lw.loads(STEPPED.replace(old, new, 1))
-
-
-def test_no_derivatives() -> None:
-    with pytest.raises(InputError, match="which have no exact derivatives"):
-        lw.gradient(lw.loads(STEPPED), ["free_vibration.natural_frequencies"])

@@ -5,7 +5,7 @@
 | ``steady_state.…`` | Newton's step in dual numbers at the solution (`linkwright.drive.gradient`) |
 | ``run_up.…``, ``run_down.…`` | the variational equation (`linkwright.drive.gradient_in_time`) |
 | ``free_vibration.natural_frequencies.1`` | Rayleigh's quotient (`linkwright.torsion.gradient.modes`) |
-| ``free_vibration.mode_shapes.1.DISC`` | all modes (there too) |
+| ``free_vibration.mode_shapes.1.DISC`` | all modes, or the dynamic stiffness (there too) |
 | ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
@@ -185,8 +185,18 @@ def _free(machine: Machine, variables: Sequence[str]) -> Source:
     }
     units = dict.fromkeys(frequencies, "Hz") | dict.fromkeys(shapes, "")
     ties = {f"free_vibration.natural_frequencies.{i}": reason for i, reason in tangents.ties.items()}
+    ties |= {
+        f"free_vibration.mode_shapes.{i}.{disc}": tangents.shape_ties[i]
+        for i, disc in tangents.mode_shapes
+        if i in tangents.shape_ties
+    }
+    missing = {
+        f"free_vibration.mode_shapes.{i}.{disc}": reason for (i, disc), reason in tangents.missing.items()
+    }
     return Source(
-        tangents.variables, frequencies | shapes, words, units, ties, tangents.refused, list(frequencies)
+        *(tangents.variables, frequencies | shapes, words, units, ties, tangents.refused),
+        usual=list(frequencies),
+        missing=missing,
     )
 
 

@@ -30,7 +30,7 @@ from linkwright.torsion.core.rod import Ends, Rod, ends, energies
 from linkwright.torsion.core.train import HELD, ReferredTrain
 
 # Largest β of a piece of which a shape is made: a quarter of that at which it could swing between its ends.
-_SHAPE = math.pi / 8
+SHAPE = math.pi / 8
 
 # Halvings of a bracket whose ends are at most a factor of 2 apart, down to rounding.
 _HALVINGS = 52
@@ -182,19 +182,54 @@ def _exact_modes(same: _Same, count: int) -> tuple[ExactMode, ...]:
 
 def _shapes(referred: ReferredTrain, omega: float, count: int) -> Iterator[ExactMode]:
     """As many modes as have one frequency."""
-    fine = [rod.refined(omega, _SHAPE)[0] for rod in referred.rods]
+    fine = [rod.refined(omega, SHAPE)[0] for rod in referred.rods]
     cut = cut_up(referred, [rod.parts() for rod in fine])
     at = lossless(cut, np.array([omega]))
     D = matrices(cut, at, np.array([omega]))[0]
-    scale = 1 / np.sqrt(at.inertia.real[:, 0])
-    values, vectors = np.linalg.eigh(scale[:, None] * D * scale)
-    for n in np.argsort(np.abs(values), kind="stable")[:count]:
-        mode, size = _normal(referred, omega, scale * vectors[:, n], fine)
+    nearest = null_vectors(D, at.inertia.real[:, 0], count)
+    for value, vector in zip(nearest.values.tolist(), nearest.vectors.T, strict=True):
+        mode, size = _normal(referred, omega, vector, fine)
         # Rods whose ends move alike leave the count unsure by the root of rounding: Newton on the shape.
-        polished = math.sqrt(max(omega**2 + float(values[n]) * size**2, 0.0))
-        rounding = _ROUNDING * float(np.abs(values).max()) / omega
+        polished = math.sqrt(max(omega**2 + value * size**2, 0.0))
+        rounding = _ROUNDING * nearest.largest / omega
         unsure = abs(polished - omega) > rounding
         yield mode._replace(omega=polished) if unsure else mode
+
+
+class NullVectors(NamedTuple):
+    """Vectors that a dynamic stiffness takes to next to nothing."""
+
+    values: Floats  # (modes,) eigenvalues with unit inertia
+    vectors: Floats  # (nodes, modes)
+    largest: float  # of all eigenvalues
+
+
+def null_vectors(D: Floats, inertia: Floats, count: int) -> NullVectors:
+    """As many vectors as have the eigenvalues next to zero. `inertia`: (nodes,) [kg m²]."""
+    scale = 1 / np.sqrt(inertia)
+    values, vectors = np.linalg.eigh(scale[:, None] * D * scale)
+    nearest = np.argsort(np.abs(values), kind="stable")[:count]
+    rough = scale[:, None] * vectors[:, nearest]
+    # Beside short pieces, or stiff shafts, eigenvectors have lost digits that the rows of D still have.
+    border = inertia[:, None] * rough
+    refined = bordered(D, border, np.zeros_like(rough), border.T @ rough)
+    return NullVectors(values[nearest], refined, float(np.abs(values).max()))
+
+
+def bordered(D: Floats, border: Floats, right: Floats, along: Floats) -> Floats:
+    """Solution x of D x = `right` but for multiples of the border, with borderᵀ x = `along`."""
+    r = border.shape[1]
+    matrix = np.block([[D, border], [border.T, np.zeros((r, r))]])
+    solution: Floats = solved(matrix, np.concatenate([right, along]))[: len(D)]
+    return solution
+
+
+def solved(matrix: NDArray[Any], columns: NDArray[Any]) -> NDArray[Any]:
+    """Solution of a system with rows and columns brought to one size, as stiff and soft shafts ask for."""
+    size = 1 / np.sqrt(np.maximum(np.abs(matrix).max(axis=1, initial=0.0), np.finfo(float).tiny))
+    scaled = size[:, None] * matrix * size
+    solution: NDArray[Any] = size[:, None] * np.linalg.solve(scaled, size[:, None] * columns)
+    return solution
 
 
 def _normal(

@@ -184,7 +184,7 @@ def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:
         if isinstance(part, RodShaft):
             k = np.array([piece.stiffness for piece in part.pieces])
             j = np.array([piece.inertia for piece in part.pieces])
-            first, second = (float(factor[n]) * end for end in part.end_inertias)
+            first, second = (factor[n] * end for end in part.end_inertias)
             yield Rod(n, factor[n] * k, factor[n] * j, (first, second))
 
 

@@ -1,14 +1,13 @@
-r"""Derivatives of the torques that shafts carry in forced vibration, by the adjoint of the dynamic stiffness.
+r"""Derivatives of the largest torques that shafts carry in forced vibration.
 
-At a speed, with :math:`H_\nu q_\nu = M_\nu`, the torque of a shaft is :math:`t_\nu = s_\nu (q_a - q_b)`,
-:math:`s = k(1 + i\eta) + i\omega c`, and its extreme over the angle that of :math:`\mathrm{Re} \sum t_\nu
-e^{i\nu\tau}` at τ*, where it is stationary (envelope theorem). With :math:`w_\nu = e^{i\nu\tau^*}`
+The extreme over the angle of what a shaft carries is that of :math:`\mathrm{Re} \sum t_\nu e^{i\nu\tau}`
+at τ*, where it is stationary (envelope theorem), so that
 
-.. math:: H_\nu \lambda_\nu = w_\nu s_\nu (e_a - e_b), \qquad
-    dy = \mathrm{Re} \sum_\nu \bigl( w_\nu\,ds_\nu\,(q_a - q_b) + \lambda_\nu^T (dM_\nu - dH_\nu q_\nu) \bigr)
+.. math:: dy = \mathrm{Re} \sum_\nu e^{i\nu\tau^*}\,dt_\nu
 
-One solution a shaft and order serves all entries. A response is the largest over the speeds at which the
-file looks at its train, and its derivative is that at this speed.
+with the derivatives of the torque at each order (`shaft_torques`). A response is the largest over the speeds
+at which the file looks at its train, and its derivative is that at this speed; in a shaft with distributed
+inertia it is that at the station where the torque counts, which stays where it is.
 
 References
 ----------
@@ -19,7 +18,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -28,12 +26,12 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import extremes
-from linkwright.torsion.core.train import HELD, ReferredTrain
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
+from linkwright.torsion.gradient.shaft_torques import ShaftTorques
 from linkwright.torsion.gradient.torques import TorqueTangents, torque_tangents
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
-from linkwright.torsion.response.forced import response_by_amplitudes, responses
+from linkwright.torsion.response.forced import response_by_amplitudes, responses, shaft_flow, spring_stiffness
 
 # Peaks that are this near, as a share of the highest, tie; and derivatives that differ by less, of their
 # largest, are one.
@@ -79,9 +77,8 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     places = sorted({place for _, _, place, _ in peaks})
     torques = torque_tangents(machine, train, referred, at.torques.speeds[places], d, refused)
     known = [name for name in d.variables if name not in refused]
-    forced = _Adjoint(
-        at, q, d.only(known), {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
-    )
+    acting = {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
+    forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting), acting)
     tangents: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
     ties: dict[str, str] = {}
     for kind, shaft, place, tie in peaks:
@@ -115,12 +112,13 @@ def _peaks(at: ExcitedTrain, q: Complexes) -> list[tuple[str, int, int, str]]:
     """What is asked: quantity, place of the shaft, place of the speed where it is largest, why it ties."""
     response = response_by_amplitudes(at, q)
     curves = {"vibratory": response.shaft_torque_vibratory, "greatest": response.shaft_torque_max}
+    rigid = _rigid(at, q)
     peaks = []
     for kind, table in curves.items():
         for shaft, row in enumerate(table):
             if not np.isfinite(row).all() or not row.any():
                 continue
-            if _is_rigid(at, q, response.shaft_torques, shaft):
+            if rigid[shaft]:
                 continue
             best = int(row.argmax())
             others = np.flatnonzero(row >= row[best] * (1 - _TIE))
@@ -129,61 +127,57 @@ def _peaks(at: ExcitedTrain, q: Complexes) -> list[tuple[str, int, int, str]]:
     return peaks
 
 
-def _is_rigid(at: ExcitedTrain, q: Complexes, torques: Complexes, shaft: int) -> bool:
-    """Whether the twist of a shaft is rounding."""
-    twisted = _stiffness(at, shaft, slice(None)) * _twist(at.referred, q, shaft) / at.referred.lead[shaft]
-    return bool(np.abs(twisted - torques[:, shaft]).max() > _RIGID * np.abs(torques[:, shaft]).max())
+def _rigid(at: ExcitedTrain, q: Complexes) -> list[bool]:
+    """Whether the twist of each shaft is rounding."""
+    stiffness = spring_stiffness(at)
+    flow = shaft_flow(at, q, stiffness)
+    twisted = stiffness * np.einsum("sm,omw->osw", at.referred.joins, q)
+    off, size = np.abs(twisted - flow).max(axis=(0, 2)), np.abs(flow).max(axis=(0, 2))
+    return [bool(rigid) for rigid in off > _RIGID * size]
 
 
-def _stiffness(at: ExcitedTrain, shaft: int, speed: Any) -> Complexes:
-    """k(1 + iη) + iωc of a shaft, (orders, speeds)."""
-    omega = at.torques.orders[:, None] * at.torques.speeds[speed]
-    k, c = at.operating.stiffness[shaft, speed], at.referred.damping[shaft]
-    stiffness: Complexes = k * (1 + 1j * at.referred.loss_factor[shaft]) + 1j * omega * c
-    return stiffness
+class _Peaks:
+    """Derivatives of the extremes of what shafts carry at some speeds."""
 
-
-def _twist(referred: ReferredTrain, q: Complexes, shaft: int) -> Complexes:
-    """q_a − q_b of a shaft; `q`: (orders, masses, …)."""
-    first, second = referred.ends[shaft]
-    zero = np.zeros_like(q[:, 0])
-    return (q[:, first] if first != HELD else zero) - (q[:, second] if second != HELD else zero)
-
-
-class _Adjoint:
-    """Derivatives of what shafts carry at some speeds."""
-
-    def __init__(
-        self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, TorqueTangents]
-    ) -> None:
-        self.at, self.q, self.d, self.torques = at, q, d, torques
-        self.lead = at.referred.lead
+    def __init__(self, at: ExcitedTrain, shafts: ShaftTorques, torques: dict[int, TorqueTangents]) -> None:
+        self._at, self._shafts, self._torques = at, shafts, torques
         self._orders = orders_together(at.torques.orders)
 
     def response(self, kind: str, shaft: int, place: int) -> tuple[float, Floats, str]:
         """Value, derivatives, and why it has one on either side only."""
-        lead = self.lead[shaft]
-        t = (
-            _stiffness(self.at, shaft, [place])[:, 0]
-            * _twist(self.at.referred, self.q, shaft)[:, place]
-            / lead
-        )
-        mean = float(self.at.mean_torques[shaft, place])
+        along = self._shafts.along(shaft)
+        if along is None:
+            return self._at_station(kind, shaft, place, 0)
+        ratio = along.ratio[:, place]
+        station = int(ratio.argmax())
+        value, slope, tie = self._at_station(kind, shaft, place, station)
+        # The second end of a piece is where the first of the next one is.
+        end, part = np.divmod(np.arange(len(ratio)), len(ratio) // 2)
+        apart = end + part != end[station] + part[station]
+        for rival in np.flatnonzero(apart & (ratio >= ratio[station] * (1 - _TIE))).tolist():
+            other, change, _ = self._at_station(kind, shaft, place, rival)
+            differ = np.abs(change - slope).max(initial=0.0) > _ONE * np.abs(slope).max(initial=0.0)
+            if differ or abs(other - value) > _TIE * value:
+                return value, slope, "it is reached at several places along the shaft"
+        return value, slope, tie
+
+    def _at_station(self, kind: str, shaft: int, place: int, station: int) -> tuple[float, Floats, str]:
+        """The same at a station of a shaft; 0 for one without."""
+        t = self._shafts.orders(shaft, place, station)
+        dt = self._shafts.slopes(shaft, place, station)
+        mean = float(self._at.mean_torques[shaft, place])
         if kind == "vibratory":
             (top, high), (bottom, low) = self._ends(t, 0.0)
-            first = self._slope(shaft, place, 0.5 * (high[0] - low[0]))
-            rivals = [0.5 * (a - b) for a in high for b in low][1:]
-            value, given = 0.5 * (top - bottom), np.zeros_like(first)
+            first, *rivals = (0.5 * (a - b) for a in high for b in low)
+            value, given = 0.5 * (top - bottom), np.zeros(dt.shape[1])
         else:
             (top, high), (bottom, low) = self._ends(t, mean)
-            sign, ways = (1.0, high) if top >= -bottom else (-1.0, [-row for row in low])
-            first = self._slope(shaft, place, ways[0])
-            rivals, value, given = ways[1:], max(top, -bottom), sign * self.torques[place].mean[shaft]
-        size = np.abs(first).max(initial=0.0)
-        differ = any(
-            np.abs(self._slope(shaft, place, w) - first).max(initial=0.0) > _ONE * size for w in rivals
-        )
-        return value, first + given, "it is reached at several angles" if differ else ""
+            sign, (first, *rivals) = (1.0, high) if top >= -bottom else (-1.0, [-row for row in low])
+            value, given = max(top, -bottom), sign * self._torques[place].mean[shaft]
+        slope: Floats = (first @ dt).real
+        size = np.abs(slope).max(initial=0.0)
+        differ = any(np.abs((w @ dt).real - slope).max(initial=0.0) > _ONE * size for w in rivals)
+        return value, slope + given, "it is reached at several angles" if differ else ""
 
     def _ends(
         self, t: Complexes, mean: float
@@ -207,31 +201,6 @@ class _Adjoint:
         alone = sign * np.conj(t) / np.where(size > 0, size, 1.0)
         weights: Complexes = np.where(orders.together, np.exp(1j * orders.harmonic * tau), alone)
         return weights
-
-    def _slope(self, shaft: int, place: int, w: Complexes) -> Floats:
-        """Re Σ (w ds Δ + λᵀ(dM − dH q)) by the variables."""
-        at, d, r = self.at, self.d, self.at.referred
-        lead = self.lead[shaft]
-        q = self.q[:, :, place]
-        twists = np.stack([_twist(r, q, s) for s in range(len(r.shafts))], axis=1)
-        total = np.zeros(len(d.variables))
-        for m, omega in enumerate(at.torques.orders * at.torques.speeds[place]):
-            k = at.operating.stiffness[:, place]
-            s = k * (1 + 1j * r.loss_factor) + 1j * omega * r.damping
-            ds = (
-                (1 + 1j * r.loss_factor)[:, None] * self.torques[place].stiffness
-                + 1j * k[:, None] * d.loss_factor
-            ) + 1j * omega * d.damping
-            H = (r.joins.T * s) @ r.joins
-            H[np.diag_indices_from(H)] += (
-                -(omega**2) * r.inertia + 1j * omega * at.operating.disc_damping[:, place]
-            )
-            adjoint = np.linalg.solve(H, w[m] * s[shaft] * r.joins[shaft] / lead)
-            own = -(omega**2) * d.inertia + 1j * omega * (d.disc_damping + self.torques[place].damping)
-            inner = adjoint @ (self.torques[place].pulsating[m] - q[m][:, None] * own)
-            inner -= ((r.joins @ adjoint) * twists[m]) @ ds
-            total += (w[m] * ds[shaft] * twists[m, shaft] / lead + inner).real
-        return total
 
 
 def _rivals(wave: Floats, best: float) -> list[float]:

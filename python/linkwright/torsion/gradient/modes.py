@@ -11,6 +11,9 @@ has r derivatives in each direction, which no single entry can tell apart: what 
 mean of their squares. Each of them is given the derivative of the frequency of that mean, and its shape has
 none [2]_.
 
+Trains with distributed inertia have modes without end, over which no sum is taken: there the shape follows
+from the dynamic stiffness (`distributed_modes`).
+
 References
 ----------
 .. [1] Fox and Kapoor, Rates of change of eigenvalues and eigenvectors, AIAA J. 6 (1968) 2426-2429.
@@ -29,11 +32,21 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain
+from linkwright.torsion.gradient.distributed_modes import DistributedModes, ModeAngles
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
+from linkwright.torsion.modes.free import modes_wanted
 
 # Squares of frequencies that differ by a smaller share of the largest of a train are one: rounding of the
 # modes leaves about 1e-14 of it, and a shape's derivative has lost all its digits.
 _REPEATED = 1e-9
+
+# Share of the largest angle below which a disc is at rest.
+_AT_REST = 1e-9
+
+# Angles that differ by a smaller share are equal, as by symmetry; so are derivatives.
+_EQUAL, _ONE = 1e-9, 1e-6
+
+_RESTING = "all discs are at rest in it, and which of them leads beside this machine changes with each entry"
 
 
 @dataclass(frozen=True)
@@ -46,74 +59,105 @@ class ModeTangents:
     ]  # by the number of the mode, from 0; none of the motion as a whole
     mode_shapes: dict[tuple[int, str], Tangent]  # by mode and disc, of frequencies that stand alone
     ties: dict[int, str]  # modes whose frequency stands more than once
+    shape_ties: dict[int, str]  # modes whose largest amplitude is reached at several places
+    missing: dict[tuple[int, str], str]  # mode shapes without derivatives
     refused: dict[str, str]
 
 
 def mode_tangents(machine: Machine, variables: Sequence[str]) -> ModeTangents:
     """Natural frequencies and mode shapes along entries of a machine. Raises what `free_vibration` raises."""
     refused: dict[str, str] = {}
-    _, referred, d = train_tangents(machine, variables, refused)
-    omega, q = referred.modes()
-    groups = _groups(omega)
-    own = _pencil(referred, d, q, omega)
-    frequencies: dict[int, Tangent] = {}
-    shapes: dict[tuple[int, str], Tangent] = {}
-    ties: dict[int, str] = {}
-    for group in groups:
-        # The mean of the squares of a group is smooth whatever vectors span it.
-        slope = np.mean([own[i][i] for i in group], axis=0)
+    train, referred, d = train_tangents(machine, variables, refused)
+    modes = (
+        DistributedModes(referred, d, modes_wanted(machine, train))
+        if referred.rods
+        else _LumpedModes(referred, d)
+    )
+    tangents = ModeTangents(d.variables, {}, {}, {}, {}, {}, refused)
+    for group in _groups(modes.omega, alone=bool(referred.rods)):
+        slope = modes.square(group)
         for i in group:
-            if omega[i] > 0:
-                frequencies[i] = Tangent(omega[i] / (2 * math.pi), slope / (2 * omega[i]) / (2 * math.pi))
-            if len(group) > 1 and omega[i] > 0:
+            omega = float(modes.omega[i])
+            if omega > 0:
+                tangents.natural_frequencies[i] = Tangent(
+                    omega / (2 * math.pi), slope / (2 * omega) / (2 * math.pi)
+                )
+            if len(group) > 1 and omega > 0:
                 others = " and ".join(str(j) for j in group if j != i)
-                ties[i] = f"it is that of mode {others} too; the derivative is that of their mean square"
+                tangents.ties[i] = (
+                    f"it is that of mode {others} too; the derivative is that of their mean square"
+                )
             elif len(group) == 1:
-                shapes |= _shape(referred, d, omega, q, own[i], i)
-    return ModeTangents(d.variables, frequencies, shapes, ties, refused)
+                _add_shape(tangents, i, referred.discs, modes.angles(i, slope))
+    return tangents
 
 
-def _groups(omega: Floats) -> list[list[int]]:
-    """Modes of equal frequency together."""
+def _groups(omega: Floats, *, alone: bool) -> list[list[int]]:
+    """Modes of equal frequency together; `alone`: each is known to its own size, not to the largest."""
     square, groups = omega**2, [[0]] if len(omega) else []
     for i in range(1, len(omega)):
-        if square[i] - square[i - 1] <= _REPEATED * square[-1]:
+        if square[i] - square[i - 1] <= _REPEATED * square[i if alone else -1]:
             groups[-1].append(i)
         else:
             groups.append([i])
     return groups
 
 
-def _pencil(referred: ReferredTrain, d: TrainTangents, q: Floats, omega: Floats) -> list[Floats]:
-    """Row i: q_jᵀ(dK − ω_i² dJ)q_i of all j, (modes, variables)."""
-    held = np.concatenate([q, np.zeros((len(q), 1))], axis=1)
-    first, second = referred.ends.T
-    twist = held[:, first] - held[:, second]
-    assert HELD == -1
-    return [
-        np.einsum("js,sv->jv", twist * twist[i], d.stiffness)
-        - omega[i] ** 2 * np.einsum("jm,mv->jv", q * q[i], d.inertia)
-        for i in range(len(omega))
-    ]
-
-
-def _shape(
-    referred: ReferredTrain, d: TrainTangents, omega: Floats, q: Floats, row: Floats, i: int
-) -> dict[tuple[int, str], Tangent]:
-    """Amplitudes of the discs in mode i, the largest 1, with derivatives; `row` as of `_pencil`."""
-    gaps = omega[i] ** 2 - omega**2
-    gaps[i] = np.inf
-    dq = np.einsum("jm,jv->mv", q / gaps[:, None], row)
-    dq -= 0.5 * q[i][:, None] * np.einsum("m,mv->v", q[i] ** 2, d.inertia)
-    of_disc = q[i][referred.mass]
-    theta = referred.speed * of_disc
-    dtheta = referred.speed[:, None] * dq[referred.mass] + d.speed * of_disc[:, None]
-    size = np.abs(theta)
+def _add_shape(tangents: ModeTangents, i: int, discs: Sequence[str], angles: ModeAngles) -> None:
+    """Amplitudes of the discs in mode i, the largest of the train 1."""
+    values, slopes = angles
+    size = np.abs(values)
+    if size[: len(discs)].max() < _AT_REST * size.max():
+        tangents.missing.update({(i, name): _RESTING for name in discs})
+        return
     # As `free_vibration` scales: of entries that are equal but for rounding the first counts.
-    top = int(np.argmax(size > (1 - 1e-9) * size.max()))
-    scaled = theta / theta[top]
-    slopes = (dtheta - scaled[:, None] * dtheta[top]) / theta[top]
-    return {
-        (i, name): Tangent(float(value), slope)
-        for name, value, slope in zip(referred.discs, scaled, slopes, strict=True)
-    }
+    largest = np.flatnonzero(size > (1 - _EQUAL) * size.max())
+    growth = np.sign(values[largest])[:, None] * slopes[largest] / size[largest, None]
+    top = size[largest[0]]
+    scaled = values[: len(discs)] / top
+    changes = slopes[: len(discs)] / top - scaled[:, None] * growth[0]
+    for name, value, slope in zip(discs, scaled.tolist(), changes, strict=True):
+        tangents.mode_shapes[i, name] = Tangent(value, slope)
+    if np.abs(growth - growth[0]).max(initial=0.0) > _ONE * np.abs(changes).max(initial=0.0):
+        tangents.shape_ties[i] = "the largest amplitude is reached at several places"
+
+
+class _LumpedModes:
+    """Modes of a train with inertia in its discs alone, with derivatives by the variables of `d`."""
+
+    def __init__(self, referred: ReferredTrain, d: TrainTangents) -> None:
+        self._referred, self._d = referred, d
+        self.omega, self._q = referred.modes()
+        self._own = self._pencil()
+
+    def _pencil(self) -> list[Floats]:
+        """Row i: q_jᵀ(dK − ω_i² dJ)q_i of all j, (modes, variables)."""
+        q, d = self._q, self._d
+        held = np.concatenate([q, np.zeros((len(q), 1))], axis=1)
+        first, second = self._referred.ends.T
+        twist = held[:, first] - held[:, second]
+        assert HELD == -1
+        return [
+            np.einsum("js,sv->jv", twist * twist[i], d.stiffness)
+            - omega**2 * np.einsum("jm,mv->jv", q * q[i], d.inertia)
+            for i, omega in enumerate(self.omega.tolist())
+        ]
+
+    def square(self, group: list[int]) -> Floats:
+        """Of the mean of ω² of modes of one frequency, smooth whatever vectors span them, (variables,)."""
+        slope: Floats = np.mean([self._own[i][i] for i in group], axis=0)
+        return slope
+
+    def angles(self, i: int, square: Floats) -> ModeAngles:
+        """Of a mode whose frequency stands alone, its first of the largest ahead."""
+        omega, q, d, r = self.omega, self._q, self._d, self._referred
+        gaps = omega[i] ** 2 - omega**2
+        gaps[i] = np.inf
+        dq = np.einsum("jm,jv->mv", q / gaps[:, None], self._own[i])
+        dq -= 0.5 * q[i][:, None] * np.einsum("m,mv->v", q[i] ** 2, d.inertia)
+        of_disc = q[i][r.mass]
+        theta = r.speed * of_disc
+        size = np.abs(theta)
+        sense = np.sign(theta[np.argmax(size > (1 - _EQUAL) * size.max())])
+        slopes = r.speed[:, None] * dq[r.mass] + d.speed * of_disc[:, None]
+        return ModeAngles(sense * theta, sense * slopes)

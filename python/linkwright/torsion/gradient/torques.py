@@ -1,9 +1,10 @@
 r"""Derivatives of the torques that act on a train, and of what its couplings are under their mean.
 
 Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through.
-Those of an engine come out of a working cycle that is solved for, couplings with a curve take the slope at
-their mean torque, and shafts in loops share it by stiffness: in such trains the derivatives of torques and
-stiffnesses, and of nothing else, are extrapolated differences (`linkwright.kernel.numerics.differences`).
+Shafts side by side share their mean torque by stiffness, k/Σk. Those of an engine come out of a working cycle
+that is solved for, couplings with a curve take the slope at their mean torque, and shafts in loops share it
+by stiffness: in such trains the derivatives of torques and stiffnesses, and of nothing else, are extrapolated
+differences (`linkwright.kernel.numerics.differences`).
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ def torque_tangents(
     assert machine.train is not None
     if not _is_plain(machine, referred):
         return _by_differences(machine, referred, speeds, d, refused)
-    orders = excited_train(machine, speeds[:1]).torques.orders
+    at = excited_train(machine, speeds)
+    orders = at.torques.orders
     discs = list(train.discs)
     shape = (len(speeds), 2 * len(orders) + 2, len(discs))
     numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
@@ -84,9 +86,22 @@ def torque_tangents(
         .T
         for value in table[:, -2]
     ]
+    shared = [_shared(referred, mean, d.stiffness) for mean in at.mean_torques.T]
     return [
-        TorqueTangents(*values, stiffness=d.stiffness) for values in zip(waves, means, damping, strict=True)
+        TorqueTangents(wave, mean + share, rate, stiffness=d.stiffness)
+        for wave, mean, share, rate in zip(waves, means, shared, damping, strict=True)
     ]
+
+
+def _shared(referred: ReferredTrain, mean: Floats, dk: Floats) -> Floats:
+    """How shafts side by side share their mean torque (shafts,) [N m] anew by `dk`, (shafts, variables)."""
+    pairs = np.sort(referred.ends, axis=1)
+    beside = (pairs[:, None] == pairs).all(axis=2).astype(float)
+    k = referred.stiffness
+    together = np.where(beside @ k > 0, beside @ k, 1.0)
+    own = dk / np.where(k > 0, k, 1.0)[:, None]
+    change: Floats = mean[:, None] * np.where((k > 0)[:, None], own - beside @ dk / together[:, None], 0.0)
+    return change
 
 
 # What acts on a train besides an engine.

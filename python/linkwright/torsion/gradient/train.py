@@ -14,10 +14,9 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import columns
-from linkwright.torsion.core.train import ReferredTrain, refer
+from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia
 from linkwright.torsion.model.drive_train import drive_train
 from linkwright.torsion.model.train import Train
@@ -31,7 +30,10 @@ _START = "the curve of a coupling starts at zero"
 
 @dataclass(frozen=True)
 class TrainTangents:
-    """Derivatives of the arrays of a `ReferredTrain` by `variables`, the last axis of each."""
+    """Derivatives of the arrays of a `ReferredTrain` by `variables`, the last axis of each.
+
+    Of shafts with distributed inertia, `inertia` counts it at the ends, `bare_inertia` does not.
+    """
 
     variables: tuple[str, ...]
     speed: Floats  # (discs, variables)
@@ -40,6 +42,9 @@ class TrainTangents:
     disc_damping: Floats  # (masses, variables)
     damping: Floats  # (shafts, variables)
     loss_factor: Floats  # (shafts, variables)
+    bare_inertia: Floats  # (masses, variables)
+    rod_stiffness: Floats  # (pieces, variables) of all rods, one behind the other
+    rod_inertia: Floats  # (pieces, variables) likewise
 
     def only(self, variables: Sequence[str]) -> TrainTangents:
         """Those by some of the variables."""
@@ -50,17 +55,26 @@ class TrainTangents:
 _NUMBERS = tuple(field.name for field in fields(TrainTangents))[1:]
 
 
+def _listed(referred: ReferredTrain) -> list[Sequence[Any]]:
+    """The numbers of a referred train by the names of `_NUMBERS`; they may be tangents."""
+    bare = list(referred.inertia)
+    for rod in referred.rods:
+        for mass, lumped in zip(referred.ends[rod.shaft].tolist(), rod.ends, strict=True):
+            if mass != HELD:
+                bare[mass] = bare[mass] - lumped
+    of_rods = [
+        [number for rod in referred.rods for number in getattr(rod, name)]
+        for name in ("stiffness", "inertia")
+    ]
+    return [*(getattr(referred, name) for name in _NUMBERS[:-3]), bare, *of_rods]
+
+
 def train_tangents(
     machine: Machine, variables: Sequence[str], refused: dict[str, str]
 ) -> tuple[Train, ReferredTrain, TrainTangents]:
     """A train, also referred to its first disc, and its derivatives; what has none goes into `refused`."""
     train = whole_train(_described(machine))
     referred = refer(train)
-    if referred.rods:
-        raise InputError(
-            f"train.inertia: {machine.name} has shafts with distributed inertia, which have no exact "
-            'derivatives; set it to "ends" for sensitivities, or sweep the entry'
-        )
     J = mean_inertia(machine) if machine.train is None else 0.0
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
@@ -69,7 +83,7 @@ def train_tangents(
     free = [name for name in variables if name not in refused]
     derivatives = columns(machine, free, partial(_numbers, inertia=J), refused)
     known = tuple(name for name in free if name in derivatives)
-    ends = np.cumsum([len(getattr(referred, name)) for name in _NUMBERS])
+    ends = np.cumsum([len(numbers) for numbers in _listed(referred)])
     table = np.array([derivatives[name] for name in known]).reshape(len(known), ends[-1]).T
     return train, referred, TrainTangents(known, *np.split(table, ends[:-1]))
 
@@ -95,4 +109,4 @@ def _numbers(machine: Machine, inertia: float) -> Sequence[Any]:
         train = machine.train
     # Ratios of damping belong to modes, and change none of these numbers.
     referred = refer(train.model_copy(update={"modal_damping": None}))
-    return [number for name in _NUMBERS for number in getattr(referred, name)]
+    return [number for numbers in _listed(referred) for number in numbers]

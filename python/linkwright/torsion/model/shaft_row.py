@@ -122,25 +122,25 @@ def rod_pieces(shaft: Shaft) -> tuple[RodPiece, ...]:
     """A shaft with an inertia of its own, from its first end to its second."""
     if shaft.sections is None:
         assert shaft.own_inertia is not None
-        return (RodPiece(float(shaft.rate), float(shaft.own_inertia), None, None, None),)
+        return (RodPiece(shaft.rate, shaft.own_inertia, None, None, None),)
     assert shaft.density is not None
-    return tuple(_pieces(shaft.sections, float(shaft.density), float(shaft.shear_modulus)))
+    return tuple(_pieces(shaft.sections, shaft.density, shaft.shear_modulus))
 
 
 def _pieces(sections: Sequence[ShaftSection], density: float, modulus: float) -> Iterator[RodPiece]:
     """Pieces of sections; what a step adds to the twist is spread over its section."""
     for section, flexibility in zip(sections, flexibilities(sections), strict=True):
-        softer = float(flexibility) / float(section.flexibility)
+        softer = flexibility / section.flexibility
         if section.kind == "taper":
             for piece in _cone(section, density, modulus):
                 yield piece._replace(stiffness=piece.stiffness / softer)
         else:
             yield RodPiece(
-                modulus / float(flexibility),
-                float(section.inertia(density)),
-                float(section.length),
-                float(section.section_modulus),
-                float(min(section.diameters)),
+                modulus / flexibility,
+                section.inertia(density),
+                section.length,
+                section.section_modulus,
+                min(section.diameters),
             )
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Complexes, Floats
-from linkwright.torsion.core.rod import along
+from linkwright.torsion.core.rod import Rod, along
 from linkwright.torsion.core.train import HELD
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.excitation.harmonics import orders_together, span
@@ -36,6 +36,17 @@ _STATION = 0.15
 
 
 @dataclass(frozen=True)
+class StationTorques:
+    """Torques at both ends of the pieces of a shaft between its stations."""
+
+    rod: Rod  # in pieces from station to station
+    piece: NDArray[np.int64]  # (2 × pieces,) of `RodShaft.pieces`; first ends, then second ends
+    torques: Complexes  # (orders, 2 × pieces, speeds) at the speed of the shaft [N m]
+    ratio: Floats  # (2 × pieces, speeds) range of the torque over what the section bears, but for a factor
+    heat: Floats  # (speeds,) that its losses take [W]
+
+
+@dataclass(frozen=True)
 class WorstPlace:
     """Where along a shaft its torque counts."""
 
@@ -45,7 +56,15 @@ class WorstPlace:
 
 
 def worst_place(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> WorstPlace:
-    """Where the torque of a rod counts at each speed.
+    """Where the torque of a rod counts at each speed; as `station_torques`."""
+    at_stations = station_torques(at, q, flow, n)
+    best = at_stations.ratio.argmax(axis=0)
+    torques = at_stations.torques[:, best, np.arange(len(best))]
+    return WorstPlace(at_stations.piece[best], torques, at_stations.heat)
+
+
+def station_torques(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> StationTorques:
+    """Torques along a rod at each speed.
 
     `q`: (orders, masses, speeds) [rad]; `flow`: (orders, speeds) of its spring [N m]; `n`: of the rods.
     """
@@ -69,11 +88,9 @@ def worst_place(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> Wors
     greatest, least = span(orders_together(at.torques.orders), torques)
     severity = np.array([_severity(shaft, shaft.pieces[piece]) for piece in pieces.tolist()])
     ratio = np.nan_to_num((greatest - least) * severity[:, None], nan=np.inf)
-    best = ratio.argmax(axis=0)
-    columns = np.arange(len(best))
     power = (state.torques * state.angles.conj()).imag
     heat = 0.5 * (omega * (power[:, 0] - power[:, -1])).sum(axis=0)
-    return WorstPlace(pieces[best], torques[:, best, columns], heat)
+    return StationTorques(fine, pieces, torques, ratio, heat)
 
 
 def _severity(shaft: Shaft, piece: RodPiece) -> float:

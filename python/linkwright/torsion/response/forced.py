@@ -146,11 +146,10 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     """
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
     omega = orders[:, None, None] * speeds
-    k, c, loss = at.operating.stiffness, referred.damping[:, None], referred.loss_factor[:, None]
     lead = referred.lead[:, None]
     # Stiffness and damping are referred, so that the torque is too.
-    imaginary = loss * k + omega * c
-    stiffness = _complex(k, imaginary) if at.distributed is None else at.distributed.stiffness
+    imaginary = _losses(at)
+    stiffness = spring_stiffness(at, imaginary)
     flow = shaft_flow(at, q, stiffness)
     torques, heat = flow / lead, 0.5 * (omega * imaginary * _twist_squared(flow, stiffness)).sum(axis=0)
     places = {}
@@ -172,6 +171,24 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
         shaft_heat=heat,
         places=places,
     )
+
+
+def _losses(at: ExcitedTrain) -> Floats:
+    """ηk + ωc of each shaft, (orders, shafts, speeds) [N m/rad]."""
+    omega = at.torques.orders[:, None, None] * at.torques.speeds
+    c, loss = at.referred.damping[:, None], at.referred.loss_factor[:, None]
+    losses: Floats = loss * at.operating.stiffness + omega * c
+    return losses
+
+
+def spring_stiffness(at: ExcitedTrain, losses: Floats | None = None) -> Complexes:
+    """Torque per twist of each shaft, (orders, shafts, speeds); of a rod of the spring that it is there.
+
+    `losses`: its imaginary part, where it is known [N m/rad].
+    """
+    if at.distributed is not None:
+        return at.distributed.stiffness
+    return _complex(at.operating.stiffness, _losses(at) if losses is None else losses)
 
 
 def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
