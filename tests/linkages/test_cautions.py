@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.linkages.cautions import linkage_cautions
 
 RHOMBUS = """
@@ -32,3 +37,14 @@ def test_a_rhombus_and_its_neighbours(radius: float, is_near: bool) -> None:
         angle = lw.linkage(machine).elements[0].transmission_angle_worst
         assert angle == pytest.approx((0.3 - radius) / 0.3, rel=1e-2)
         assert "B" in told[0]
+
+
+@pytest.mark.parametrize("way", [["--at", "200 deg"], ["--steps", "4"], ["--law", "2*pi*t"]])
+def test_motion_tells_of_it(way: list[str], tmp_path: Path) -> None:
+    file = tmp_path / "rhombus.toml"
+    file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
+    told = CliRunner().invoke(application(), ["motion", str(file), *way])
+    assert told.exit_code == 0
+    assert "next to a change point" in told.output
+    found = json.loads(CliRunner().invoke(application(), ["motion", str(file), *way, "--json"]).output)
+    assert "next to a change point" in found["warnings"][0]

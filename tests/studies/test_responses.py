@@ -13,6 +13,7 @@ import linkwright as lw
 from linkwright.app.application import application
 from linkwright.kernel.errors import MachineError, MachineFileError
 from linkwright.studies.responses import ANALYSES, analysis
+from linkwright.studies.slopes import slopes
 
 DRIVE = ("roller_one_cart", "mechanism.cranks.A1.radius")
 ROTATOR = ("rod_rotator_continuous", "pumping_unit.A")
@@ -38,6 +39,7 @@ CASES = {
     "topper_field": ("topper", "topper.edge_length", "share_complete"),
     "free_vibration": (*TRAIN, "natural_frequencies"),
     "forced_vibration": (*TRAIN, "shaft_torque_vibratory"),
+    "shaft_stress": (*TRAIN, "vibratory"),
 }
 
 
@@ -45,7 +47,7 @@ CASES = {
 def test_a_study_gives_the_numbers_of_an_analysis(name: str, tmp_path: Path) -> None:
     machine, address, quantity = CASES[name]
     *of, attribute = quantity.split(".")
-    is_list = name.endswith("vibration")
+    is_list = name.endswith(("vibration", "stress"))
     asked = f"{name}.{quantity}"
     response = f'{{ curve = "{asked}", extreme = "max" }}' if is_list else f'"{asked}"'
     plan = lw.read_study(study(tmp_path, machine, address, response))
@@ -87,7 +89,51 @@ def test_one_shaft_of_a_train(tmp_path: Path) -> None:
     assert curve.max() < forced.shaft_torque_vibratory.max()
 
 
+# File and entry → responses by the names that `linkwright sensitivity` has for them.
+SAME_NAMES = {
+    ("pumping_unit_torque", "pumping_unit.R"): ["pumping_unit.gear.torque_net_rms", "pumping_unit.gear.work"],
+    TRAIN: [
+        "free_vibration.natural_frequencies.2",
+        "free_vibration.mode_shapes.2.front",
+        "forced_vibration.shaft_torque_max.nose",
+        "forced_vibration.shaft_torque_vibratory.crank_1",
+    ],
+}
+
+
+@pytest.mark.parametrize(("of", "name"), [(of, name) for of, names in SAME_NAMES.items() for name in names])
+def test_names_of_derivatives_are_names_of_responses(of: tuple[str, str], name: str, tmp_path: Path) -> None:
+    """With the same number, and the same derivative in a study."""
+    plan = lw.read_study(study(tmp_path, *of, f'"{name}"'))
+    gradient = lw.gradient(plan.machine, [name], [of[1]])
+    at = np.array([lw.get(plan.machine, of[1])])
+    found = slopes(plan, at, 1e-3 * at)
+    assert found.values["number"] == pytest.approx(gradient.values[0], rel=1e-12)
+    assert found.slopes["number"] == pytest.approx(gradient.derivatives[0], rel=1e-9)
+    assert found.exact == {"number"}
+
+
+def test_a_result_within_another_is_called_as_run_calls_it(tmp_path: Path) -> None:
+    of = ("pumping_unit_torque", "pumping_unit.R")
+    plan = lw.read_study(study(tmp_path, *of, '{ curve = "gear_torque.torque_net", extreme = "max" }'))
+    rows = lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, of[1])])})
+    gear = lw.pumping_unit(plan.machine).gear
+    assert gear is not None
+    assert rows.columns["number"][0] == gear.torque_net.max()
+
+
+def test_stress_of_a_throw_is_a_response(tmp_path: Path) -> None:
+    response = '{ curve = "shaft_stress.crank_2.vibratory", extreme = "max" }'
+    plan = lw.read_study(study(tmp_path, *TRAIN, response))
+    rows = lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, TRAIN[1])])})
+    stress = lw.shaft_stress(plan.machine)
+    assert rows.columns["number"][0] == stress.vibratory[stress.shafts.index("crank_2")].max()
+
+
 WRONG = {
+    '{ curve = "shaft_stress.nose.vibratory", extreme = "max" }': TRAIN,
+    '"pumping_unit.gear.stroke"': ("pumping_unit_torque", "pumping_unit.R"),
+    '"forced_vibration.shaft_torque_max.bow"': TRAIN,
     '"cam.valve.pressure_angle_max"': ("roller_cam", "bodies.cart.mass"),
     '"steady_state.cart.unevenness"': DRIVE,
     '{ curve = "forced_vibration.bow.shaft_torque_vibratory", extreme = "max" }': TRAIN,

@@ -129,12 +129,14 @@ def _pose(
     placed = pose(machine, phi, speed=speed.value, acceleration=epsilon)
     if json:
         results = placed.to_dict() | {"speed_source": speed.source} | _zero_data(zero)
-        return json_text(Answer(machine=machine.name, results=lambda _: {"pose": results}))
+        return json_text(
+            Answer(machine=machine.name, results=lambda _: {"pose": results}, warnings=_warnings(machine))
+        )
     phi = placed.crank_angle - zero.angle
     rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
     rows = [_row_shown(row, "" if csv else "deg") for row in rows]
     if csv:
-        click.echo(speed, err=True)
+        click.echo("\n".join([str(speed), *_worded(machine)]), err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
         # A transmission angle stands alone: rows are as long as the head all the same.
         empty = (float("nan"),) * 2
@@ -153,7 +155,21 @@ def _pose(
     ]
     if placed.near_limit:
         lines.append(f"near a limit: {', '.join(placed.near_limit)}")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_worded(machine)]) + "\n"
+
+
+def _warnings(machine: Machine) -> list[str]:
+    """What the designer of the linkage should know besides; nothing of one that does not turn fully."""
+    from linkwright.linkages.cautions import linkage_cautions
+    from linkwright.linkages.closure import closure
+    from linkwright.linkages.cycle import linkage
+
+    return [*linkage_cautions(linkage(machine))] if closure(machine).turns_fully else []
+
+
+def _worded(machine: Machine) -> list[str]:
+    """The same as lines for people."""
+    return [f"WARNING  {caution}" for caution in _warnings(machine)]
 
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
@@ -164,7 +180,13 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
     heads = ("name", "quantity", "position", "velocity", "acceleration")
     cells = [(name, what, *(number(x, 8) for x in numbers)) for name, what, numbers in rows]
     table = Table("pose", "Pose", heads, [(*row, *[""] * (len(heads) - len(row))) for row in cells])
-    return Answer(machine=machine.name, units=machine.units, head=lambda: head, tables=lambda: [table])
+    return Answer(
+        machine=machine.name,
+        units=machine.units,
+        warnings=_warnings(machine),
+        head=lambda: head,
+        tables=lambda: [table],
+    )
 
 
 def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str, str, tuple[float, ...]]:
@@ -268,16 +290,18 @@ def _followed(
     followed = follow(machine, law, np.linspace(*span, steps + 1))
     if json:
         moved = results | followed.to_dict(curves=True) | _lists(followed.curves())
-        return json_text(Answer(machine=machine.name, results=lambda _: {"motion": moved}))
+        return json_text(
+            Answer(machine=machine.name, results=lambda _: {"motion": moved}, warnings=_warnings(machine))
+        )
     if zero.angle:
         followed = replace(followed, crank_angle=followed.crank_angle - zero.angle)
     if csv:
-        click.echo(head, err=True)
+        click.echo("\n".join([head, *_worded(machine)]), err=True)
         return curves_csv(followed)
     if is_reported():
         is_taken(_course_answer(machine, followed, head))
         return ""
-    return f"{head}\n{_table(followed)}"
+    return "\n".join([head, _table(followed).rstrip("\n"), *_worded(machine)]) + "\n"
 
 
 def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:
@@ -287,6 +311,7 @@ def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:
     return Answer(
         machine=machine.name,
         units=machine.units,
+        warnings=_warnings(machine),
         head=lambda: head[:1].upper() + head[1:],
         tables=partial(course_tables, followed),
         figures=partial(course_figures, followed),

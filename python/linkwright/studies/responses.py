@@ -1,10 +1,13 @@
 """What a study asks: the analyses that give it, and one number out of each result.
 
 A response is named by its analysis and its quantity, ``steady_state.unevenness``; where a machine has several
-of a kind the name stands between, ``cam.valve.pressure_angle_max``. ``motion.C.x`` is the place of a point
-over the crank angle, ``motion.C.y`` likewise. ``path.tool.error_rms`` is how far a point passes from the path
-``tool`` of the study. ``forces.reaction_max.A`` is the largest force of a pair, ``linkage.R.swing`` the swing
-of an element.
+of a kind the name stands between, ``cam.valve.pressure_angle_max``; so does that of a result within another,
+``pumping_unit.gear.work``. The names of `linkwright.sensitivity` mean the same numbers here, such as
+``free_vibration.natural_frequencies.1`` and ``forced_vibration.shaft_torque_max.SHAFT``.
+
+``motion.C.x`` is the place of a point over the crank angle, ``motion.C.y`` likewise. ``path.tool.error_rms``
+is how far a point passes from the path ``tool`` of the study. ``forces.reaction_max.A`` is the largest force
+of a pair, ``linkage.R.swing`` the swing of an element.
 """
 
 from __future__ import annotations
@@ -12,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from inspect import signature
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
 
@@ -36,6 +39,8 @@ from linkwright.studies.study_response import (
     StudyResponse,
     wrong,
 )
+from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.response.stress import stressed
 
 # Analysis → the function that makes it of a machine, and a name where there are several.
 ANALYSES = {
@@ -57,6 +62,7 @@ ANALYSES = {
     "topper_field": "topping.field:topper_field",
     "free_vibration": "torsion.modes.free:free_vibration",
     "forced_vibration": "torsion.response.forced:forced_vibration",
+    "shaft_stress": "torsion.response.stress:shaft_stress",
 }
 
 # The largest force of every pair, by its name.
@@ -77,6 +83,7 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
     """
     if response.entry is not None:
         return _of_entry(machine, name, response.entry)
+    response = _as_curve(_by_full_name(response))
     text = response.quantity or response.curve or ""
     first, *rest = text.split(".")
     key = "quantity" if response.quantity is not None else "curve"
@@ -90,11 +97,12 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         return _of_pair(machine, name, key, text, response)
     if first == LINKAGE and len(rest) > 1:
         return _of_element(machine, name, key, text, response)
-    owner = get_type_hints(analysis(first))["return"]
+    owner, inner, rest = _within(get_type_hints(analysis(first))["return"], rest)
     known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
     *of, quantity = rest
     if quantity not in known:
-        raise wrong(name, key, text, f"a quantity of {first}", suggestion(quantity, known))
+        of_result = ".".join(filter(None, (first, inner)))
+        raise wrong(name, key, text, f"a quantity of {of_result}", suggestion(quantity, known))
     wants_curve = response.curve is not None
     if is_array(owner, quantity) and not wants_curve:
         remedy = f'{{ curve = "{text}", extreme = "max" }}'
@@ -116,10 +124,56 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         raise wrong(name, "index", f"{text}, a list of curves", f"extreme{one}")
     return StudyResponse(
         *(name, first, own, quantity, mark.word, mark.unit, *picked),
+        inner=inner,
         axes=axes,
         level=response.level,
         otherwise=response.otherwise,
     )
+
+
+# Curves over the speeds of which `linkwright.sensitivity` names the largest number of a shaft.
+_OF_SHAFTS = ("forced_vibration.shaft_torque_vibratory", "forced_vibration.shaft_torque_max")
+_OF_DISCS = "free_vibration.mode_shapes"
+
+
+def _by_full_name(response: Response) -> Response:
+    """A response of a result within another that `run` tells by itself."""
+    short = "gear_torque."
+    for key in ("quantity", "curve"):
+        if (getattr(response, key) or "").startswith(short):
+            full = f"pumping_unit.gear.{getattr(response, key).removeprefix(short)}"
+            return response.with_entries({key: full})
+    return response
+
+
+def _as_curve(response: Response) -> Response:
+    """A number of a curve that has a name by itself, as one of the curve."""
+    text = response.quantity
+    if text is None:
+        return response
+    curve, _, place = text.rpartition(".")
+    _, of_result, _ = curve.rpartition(".")
+    same: dict[str, Any] = {}
+    if text.startswith(f"{_OF_DISCS}.") and len(parts := text.split(".", 3)) == 4 and parts[2].isdecimal():
+        same = {"curve": f"free_vibration.{parts[3]}.mode_shapes", "index": int(parts[2])}
+    elif place.isdecimal() and of_result:
+        same = {"curve": curve, "index": int(place)}
+    for quantity in _OF_SHAFTS:
+        if text.startswith(f"{quantity}."):
+            first, last = quantity.split(".")
+            shaft = text.removeprefix(f"{quantity}.")
+            same = {"curve": f"{first}.{shaft}.{last}", "extreme": "max"}
+    return response.with_entries({"quantity": None} | same) if same else response
+
+
+def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:
+    """The result within a result that names lead to, its name there, and what is left of them."""
+    if len(rest) > 1:
+        hint = get_type_hints(owner).get(rest[0])
+        for kind in (hint, *get_args(hint)):
+            if isinstance(kind, type) and issubclass(kind, Result):
+                return kind, rest[0], rest[1:]
+    return owner, "", rest
 
 
 def require_place(machine: Machine, response: StudyResponse) -> None:
@@ -149,6 +203,8 @@ def _require_part(
             return
     elif not of:
         return
+    elif first == "shaft_stress" and machine.train is not None:
+        known = [*stressed(whole_train(machine.train).shafts)]
     elif machine.train is not None and place is not None:
         known = [*getattr(analysis("free_vibration")(machine), place)]
     else:

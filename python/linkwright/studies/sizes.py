@@ -25,6 +25,8 @@ from linkwright.sizing.motor_change import rotor_inertia
 from linkwright.sizing.power import required_power
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
+from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.response.stress import stressed
 
 # Motors of the catalogue that are considered, from the smallest with sufficient power on.
 _MOTORS = 6
@@ -209,7 +211,7 @@ def damper_study(
     shaft : str
         The shaft that is to last.
     stress, torque : float, optional
-        Permitted vibratory shear stress [Pa], of a shaft with sections, or torque [N m]; one of them.
+        Permitted vibratory shear stress [Pa], of a shaft with a section, or torque [N m]; one of them.
 
     Returns
     -------
@@ -225,7 +227,8 @@ def damper_study(
     train = machine.train
     name = _one(name, train.dampers if train else {}, "damper")
     assert train is not None
-    shaft = _one(shaft, train.shafts, "shaft")
+    shafts = whole_train(train).shafts
+    shaft = _one(shaft, shafts, "shaft")
     if (stress is None) == (torque is None):
         raise InputError("stress, torque: found both or neither, expected one of them")
     damper, address = train.dampers[name], f"train.dampers.{name}"
@@ -233,16 +236,13 @@ def damper_study(
     for entry in ("damping", "stiffness"):
         if value := getattr(damper, entry):
             variables[entry] = _about(f"{address}.{entry}", value)
-    vibratory = {"curve": f"forced_vibration.{shaft}.shaft_torque_vibratory", "extreme": "max"}
-    responses: dict[str, Any] = {"size": {"formula": "ring"}, "vibratory": vibratory}
+    responses: dict[str, Any] = {"size": {"formula": "ring"}}
     if stress is not None:
-        sections = train.shafts[shaft].sections
-        if not sections:
-            raise InputError(
-                f"train.shafts.{shaft}: found no sections, expected some for its stress; limit torque"
-            )
-        modulus = min(section.section_modulus for section in sections)
-        responses["stress"] = {"formula": f"vibratory/{float(modulus)!r}"}
+        if shaft not in stressed(shafts):
+            raise InputError(f"{shaft}: found no section, expected one for its stress; limit its torque")
+        responses["stress"] = {"curve": f"shaft_stress.{shaft}.vibratory", "extreme": "max"}
+    else:
+        responses["vibratory"] = f"forced_vibration.shaft_torque_vibratory.{shaft}"
     kept = {"stress": {"max": stress}} if stress is not None else {"vibratory": {"max": torque}}
     return new_study(machine, _tables(variables, responses, kept, "size"))
 

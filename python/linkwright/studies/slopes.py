@@ -166,7 +166,7 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
                 entry_number(machine, *asked.of) if given is None else given, len(plan.axes)
             )
         analysis = _analysis(asked)
-        if analysis not in SOURCES or asked.extreme is not None:
+        if analysis not in SOURCES or (asked.extreme is not None and not _is_over_speeds(asked)):
             continue
         if analysis not in sources:
             sources[analysis] = _source(machine, analysis, tuple(entries))
@@ -209,9 +209,15 @@ def _analysis(asked: StudyResponse) -> str:
 def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
     place = (str(asked.index),) if asked.index is not None else ()
-    if asked.analysis == "forces":
-        return ".".join((asked.analysis, asked.quantity, *asked.of))
-    return ".".join((_analysis(asked), *asked.of, asked.quantity, *place))
+    inner = (asked.inner,) if asked.inner else ()
+    if asked.analysis in ("forces", "free_vibration", "forced_vibration"):
+        return ".".join((asked.analysis, asked.quantity, *place, *asked.of))
+    return ".".join((_analysis(asked), *inner, *asked.of, asked.quantity, *place))
+
+
+def _is_over_speeds(asked: StudyResponse) -> bool:
+    """Whether the extreme is that of a shaft over the speeds, which has derivatives."""
+    return asked.analysis == "forced_vibration" and asked.extreme == "max" and bool(asked.of)
 
 
 # Places of differences in steps, and twelve times their weights: about the middle, and to either side of an

@@ -57,6 +57,7 @@ class StudyResponse:
     extreme: str | None = None  # what is taken of a curve
     index: int | None = None  # place in a list
     at: float | None = None  # crank angle at which a motion is taken [rad]
+    inner: str = ""  # name of the result within that of the analysis
     axes: tuple[str, ...] = ()  # of a list of curves: `("shafts", "speeds")`
     level: float | None = None  # confidence level of an interval; without it, that of the analysis
     otherwise: float | None = None  # what stands for a number that the machine does not have
@@ -89,7 +90,9 @@ class StudyResponse:
         """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
         if self.analysis == LINKAGE and self.of:
             result = result.element(*self.of)
-        value = getattr(result, self.quantity)
+        if self.inner:
+            result = getattr(result, self.inner)
+        value = None if result is None else getattr(result, self.quantity)
         if isinstance(value, Mapping):
             value = value.get(*self.of)
         if value is not None and (self.extreme is not None or self.index is not None):

@@ -811,7 +811,7 @@ pub fn leap(mesh: &Mesh, pieces: &[Piece]) -> f64 {
     leaps.fold(0.0, f64::max)
 }
 
-/// The least and the greatest u that a step may have: its quintic leaves the range of its six samples by less than three
+/// The smallest and the largest u that a step may have: its quintic leaves the range of its six samples by less than three
 /// quarters of it, and an end on a kink leaves it by rounding.
 fn reach(piece: &Piece) -> [f64; 2] {
     let (low, high) = piece.X.iter().fold((piece.u, piece.u), |(low, high), &u| (low.min(u), high.max(u)));

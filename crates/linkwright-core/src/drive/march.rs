@@ -451,14 +451,19 @@ impl March<'_> {
             nearest = high.clone();
         }
         let falls = high.gain() < 0.0;
-        let mut top = high.start;
+        let (mut top, mut best) = (high.start, nearest.clone());
         while top - bottom > REPEATS * top && (nearest.newton() / nearest.start - 1.0).abs() > REPEATS {
             let newton = nearest.newton();
             let is_inside = newton > bottom && newton < top;
             high = self.turning(if is_inside { newton } else { 0.5 * (bottom + top) })?;
             *if (high.gain() < 0.0) == falls { &mut top } else { &mut bottom } = high.start;
+            if high.gain().abs() < best.gain().abs() {
+                best = high.clone();
+            }
             nearest = high;
         }
+        // Under a drive that is steep between kinks, as a speed controller is, gains scatter by what the steps miss of the kinks.
+        let nearest = best;
         if self.refined == 1 && !self.away.is_nan() && !falls {
             self.away = top;
         }
