@@ -150,3 +150,50 @@ def test_extremes_beside_a_kink_of_a_steep_motor() -> None:
             told = 2.5 * (max(motion.accuracy, accuracy) + best.accuracy) * size
             for name in names:
                 assert abs(getattr(motion, name) - getattr(best, name)) <= told, (number, name, accuracy)
+
+
+# A speed controller: the full torque up to the speed that is wanted, and the full brake above it.
+CONTROLLED = """
+format = 1
+name = "Rocker under a speed controller"
+[drive.motor]
+kind = "table"
+inertia = 8.95222534682408e-06
+speed = [0.0, {low}, 122.61576206758242, {high}]
+torque = [0.015917580739390248, 0.015917580739390248, 0.0, -0.015917580739390248]
+[drive.gearbox]
+ratio = 3.0
+efficiency = 0.9
+reverse = "same"
+[mechanism.points]
+P = {{ x = -0.0959711764732497, y = 0.3407535204045866 }}
+[mechanism.cranks.A]
+radius = 0.08983606790420712
+[mechanism.rockers.R]
+crank = "A"
+pivot = "P"
+coupler = 0.23076310911831346
+rocker = 0.25612772715830323
+assembly = "right"
+[bodies]
+A = {{ inertia = 1.6522213457252124e-05 }}
+"R.rocker" = {{ inertia = 0.0007018443528230996 }}
+"R.coupler" = {{ mass_per_length = 0.15746368042543368 }}
+[loads]
+friction = {{ kind = "dry", on = "R.rocker", torque = 0.005140104113344058 }}
+gravity = {{ kind = "gravity" }}
+"""
+
+
+def controlled(band: float) -> lw.Machine:
+    idle = 122.61576206758242
+    return lw.loads(CONTROLLED.format(low=idle * (1 - band), high=idle * (1 + band)))
+
+
+def test_a_controller_with_a_narrow_band_is_no_refusal() -> None:
+    """The narrower, the nearer to the motion of the narrowest; to that comes the motion in time too."""
+    bands = np.geomspace(1e-2, 1e-4, 41)
+    speeds = np.array([lw.steady_state(controlled(band)).speed[0] for band in bands])
+    followed = lw.transient(controlled(bands[-1]), speed=34.0, turns=30, accuracy=1e-9)
+    assert followed.speed[-1] == pytest.approx(speeds[-1], rel=1e-6)
+    assert (np.abs(speeds / speeds[-1] - 1) <= bands).all()
