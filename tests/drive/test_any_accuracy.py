@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.kernel.errors import ConvergenceError
 
 # A shaper with a limited motor: from the balance Newton's method finds the motion on some meshes alone.
 SHAPER = """
@@ -197,3 +200,19 @@ def test_a_controller_with_a_narrow_band_is_no_refusal() -> None:
     followed = lw.transient(controlled(bands[-1]), speed=34.0, turns=30, accuracy=1e-9)
     assert followed.speed[-1] == pytest.approx(speeds[-1], rel=1e-6)
     assert (np.abs(speeds / speeds[-1] - 1) <= bands).all()
+
+
+def test_what_is_not_found_is_looked_at_in_time() -> None:
+    """A band of a millionth is too narrow for some: what is said then is the motion of a wider one."""
+    wide = lw.steady_state(controlled(1e-3))
+    told = 0
+    for band in np.geomspace(1e-5, 1e-8, 13):
+        try:
+            steady = lw.steady_state(controlled(band))
+        except ConvergenceError as error:
+            told += 1
+            low, high = re.findall(r"settles between ([\d.]+) and ([\d.]+) rad/s", str(error))[0]
+        else:
+            low, high = steady.speed_min, steady.speed_max
+        assert [float(low), float(high)] == pytest.approx([wide.speed_min, wide.speed_max], rel=2e-4)
+    assert told

@@ -18,6 +18,7 @@
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_up` | Run-up from rest, and run-down with the motor off |
+| `settling` | Where does a machine come to in time whose steady motion was not found? |
 | `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every revolution |
 | `steady_state` | How does it turn in the long run? |
 | `step_method` | What does the published step method give instead? |

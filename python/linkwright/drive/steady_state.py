@@ -17,6 +17,7 @@ import numpy as np
 from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
+from linkwright.drive.settling import in_time
 from linkwright.drive.sound_loads import require_same_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
@@ -45,7 +46,6 @@ _SPEEDS = 400
 # Share of the square of the speed that accelerations are at least compared with.
 _LEAST_ACCELERATION = 1e-4
 
-_IN_TIME = "follow the machine in time (linkwright transient) to see what it does"
 
 # Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
 _ROUNDING = 1e-12
@@ -504,7 +504,8 @@ def _failure(
     if motion.status == Status.UNDECIDED:
         return ConvergenceError(
             "whether there is a steady motion was not decided: a search takes "
-            f"{SEARCH_TURNS_MAX} revolutions and {SEARCH_STEPS_MAX} steps of integration at most; {_IN_TIME}",
+            f"{SEARCH_TURNS_MAX} revolutions and {SEARCH_STEPS_MAX} steps of integration at most; "
+            + in_time(machine, compiled.speed_guess, compiled.turns),
             method="integration over revolutions",
             iterations=SEARCH_TURNS_MAX,
         )
@@ -512,7 +513,8 @@ def _failure(
         return ConvergenceError(
             "a periodic motion exists"
             + ("" if np.isnan(speed) else f" at {speed:.4g} rad/s at φ = 0°")
-            + f", but Newton's method does not converge to it: its numbers are not known; {_IN_TIME}",
+            + ", but Newton's method does not converge to it: its numbers are not known; "
+            + in_time(machine, compiled.speed_guess if np.isnan(speed) else speed, compiled.turns),
             method="Newton's method",
         )
     if not reached > accuracy:
