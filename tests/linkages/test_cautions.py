@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -48,3 +49,12 @@ def test_motion_tells_of_it(way: list[str], tmp_path: Path) -> None:
     assert "next to a change point" in told.output
     found = json.loads(CliRunner().invoke(application(), ["motion", str(file), *way, "--json"]).output)
     assert "next to a change point" in found["warnings"][0]
+
+
+def test_motion_tells_the_angle_as_it_counts_it(tmp_path: Path) -> None:
+    """The links are in line at 0° of the file, a quarter of a revolution behind the outer dead centre."""
+    file = tmp_path / "rhombus.toml"
+    file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
+    told = CliRunner().invoke(application(), ["motion", str(file), "--steps", "4", "--zero", "B outer"])
+    angle = re.findall(r"of a line at a crank angle of ([\d.]+)°", told.output)
+    assert float(angle[0]) == pytest.approx(90.0, abs=0.01)

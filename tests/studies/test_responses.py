@@ -280,3 +280,32 @@ def test_a_derived_entry_out_of_range_is_refused_as_in_a_machine(tmp_path: Path)
     assert not rows.one_by_one
     with pytest.raises(MachineError, match="at most 1e\\+06 m"):
         lw.replace(lw.read(DRIVE[0]), {"mechanism.sliders.cart1.rod": np.array([0.8, 8e149])})
+
+
+DIGITS = """
+format = 1
+name = "Slider-crank with a crank called 1"
+[mechanism.cranks.1]
+radius = 0.1
+[mechanism.sliders.P]
+crank = "1"
+rod = 0.3
+[bodies]
+P = { mass = 2.0 }
+[drive]
+speed = 10.0
+"""
+
+
+def test_a_part_whose_name_is_a_number_is_no_place_in_a_list(tmp_path: Path) -> None:
+    (tmp_path / "digits.toml").write_text(DIGITS)
+    of = (str(tmp_path / "digits.toml"), "bodies.P.mass")
+    plan = lw.read_study(study(tmp_path, *of, '"forces.reaction_max.1"'))
+    rows = lw.evaluate(plan, {"entry": np.array([2.0])})
+    assert rows.columns["number"][0] == pytest.approx(lw.forces(plan.machine).reaction_max["1"], rel=1e-12)
+
+
+def test_what_is_wrong_with_a_name_is_told_as_it_was_written(tmp_path: Path) -> None:
+    name = "forced_vibration.shaft_torque_vibratory.bow"
+    with pytest.raises(MachineFileError, match=rf'responses\.number\.quantity(.|\n)*"{name}"'):
+        lw.read_study(study(tmp_path, *TRAIN, f'"{name}"'))

@@ -14,16 +14,17 @@ from linkwright.linkages.cycle import Linkage
 _IN_LINE, _NEAR = 1e-6, np.radians(1.0)
 
 
-def linkage_cautions(linkage: Linkage) -> Iterator[str]:
-    """Elements whose links almost come into line."""
+def linkage_cautions(linkage: Linkage, zero: float = 0.0) -> Iterator[str]:
+    """Elements whose links almost come into line. `zero`: crank angle from which angles are counted [rad]."""
     for element in linkage.elements:
         worst = element.transmission_angle_worst
         if worst is None or not _IN_LINE < worst < _NEAR:
             continue
         is_least = worst == element.transmission_angle_min
         at = element.transmission_angle_min_angle if is_least else element.transmission_angle_max_angle
+        angle = ((at or 0.0) - zero) % (2 * np.pi)
         yield (
             f"The links of {element.element} come within {degrees(worst)} of a line at a crank angle of "
-            f"{degrees(at or 0.0)}, next to a change point: slightly other lengths move it another way from "
+            f"{degrees(angle)}, next to a change point: slightly other lengths move it another way from "
             "there on, and velocities and forces there grow as the angle falls"
         )

@@ -136,7 +136,7 @@ def _pose(
     rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
     rows = [_row_shown(row, "" if csv else "deg") for row in rows]
     if csv:
-        click.echo("\n".join([str(speed), *_worded(machine)]), err=True)
+        click.echo("\n".join([str(speed), *_worded(machine, zero)]), err=True)
         heads = ("name", "quantity", "position", "velocity", "acceleration")
         # A transmission angle stands alone: rows are as long as the head all the same.
         empty = (float("nan"),) * 2
@@ -155,21 +155,21 @@ def _pose(
     ]
     if placed.near_limit:
         lines.append(f"near a limit: {', '.join(placed.near_limit)}")
-    return "\n".join([*lines, *_worded(machine)]) + "\n"
+    return "\n".join([*lines, *_worded(machine, zero)]) + "\n"
 
 
-def _warnings(machine: Machine) -> list[str]:
+def _warnings(machine: Machine, zero: float = 0.0) -> list[str]:
     """What the designer of the linkage should know besides; nothing of one that does not turn fully."""
     from linkwright.linkages.cautions import linkage_cautions
     from linkwright.linkages.closure import closure
     from linkwright.linkages.cycle import linkage
 
-    return [*linkage_cautions(linkage(machine))] if closure(machine).turns_fully else []
+    return [*linkage_cautions(linkage(machine), zero)] if closure(machine).turns_fully else []
 
 
-def _worded(machine: Machine) -> list[str]:
-    """The same as lines for people."""
-    return [f"WARNING  {caution}" for caution in _warnings(machine)]
+def _worded(machine: Machine, zero: Zero) -> list[str]:
+    """The same as lines for people, with angles as they count them."""
+    return [f"WARNING  {caution}" for caution in _warnings(machine, zero.angle)]
 
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
@@ -296,12 +296,12 @@ def _followed(
     if zero.angle:
         followed = replace(followed, crank_angle=followed.crank_angle - zero.angle)
     if csv:
-        click.echo("\n".join([head, *_worded(machine)]), err=True)
+        click.echo("\n".join([head, *_worded(machine, zero)]), err=True)
         return curves_csv(followed)
     if is_reported():
         is_taken(_course_answer(machine, followed, head))
         return ""
-    return "\n".join([head, _table(followed).rstrip("\n"), *_worded(machine)]) + "\n"
+    return "\n".join([head, _table(followed).rstrip("\n"), *_worded(machine, zero)]) + "\n"
 
 
 def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:

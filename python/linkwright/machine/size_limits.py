@@ -17,13 +17,16 @@ from linkwright.machine import iso286
 # "± 0.2 mm"; "+0.1 -0.3 mm" or "+0.1/-0.3 mm", in either order; before it there may be the size,
 # "0.8 m ± 0.2 mm". A comma belongs to the number, so that it is that which is refused.
 _AND = r"(?:\s*/\s*|\s+)"
+# One of two limits: with its sign, or 0, as drawings write it.
+_SIGNED, _ZERO = r"[+-]\s*[\d.,]+(?:[eE][+-]?\d+)?", r"0(?:[.,]0*)?"
+_LIMIT = rf"(?:{_SIGNED}|{_ZERO})"
 _SIZED = re.compile(
     r"\s*(-?[\d.,]+(?:[eE][+-]?\d+)?[^±+-]*?)"
-    rf"\s*((?:±|\+/-|[+-]\s*[\d.,]+{_AND}[+-]\s*[\d.,]).*)",
+    rf"\s*((?:±|\+/-|{_SIGNED}{_AND}{_LIMIT}|(?<=\s){_ZERO}{_AND}{_SIGNED}).*)",
     re.DOTALL,
 )
 _EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.,]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
-_UNEVEN = re.compile(rf"\s*([+-]\s*[\d.,]+){_AND}([+-]\s*[\d.,]+)\s*(.*)", re.DOTALL)
+_UNEVEN = re.compile(rf"\s*({_LIMIT}){_AND}({_LIMIT})\s*(.*)", re.DOTALL)
 # A number and its unit.
 _MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
 # A size and its class, "25 H7", "25 mm H7", "0.2 m H7": grades are no powers of a unit.

@@ -23,6 +23,9 @@ from linkwright.pumping.unit import PolishedRod, turn_extreme
 # Angles over which the motion of a stroke is looked at.
 _ANGLES = 1440
 
+# Difference of the way forward from the swing that is rounding [rad].
+_ONCE = 1e-9
+
 
 @dataclass(frozen=True)
 class LeverMotion:
@@ -120,7 +123,7 @@ def takes_along(rotator: RodRotator, rod: PolishedRod, lever: Lever) -> Callable
     return lambda motion: (sense * motion.lever_d1 > 0).astype(np.float64)
 
 
-def worm_turns_of(rotator: RodRotator, lever: Lever, fine: LeverMotion) -> float:
+def worm_turns_of(rotator: RodRotator, lever: Lever, fine: LeverMotion, swing: float) -> float:
     """Revolutions of the worm per revolution of the crank."""
     turns = abs(turns_of(fine))
     if rotator.regime == "continuous" or turns:
@@ -129,4 +132,6 @@ def worm_turns_of(rotator: RodRotator, lever: Lever, fine: LeverMotion) -> float
     # start of the revolution, at which it may.
     rate = turn_curve(lambda at: lever.motion(at).lever_d1[None], np.array([0.0, 2 * np.pi]), "motion")
     back = _about_middle(lever, fine)(np.append(0.0, rate.crossings()))
-    return float(np.abs(np.diff(back, append=back[:1])).sum()) / (4 * np.pi)
+    # A lever that rocks once goes forward by its swing, whose ends are known to rounding.
+    way = 0.5 * float(np.abs(np.diff(back, append=back[:1])).sum())
+    return (swing if abs(way - swing) < _ONCE else way) / (2 * np.pi)

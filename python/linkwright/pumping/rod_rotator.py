@@ -201,7 +201,7 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
     diagonal_ends = [turn_extreme(lambda at: lever.motion(at).diagonal, sign)[0] for sign in (-1, +1)]
     at_ends = lever.motion(np.array([rod.top, rod.bottom])).diagonal
     turns, swing = turns_of(fine), swing_of(lever, fine)
-    worm_turns = worm_turns_of(rotator, lever, fine)
+    worm_turns = worm_turns_of(rotator, lever, fine, swing)
     takes = takes_along(rotator, rod, lever)
     days = _days(rotator, speed, worm_turns)
     return RodRotatorMotion(

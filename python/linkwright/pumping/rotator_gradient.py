@@ -35,6 +35,7 @@ from linkwright.pumping.model.rotator_lengths import (
     Lengths,
     LeverStroke,
     lengths,
+    required,
     turning_shares,
     zeros_of_stroke,
 )
@@ -205,11 +206,15 @@ class RotatorAlong:
         shares = turning_shares(still.unit, still.rotator, still.lengths.lever, still.excess)
         angle = self._array(along.stroke(shares).angle(along.lengths.lever, along.excess)[0])
         high, low = (self._extreme("lever_swing", angle, sign) for sign in (1, -1))
+        swing = high - low
         if still.rotator.regime == "continuous":
-            return {"lever_swing": high - low}
+            return {"lever_swing": swing}
+        if still.rotator.link_length is None:
+            # The lever is made for it, whatever else changes.
+            swing = required(along.rotator)
         # What goes forward in one stroke comes back in the other.
-        turns: Any = np.abs(angle[1:] - angle[:-1]).sum() / (2 * np.pi)
-        return {"lever_swing": high - low, name: turns}
+        way: Any = swing if len(angle) == 2 else np.abs(angle[1:] - angle[:-1]).sum()
+        return {"lever_swing": swing, name: way / (2 * np.pi)}
 
     def _force(self, torque: Any, numbers: dict[str, Any]) -> Any:
         """Maximum force in the link: at one end of the diagonal its arm l_5 sin(φ_4 − φ_5) is smallest."""

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from inspect import signature
-from typing import Any, get_args, get_type_hints
+from typing import Any, NamedTuple, get_args, get_type_hints
 
 import numpy as np
 
@@ -65,6 +65,9 @@ ANALYSES = {
     "shaft_stress": "torsion.response.stress:shaft_stress",
 }
 
+# What `run` calls a result within another → the analysis, and its name there.
+_WITHIN = {"gear_torque": ("pumping_unit", "gear")}
+
 # The largest force of every pair, by its name.
 PAIRS = "forces.reaction_max"
 
@@ -83,27 +86,30 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
     """
     if response.entry is not None:
         return _of_entry(machine, name, response.entry)
-    response = _as_curve(_by_full_name(response))
     text = response.quantity or response.curve or ""
     first, *rest = text.split(".")
+    if first in _WITHIN:
+        first, rest = _WITHIN[first][0], [_WITHIN[first][1], *rest]
     key = "quantity" if response.quantity is not None else "curve"
     if first == MOTION:
         return of_motion(machine, name, key, text, response)
     if first == PATH:
         return of_path(paths, name, key, text, response)
     if first not in ANALYSES or not rest:
-        raise wrong(name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, MOTION, PATH)))
+        raise wrong(
+            name, key, text, "analysis.quantity", suggestion(first, (*ANALYSES, *_WITHIN, MOTION, PATH))
+        )
     if text.startswith(f"{PAIRS}."):
         return _of_pair(machine, name, key, text, response)
     if first == LINKAGE and len(rest) > 1:
         return _of_element(machine, name, key, text, response)
     owner, inner, rest = _within(get_type_hints(analysis(first))["return"], rest)
     known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
-    *of, quantity = rest
+    of, quantity, extreme, index, wants_curve = _wanted(first, owner, rest, response)
     if quantity not in known:
         of_result = ".".join(filter(None, (first, inner)))
-        raise wrong(name, key, text, f"a quantity of {of_result}", suggestion(quantity, known))
-    wants_curve = response.curve is not None
+        remedy = suggestion(quantity, known) or f"such as {of_result}.{next(iter(known))}"
+        raise wrong(name, key, text, f"a quantity of {of_result}", remedy)
     if is_array(owner, quantity) and not wants_curve:
         remedy = f'{{ curve = "{text}", extreme = "max" }}'
         raise wrong(name, key, f"{text}, which is a curve", "one number", remedy)
@@ -116,9 +122,9 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
     )
     if response.level is not None and "level" not in signature(analysis(first)).parameters:
         raise wrong(name, "level", f"{response.level:g}", f"nothing: {first} has no intervals")
-    picked = (response.extreme, response.index)
+    picked = (extreme, index)
     own = (".".join(of),) if of else ()
-    if response.index is not None and len(axes) - len(own) > 1:
+    if index is not None and len(axes) - len(own) > 1:
         place = next((parts for parts in axes if parts in PARTS and not of), None)
         one = f", or {first}.NAME.{quantity} with NAME of {place}" if place else ""
         raise wrong(name, "index", f"{text}, a list of curves", f"extreme{one}")
@@ -133,37 +139,33 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
 
 # Curves over the speeds of which `linkwright.sensitivity` names the largest number of a shaft.
 _OF_SHAFTS = ("forced_vibration.shaft_torque_vibratory", "forced_vibration.shaft_torque_max")
-_OF_DISCS = "free_vibration.mode_shapes"
 
 
-def _by_full_name(response: Response) -> Response:
-    """A response of a result within another that `run` tells by itself."""
-    short = "gear_torque."
-    for key in ("quantity", "curve"):
-        if (getattr(response, key) or "").startswith(short):
-            full = f"pumping_unit.gear.{getattr(response, key).removeprefix(short)}"
-            return response.with_entries({key: full})
-    return response
+class _Wanted(NamedTuple):
+    """What a name asks of a result."""
+
+    of: list[str]  # keys of the name of a part
+    quantity: str
+    extreme: str | None
+    place: int | None  # in a list
+    is_curve: bool  # whether a number of a curve is asked for
 
 
-def _as_curve(response: Response) -> Response:
-    """A number of a curve that has a name by itself, as one of the curve."""
-    text = response.quantity
-    if text is None:
-        return response
-    curve, _, place = text.rpartition(".")
-    _, of_result, _ = curve.rpartition(".")
-    same: dict[str, Any] = {}
-    if text.startswith(f"{_OF_DISCS}.") and len(parts := text.split(".", 3)) == 4 and parts[2].isdecimal():
-        same = {"curve": f"free_vibration.{parts[3]}.mode_shapes", "index": int(parts[2])}
-    elif place.isdecimal() and of_result:
-        same = {"curve": curve, "index": int(place)}
-    for quantity in _OF_SHAFTS:
-        if text.startswith(f"{quantity}."):
-            first, last = quantity.split(".")
-            shaft = text.removeprefix(f"{quantity}.")
-            same = {"curve": f"{first}.{shaft}.{last}", "extreme": "max"}
-    return response.with_entries({"quantity": None} | same) if same else response
+def _wanted(first: str, owner: type, rest: list[str], response: Response) -> _Wanted:
+    """What the keys of a name ask: the quantity stands last, or, as in `linkwright.sensitivity`, first."""
+    head, *place = rest
+    picked, is_curve = (response.extreme, response.index), response.curve is not None
+    *of, quantity = rest
+    marks = declared(owner)
+    if not place or quantity in marks or head not in marks or not is_array(owner, head):
+        return _Wanted(of, quantity, *picked, is_curve)
+    if is_curve:
+        return _Wanted(place, head, *picked, True)
+    if f"{first}.{head}" in _OF_SHAFTS:
+        return _Wanted(place, head, "max", None, True)
+    if place[0].isdecimal():
+        return _Wanted(place[1:], head, None, int(place[0]), True)
+    return _Wanted(of, quantity, *picked, False)
 
 
 def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:

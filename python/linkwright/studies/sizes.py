@@ -25,7 +25,8 @@ from linkwright.sizing.motor_change import rotor_inertia
 from linkwright.sizing.power import required_power
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.read import new_study
-from linkwright.torsion.model.whole_train import whole_train
+from linkwright.torsion.model.train import Shaft
+from linkwright.torsion.model.whole_train import RodShaft, whole_train
 from linkwright.torsion.response.stress import stressed
 
 # Motors of the catalogue that are considered, from the smallest with sufficient power on.
@@ -238,13 +239,30 @@ def damper_study(
             variables[entry] = _about(f"{address}.{entry}", value)
     responses: dict[str, Any] = {"size": {"formula": "ring"}}
     if stress is not None:
-        if shaft not in stressed(shafts):
-            raise InputError(f"{shaft}: found no section, expected one for its stress; limit its torque")
-        responses["stress"] = {"curve": f"shaft_stress.{shaft}.vibratory", "extreme": "max"}
+        known = stressed(shafts)
+        if shaft not in known:
+            words = (
+                f'shaft: found "{shaft}", of which no section is known, expected one of {", ".join(known)}'
+            )
+            raise InputError(f"{words}; or limit its torque")
+        responses |= _stress(shafts, shaft)
     else:
         responses["vibratory"] = f"forced_vibration.shaft_torque_vibratory.{shaft}"
     kept = {"stress": {"max": stress}} if stress is not None else {"vibratory": {"max": torque}}
     return new_study(machine, _tables(variables, responses, kept, "size"))
+
+
+def _stress(shafts: dict[str, Shaft], name: str) -> dict[str, Any]:
+    """Responses for the vibratory stress of a shaft: by its torque, whose derivatives are exact."""
+    if isinstance(shafts[name], RodShaft):
+        # Its weakest piece is not the same at all speeds.
+        return {"stress": {"curve": f"shaft_stress.{name}.vibratory", "extreme": "max"}}
+    section, limit = stressed(shafts)[name]
+    factor = limit.concentration / section.section_modulus
+    return {
+        "vibratory": f"forced_vibration.shaft_torque_vibratory.{name}",
+        "stress": {"formula": f"vibratory*{float(factor)!r}"},
+    }
 
 
 def _motors(machine: Machine, power: float) -> list[CatalogueMotor]:

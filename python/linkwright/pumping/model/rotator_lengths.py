@@ -99,7 +99,7 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
     return Lengths(plain(link), plain(lever))
 
 
-def _required(rotator: RodRotator) -> Any:
+def required(rotator: RodRotator) -> Any:
     """The swing that the lever is to have [rad]."""
     return np.pi / 2 if rotator.swing is None else rotator.swing
 
@@ -126,14 +126,14 @@ def _lever_along(unit: PumpingUnit, rotator: RodRotator, n: int) -> Any:
         return angle[:, 1:2] - angle[:, 2:3]
 
     moved = LeverStroke.of(unit, rotator, places)
-    late = lifted(_required(rotator) - spread(moved, swing), n).d
+    late = lifted(required(rotator) - spread(moved, swing), n).d
     slope = spread(LeverStroke.of(*still, places), TangentArray(swing, np.ones((1, 1, 1)))).d
     return moved.lever(TangentArray(swing, late / slope))[0, 0]
 
 
 def _swing(stroke: LeverStroke, rotator: RodRotator, varies: bool) -> Any:
     """Swing against the diagonal with which the lever has the required one, (rows, 1) [rad]; or NaN."""
-    wanted = np.atleast_1d(_required(rotator))
+    wanted = np.atleast_1d(required(rotator))
     swings, spread = stroke.first_look()
     if not varies and np.isnan(spread).all():
         raise _no_room(stroke.top[0, 0], stroke.bottom[0, 0])
