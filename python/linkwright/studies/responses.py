@@ -105,7 +105,7 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         return _of_element(machine, name, key, text, response)
     owner, inner, rest = _within(get_type_hints(analysis(first))["return"], rest)
     known = {attribute: mark for attribute, (_, mark) in declared(owner).items() if isinstance(mark, Label)}
-    of, quantity, extreme, index, wants_curve = _wanted(first, owner, rest, response)
+    of, quantity, extreme, index, wants_curve = _asked_for(first, owner, rest, response)
     if quantity not in known:
         of_result = ".".join(filter(None, (first, inner)))
         remedy = suggestion(quantity, known) or f"such as {of_result}.{next(iter(known))}"
@@ -141,7 +141,7 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
 _OF_SHAFTS = ("forced_vibration.shaft_torque_vibratory", "forced_vibration.shaft_torque_max")
 
 
-class _Wanted(NamedTuple):
+class _AskedFor(NamedTuple):
     """What a name asks of a result."""
 
     of: list[str]  # keys of the name of a part
@@ -151,21 +151,21 @@ class _Wanted(NamedTuple):
     is_curve: bool  # whether a number of a curve is asked for
 
 
-def _wanted(first: str, owner: type, rest: list[str], response: Response) -> _Wanted:
+def _asked_for(first: str, owner: type, rest: list[str], response: Response) -> _AskedFor:
     """What the keys of a name ask: the quantity stands last, or, as in `linkwright.sensitivity`, first."""
     head, *place = rest
     picked, is_curve = (response.extreme, response.index), response.curve is not None
     *of, quantity = rest
     marks = declared(owner)
     if not place or quantity in marks or head not in marks or not is_array(owner, head):
-        return _Wanted(of, quantity, *picked, is_curve)
+        return _AskedFor(of, quantity, *picked, is_curve)
     if is_curve:
-        return _Wanted(place, head, *picked, True)
+        return _AskedFor(place, head, *picked, True)
     if f"{first}.{head}" in _OF_SHAFTS:
-        return _Wanted(place, head, "max", None, True)
+        return _AskedFor(place, head, "max", None, True)
     if place[0].isdecimal():
-        return _Wanted(place[1:], head, None, int(place[0]), True)
-    return _Wanted(of, quantity, *picked, False)
+        return _AskedFor(place[1:], head, None, int(place[0]), True)
+    return _AskedFor(of, quantity, *picked, False)
 
 
 def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:

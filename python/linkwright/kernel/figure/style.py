@@ -167,8 +167,9 @@ def _power_of_ten(value: float) -> str:
     return "10" + str(round(np.log10(value))).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
 
 
-# Letters of a name, and of an address, that a label has room for: longer ones would leave axes none.
-NAME_LETTERS, ADDRESS_LETTERS = 28, 44
+# Letters of a name at a mark, in a legend, and of an address that a label has room for: longer ones would
+# leave axes none.
+MARK_LETTERS, NAME_LETTERS, ADDRESS_LETTERS = 18, 28, 44
 
 
 def shortened(name: str, letters: int) -> str:

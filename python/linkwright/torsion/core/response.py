@@ -163,6 +163,8 @@ def dynamic_orders(referred: ReferredTrain, at: OperatingState, orders: Floats) 
     return DynamicOrders(*map(by_order, (there.stiffness, there.inertia, first, second)))
 
 
+# Amplitudes at a resonance without damping are not finite.
+@np.errstate(divide="ignore", invalid="ignore", over="ignore")
 def _distributed(
     tree: Tree, at: OperatingState, there: DynamicOrders, orders: Floats, torques: Complexes
 ) -> Complexes:

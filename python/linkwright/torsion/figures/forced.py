@@ -13,6 +13,7 @@ from linkwright.kernel.figure.style import (
     BLUE,
     INK,
     LINES,
+    MARK_LETTERS,
     ORANGE,
     RED,
     SKY,
@@ -21,6 +22,7 @@ from linkwright.kernel.figure.style import (
     level,
     named,
     panels,
+    shortened,
     styled,
 )
 
@@ -61,7 +63,7 @@ def shaft_torques_figure(forced: ForcedVibration) -> Figure:
     figure, (axes,) = panels(1, height=_HEIGHT)
     size = forced.shaft_torque_vibratory
     for s, colour in zip(_largest(size), LINES, strict=False):
-        axes.plot(_rpm(forced.speeds), size[s] / 1e3, color=colour, label=forced.shafts[s])
+        axes.plot(_rpm(forced.speeds), size[s] / 1e3, color=colour, label=named(forced.shafts[s]))
     _over_speed(axes, forced.speeds, "vibratory torque [kN m]")
     axes.set_xlabel("speed of the first disc [rpm]")
     legend_above(axes)
@@ -122,11 +124,11 @@ def orders_figure(
     """
     figure, (axes,) = panels(1, height=_HEIGHT + 0.2)
     rpm = _rpm(forced.speeds)
-    named = _largest(single)
+    largest = _largest(single)
     for k in range(len(single)):
-        if k not in named:
+        if k not in largest:
             axes.plot(rpm, single[k] * factor, color="#c3c9d0", linewidth=0.8)
-    for k, colour in zip(named, LINES, strict=False):
+    for k, colour in zip(largest, LINES, strict=False):
         axes.plot(rpm, single[k] * factor, color=colour, linewidth=1.3, label=f"order {forced.orders[k]:.4g}")
     axes.plot(rpm, total * factor, color=INK, linewidth=2.0, label="all orders")
     _over_speed(axes, forced.speeds, label)
@@ -152,13 +154,14 @@ def torsion_unevenness_figure(forced: ForcedVibration, row: list[int], speed: fl
     for n, (values, words, colour) in enumerate(parts):
         along.bar(x + 0.27 * (n - 1), values[row, at], width=0.25, color=colour, label=words)
     turned = 30 if len(x) > 6 or max(map(len, forced.discs)) > 9 else 0
-    along.set_xticks(x, [forced.discs[d] for d in row], rotation=turned, ha="right" if turned else "center")
+    names = [shortened(forced.discs[d], MARK_LETTERS) for d in row]
+    along.set_xticks(x, names, rotation=turned, ha="right" if turned else "center")
     along.set_ylabel(f"δ at {_rpm(forced.speeds)[at]:.0f} rpm")
     along.grid(visible=False, axis="x")
     legend_above(along)
     shown = dict.fromkeys([0, int(forced.unevenness[:, at].argmax()), int(forced.unevenness[:, at].argmin())])
     for d, colour in zip(shown, (BLUE, RED, LINES[2]), strict=False):
-        over.plot(_rpm(forced.speeds), forced.unevenness[d], color=colour, label=forced.discs[d])
+        over.plot(_rpm(forced.speeds), forced.unevenness[d], color=colour, label=named(forced.discs[d]))
     rigid = forced.unevenness_rigid[0]
     over.plot(_rpm(forced.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="rigid-body rotation")
     _over_speed(over, forced.speeds, "speed fluctuation δ")

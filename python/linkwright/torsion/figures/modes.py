@@ -12,12 +12,14 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
+    MARK_LETTERS,
     ORANGE,
     RED,
     SOFT,
     WIDTH,
     legend_above,
     panels,
+    shortened,
     styled,
     zero_line,
 )
@@ -33,6 +35,9 @@ if TYPE_CHECKING:
 # Modes in one picture, which is then a page high.
 _MODES_MAX = 6
 
+# Letters of names that stand beside each other under the axes; more of them are turned.
+_LETTERS = 70
+
 _PANEL = 1.35
 
 
@@ -45,8 +50,8 @@ def modes_figure(free: FreeVibration, modes: int = 4) -> Figure:
     for panel, k, colour in zip(axes, shown, LINES, strict=False):
         _mode(panel, free, k, colour)
     last = axes[-1]
-    names = [free.discs[d] for d in in_a_row(free.discs, free.joined)]
-    turned = len(names) > 8
+    names = [shortened(free.discs[d], MARK_LETTERS) for d in in_a_row(free.discs, free.joined)]
+    turned = len(names) > 8 or sum(map(len, names)) > _LETTERS
     last.set_xticks(
         range(len(names)), names, rotation=40 if turned else 0, ha="right" if turned else "center"
     )

@@ -8,6 +8,7 @@ from textwrap import wrap
 
 import numpy as np
 
+from linkwright.kernel.figure.style import NAME_LETTERS, shortened
 from linkwright.kernel.page.numbers import quantity
 from linkwright.torsion.figures.scheme_layout import Bridge, Layout, layout
 from linkwright.torsion.model.train import GROUND
@@ -47,15 +48,16 @@ def disc_words(scheme: Scheme, n: int) -> Words:
     """Name, inertia, and where the speed is another one, the referred inertia in brackets."""
     own = quantity(scheme.inertia[n], "kg m²", 4)
     referred = () if _same(scheme.speed[n]) else (f"({scheme.inertia_referred[n]:.4g})",)
-    return Words((scheme.discs[n],), (own, *referred))
+    return Words((shortened(scheme.discs[n], NAME_LETTERS),), (own, *referred))
 
 
 def connection_words(connection: Connection) -> Words:
     """Name and stiffness; the referred stiffness in brackets, and the equivalent length."""
+    name = shortened(connection.name, NAME_LETTERS)
     if connection.kind == "gears":
-        return Words((), (f"{connection.name} i = {connection.ratio:.4g}",))
+        return Words((), (f"{name} i = {connection.ratio:.4g}",))
     if connection.stiffness is None or connection.stiffness_referred is None:
-        return Words((connection.name,), ())
+        return Words((name,), ())
     own = stiffness(connection.stiffness)
     below = (
         []
@@ -63,8 +65,8 @@ def connection_words(connection: Connection) -> Words:
         else [f"({stiffness(connection.stiffness_referred)})"]
     )
     if connection.kind == "mesh":
-        return Words((), (f"{connection.name} i = {connection.ratio:.4g}", own, *below))
-    return Words((connection.name, own), (*below, metres(connection.equivalent_length or 0.0)))
+        return Words((), (f"{name} i = {connection.ratio:.4g}", own, *below))
+    return Words((name, own), (*below, metres(connection.equivalent_length or 0.0)))
 
 
 def stiffness(value: float) -> str:

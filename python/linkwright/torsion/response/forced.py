@@ -139,6 +139,8 @@ def responses(at: ExcitedTrain) -> Complexes:
     return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics)
 
 
+# At a resonance without damping amplitudes are not finite, nor are torques.
+@np.errstate(invalid="ignore", over="ignore")
 def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     """What the shafts carry where the masses swing by some amplitudes.
 
@@ -191,6 +193,7 @@ def spring_stiffness(at: ExcitedTrain, losses: Floats | None = None) -> Complexe
     return _complex(at.operating.stiffness, _losses(at) if losses is None else losses)
 
 
+@np.errstate(invalid="ignore", over="ignore")
 def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
     """Torque of each shaft, referred to the first disc, (orders, shafts, speeds).
 
