@@ -111,7 +111,7 @@ def forces(
         raise InputError("angles: found them beside a motion, which has its own; leave them out")
     if motion is None:
         # Before a motion of as many angles is worked out.
-        require_room(structure_of(machine), n if angles is None else np.size(angles))
+        require_room(structure_of(machine), n + 1 if angles is None else np.size(angles))
     scene = Scene(
         machine, motion_at(machine, motion, speed=speed, acceleration=acceleration, angles=angles, n=n)
     )
