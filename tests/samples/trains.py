@@ -57,3 +57,13 @@ def matrices(
             row[place[b]] = -ratio
         K += k * np.outer(row, row)
     return np.diag(list(discs.values())), K
+
+
+def mode_numbers(found: FreeVibration, names: Sequence[str]) -> Floats:
+    """Natural frequencies and amplitudes by the names that their derivatives have."""
+    values = []
+    for name in names:
+        _, quantity, mode, *disc = name.split(".")
+        row = getattr(found, quantity)[int(mode)]
+        values.append(row[found.discs.index(disc[0])] if disc else row)
+    return np.array(values)

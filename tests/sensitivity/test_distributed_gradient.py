@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from differences import sixth_order
 from numpy.random import Generator
 from sizes import cases
+from trains import mode_numbers
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError
@@ -110,16 +112,7 @@ def _machine(random: Generator) -> lw.Machine:
 def _modes(names: list[str]) -> Measure:
     """Frequencies and amplitudes by the names of responses."""
 
-    def measure(machine: lw.Machine) -> np.ndarray:
-        found = lw.free_vibration(machine)
-        values = []
-        for name in names:
-            _, quantity, mode, *disc = name.split(".")
-            row = getattr(found, quantity)[int(mode)]
-            values.append(row[found.discs.index(disc[0])] if disc else row)
-        return np.array(values)
-
-    return measure
+    return lambda machine: mode_numbers(lw.free_vibration(machine), names)
 
 
 def _forced(machine: lw.Machine, names: list[str]) -> Measure:
@@ -137,15 +130,14 @@ def _forced(machine: lw.Machine, names: list[str]) -> Measure:
 
 
 def _difference(machine: lw.Machine, shares: dict[str, float], measure: Measure, step: float) -> np.ndarray:
-    """Central differences over h, 2h and 4h, to sixth order, of entries that change by shares."""
+    """The derivative along entries that change by shares."""
     at = {name: lw.get(machine, name) for name in shares}
-    near = {}
-    for n in (-4, -2, -1, 1, 2, 4):
-        values = {name: at[name] * (1 + n * step * share) for name, share in shares.items()}
-        near[n] = measure(exchanged(machine, values))
-    once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))
-    found: np.ndarray = (64 * once - 20 * twice + four) / 45
-    return found
+
+    def near(way: float) -> np.ndarray:
+        values = {name: at[name] * (1 + way * share) for name, share in shares.items()}
+        return measure(exchanged(machine, values))
+
+    return sixth_order(near, step)
 
 
 def largest_error(

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from differences import sixth_order
 from sizes import cases
 
 import linkwright as lw
@@ -56,15 +57,11 @@ def _numbers(machine: lw.Machine, names: list[str]) -> np.ndarray:
 
 
 def _difference(machine: lw.Machine, names: list[str], address: str, step: float) -> np.ndarray:
-    """Central differences over h, 2h and 4h, extrapolated to sixth order, times the entry."""
+    """The derivatives by an entry, times it."""
     value = lw.get(machine, address)
-    near = {
-        n: _numbers(exchanged(machine, {address: value * (1 + n * step)}), names)
-        for n in (-4, -2, -1, 1, 2, 4)
-    }
-    once, twice, four = ((near[n] - near[-n]) / (2 * n * step) for n in (1, 2, 4))
-    difference: np.ndarray = (64 * once - 20 * twice + four) / 45
-    return difference
+    return sixth_order(
+        lambda share: _numbers(exchanged(machine, {address: value * (1 + share)}), names), step
+    )
 
 
 def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:

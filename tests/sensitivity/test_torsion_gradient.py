@@ -4,6 +4,7 @@ laws.
 
 import numpy as np
 import pytest
+from trains import mode_numbers
 
 import linkwright as lw
 from linkwright.kernel.errors import InputError
@@ -25,16 +26,6 @@ def _difference(machine, address, measure):
     return (8 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12 * h)
 
 
-def _modes(found, responses):
-    """Values of responses of free vibration."""
-    values = []
-    for name in responses:
-        _, quantity, mode, *disc = name.split(".")
-        row = getattr(found, quantity)[int(mode)]
-        values.append(row[found.discs.index(disc[0])] if disc else row)
-    return np.array(values)
-
-
 @pytest.mark.parametrize("path", [GEARED, YOKE])
 def test_frequencies_and_shapes(path):
     """To 1e-9 of the largest influence: the differences are good for 1e-11."""
@@ -45,7 +36,9 @@ def test_frequencies_and_shapes(path):
     found = lw.gradient(machine, wanted, [name for name in names if name in usual.variables])
     scale = np.abs(found.derivatives * found.at).max(axis=1)
     for place, address in list(enumerate(found.variables))[::3]:
-        measured = _difference(machine, address, lambda m: _modes(lw.free_vibration(m), found.responses))
+        measured = _difference(
+            machine, address, lambda m: mode_numbers(lw.free_vibration(m), found.responses)
+        )
         error = np.abs(found.derivatives[:, place] - measured) * abs(found.at[place])
         assert np.all(error <= 1e-9 * np.maximum(scale, 1e-3)), address
 

@@ -46,7 +46,6 @@ _SPEEDS = 400
 # Share of the square of the speed that accelerations are at least compared with.
 _LEAST_ACCELERATION = 1e-4
 
-
 # Share of the work of the motor below which that of the loads is rounding of a sum of ten thousand doubles.
 _ROUNDING = 1e-12
 

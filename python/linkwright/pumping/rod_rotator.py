@@ -36,7 +36,7 @@ from linkwright.pumping.model.rotator_lengths import Lengths
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 
 # Seconds of a day.
-DAY = 86400.0
+_DAY = 86400.0
 
 # Angles of the revolution at which conditions are looked at, a quarter of a degree.
 _ANGLES = 1440
@@ -290,7 +290,18 @@ def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float 
     """Days for a full revolution of the string; None without speed or ratio."""
     if speed is None or rotator.worm_ratio is None or not worm_turns:
         return None
-    return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / DAY
+    days: float = turn_days(rotator, speed, worm_turns)
+    return days
+
+
+def turn_days(rotator: Any, speed: Any, worm_turns: Any) -> Any:
+    """Days for a full revolution of the string by the speed of the crank and the revolutions of the worm."""
+    return rotator.worm_ratio / worm_turns * (2 * np.pi / speed) / _DAY
+
+
+def worm_torque(rotator: Any) -> Any:
+    """Torque at the worm that turns the string [N m]."""
+    return rotator.string_torque / (rotator.worm_ratio * rotator.worm_efficiency)
 
 
 def _at_speed(rotator: RodRotator, takes: Floats, curves: LeverMotion, speed: float | None) -> dict[str, Any]:
@@ -316,7 +327,7 @@ def _forces(
     """Torque at the worm and force in the link."""
     if rotator.string_torque is None or rotator.worm_ratio is None:
         return {"worm_torque": None, "link_force": None, "link_force_max": None}
-    torque = rotator.string_torque / (rotator.worm_ratio * rotator.worm_efficiency)
+    torque = worm_torque(rotator)
 
     def force(motion: LeverMotion) -> Floats:
         """The link pulls the joint toward the pin: its moment about the hanger is −F l_5 sin(φ_4 − φ_5)."""

@@ -40,7 +40,7 @@ from linkwright.pumping.model.rotator_lengths import (
     zeros_of_stroke,
 )
 from linkwright.pumping.model.unit import PumpingUnit
-from linkwright.pumping.rod_rotator import DAY, RodRotatorMotion, rod_rotator
+from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator, turn_days, worm_torque
 from linkwright.pumping.unit import PolishedRod
 
 _UNIT, _ROTATOR = "pumping_unit.", "rod_rotator."
@@ -170,15 +170,13 @@ class RotatorAlong:
         numbers |= self._diagonal() | self._way()
         numbers |= self._transfer()
         if result.string_turn_days is not None:
-            cycle = 2 * np.pi / self.along.speed
             turns = numbers.get("worm_turns_per_cycle", result.worm_turns_per_cycle)
-            days = rotator.worm_ratio / turns * cycle / DAY
+            days = turn_days(rotator, self.along.speed, turns)
             numbers |= {"string_turn_days": days, "string_turns_per_day": 1 / days}
         if result.worm_torque is not None:
-            torque = rotator.string_torque / (rotator.worm_ratio * rotator.worm_efficiency)
-            numbers["worm_torque"] = torque
+            numbers["worm_torque"] = worm_torque(rotator)
             if result.link_force_max is not None:
-                numbers["link_force_max"] = self._force(torque, numbers)
+                numbers["link_force_max"] = self._force(numbers["worm_torque"], numbers)
         return numbers
 
     # -- over the stroke ---------------------------------------------------------------------------------

@@ -28,10 +28,10 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
-from linkwright.torsion.gradient.shaft_torques import ShaftTorques
+from linkwright.torsion.gradient.shaft_torques import CarriedTorques, ShaftTorques
 from linkwright.torsion.gradient.torques import TorqueTangents, torque_tangents
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
-from linkwright.torsion.response.forced import response_by_amplitudes, responses, shaft_flow, spring_stiffness
+from linkwright.torsion.response.forced import response_by_amplitudes, responses
 
 # Peaks that are this near, as a share of the highest, tie; and derivatives that differ by less, of their
 # largest, are one.
@@ -73,12 +73,13 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     d = d.only([name for name in d.variables if name not in refused])
     at = excited_train(machine)
     q = responses(at)
-    peaks = _peaks(at, q)
+    shafts = CarriedTorques.of(at, q)
+    peaks = _peaks(at, q, shafts)
     places = sorted({place for _, _, place, _ in peaks})
     torques = torque_tangents(machine, train, referred, at.torques.speeds[places], d, refused)
     known = [name for name in d.variables if name not in refused]
     acting = {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
-    forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting), acting)
+    forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting, shafts), acting)
     tangents: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
     ties: dict[str, str] = {}
     for kind, shaft, place, tie in peaks:
@@ -108,11 +109,11 @@ def _refuse_moved(d: TrainTangents, refused: dict[str, str]) -> None:
             refused[name] = "it changes the speeds of discs, and with them the orders that meet"
 
 
-def _peaks(at: ExcitedTrain, q: Complexes) -> list[tuple[str, int, int, str]]:
+def _peaks(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[tuple[str, int, int, str]]:
     """What is asked: quantity, place of the shaft, place of the speed where it is largest, why it ties."""
     response = response_by_amplitudes(at, q)
     curves = {"vibratory": response.shaft_torque_vibratory, "greatest": response.shaft_torque_max}
-    rigid = _rigid(at, q)
+    rigid = _rigid(at, q, shafts)
     peaks = []
     for kind, table in curves.items():
         for shaft, row in enumerate(table):
@@ -127,10 +128,9 @@ def _peaks(at: ExcitedTrain, q: Complexes) -> list[tuple[str, int, int, str]]:
     return peaks
 
 
-def _rigid(at: ExcitedTrain, q: Complexes) -> list[bool]:
+def _rigid(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[bool]:
     """Whether the twist of each shaft is rounding."""
-    stiffness = spring_stiffness(at)
-    flow = shaft_flow(at, q, stiffness)
+    stiffness, flow = shafts
     twisted = stiffness * np.einsum("sm,omw->osw", at.referred.joins, q)
     off, size = np.abs(twisted - flow).max(axis=(0, 2)), np.abs(flow).max(axis=(0, 2))
     return [bool(rigid) for rigid in off > _RIGID * size]

@@ -62,17 +62,34 @@ class _Split(NamedTuple):
     end: int  # of the piece, 0 or 1
 
 
+class CarriedTorques(NamedTuple):
+    """What shafts carry, referred to the first disc, and their stiffness; (orders, shafts, speeds) each."""
+
+    stiffness: Complexes  # [N m/rad]
+    flow: Complexes  # [N m]
+
+    @classmethod
+    def of(cls, at: ExcitedTrain, q: Complexes) -> CarriedTorques:
+        """Those of a train whose masses swing by `q`, (orders, masses, speeds) [rad]."""
+        stiffness = spring_stiffness(at)
+        return cls(stiffness, shaft_flow(at, q, stiffness))
+
+
 class ShaftTorques:
     """Torques of shafts at each order, with derivatives by the variables of `d`."""
 
     def __init__(
-        self, at: ExcitedTrain, q: Complexes, d: TrainTangents, torques: dict[int, TorqueTangents]
+        self,
+        at: ExcitedTrain,
+        q: Complexes,
+        d: TrainTangents,
+        torques: dict[int, TorqueTangents],
+        shafts: CarriedTorques,
     ) -> None:
         self._at, self._q, self._d, self._torques = at, q, d, torques
         self._rods = {rod.shaft: n for n, rod in enumerate(at.referred.rods)}
         self._springs = [s for s in range(len(at.referred.shafts)) if s not in self._rods]
-        self._stiffness = spring_stiffness(at)
-        self._flow = shaft_flow(at, q, self._stiffness)
+        self._stiffness, self._flow = shafts
         self._slopes: dict[tuple[int, int, int], Complexes] = {}
         self._states: dict[tuple[int, int], _State] = {}
         self._along: dict[int, StationTorques] = {}
