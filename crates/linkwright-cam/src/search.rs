@@ -8,6 +8,7 @@ use super::{Cam, Dimensions, Kind};
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
 use linkwright_kernel::motion_law::MotionLaw;
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use rayon::prelude::*;
 
@@ -57,10 +58,7 @@ impl Job for Chunk<'_> {
         let mut row = vec![0.0; R::LANES];
         for at in (0..n).step_by(R::LANES) {
             poll();
-            let found = R::out_of_line(
-                #[inline(always)]
-                || self.lanes::<R>(self.first + at),
-            );
+            let found = out_of_line!(R, self.lanes::<R>(self.first + at));
             for (result, x) in found.into_iter().enumerate() {
                 x.store(&mut row);
                 for (lane, &value) in row.iter().take(n - at).enumerate() {

@@ -9,6 +9,7 @@ use linkwright_kernel::dual::Dual;
 use linkwright_kernel::jet::Jet;
 use linkwright_kernel::lanes::{Job, in_lanes};
 use linkwright_kernel::motion_law::{MotionLaw, Piece};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use std::f64::consts::TAU;
 
@@ -216,10 +217,7 @@ impl Job for Sampling<'_> {
             let end = at + shape.piece[at..].partition_point(|&each| each == number as u32);
             // What a bundle writes beyond its piece, the next piece writes over.
             for first in (at..end).step_by(R::LANES) {
-                let rows = R::out_of_line(
-                    #[inline(always)]
-                    || cam.row(piece, R::load(&shape.phi[first..])),
-                );
+                let rows = out_of_line!(R, cam.row(piece, R::load(&shape.phi[first..])));
                 for (to, x) in shape.rows.iter_mut().zip(rows) {
                     x.store(&mut to[first..]);
                 }

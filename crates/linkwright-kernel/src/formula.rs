@@ -9,6 +9,7 @@
 //! kinks or jumps. And where it may be **steep**: the instructions whose result may change within a small part of the
 //! range of the variables.
 
+use crate::out_of_line;
 use crate::real::{Lift, Real};
 use crate::slot::Slot;
 
@@ -321,44 +322,35 @@ impl Formula {
     /// Its value.
     #[inline(always)]
     pub fn value<R: Real, N: Lift<R>>(&self, q: &[R], inputs: &Inputs<N>) -> N {
-        N::out_of_line(
-            #[inline(always)]
-            || {
-                let mut stack = [N::splat(0.0); DEPTH];
-                self.run(self.ops.len(), q, inputs, &mut stack);
-                stack[0]
-            },
-        )
+        out_of_line!(N, {
+            let mut stack = [N::splat(0.0); DEPTH];
+            self.run(self.ops.len(), q, inputs, &mut stack);
+            stack[0]
+        })
     }
 
     /// What one of its instructions gives.
     #[inline(always)]
     pub fn result<R: Real, N: Lift<R>>(&self, at: usize, q: &[R], inputs: &Inputs<N>) -> N {
-        N::out_of_line(
-            #[inline(always)]
-            || {
-                let mut stack = [N::splat(0.0); DEPTH];
-                let height = self.run(at + 1, q, inputs, &mut stack);
-                stack[height - 1]
-            },
-        )
+        out_of_line!(N, {
+            let mut stack = [N::splat(0.0); DEPTH];
+            let height = self.run(at + 1, q, inputs, &mut stack);
+            stack[height - 1]
+        })
     }
 
     /// The argument of a switch.
     #[inline(always)]
     pub fn switch<R: Real, N: Lift<R>>(&self, at: usize, q: &[R], inputs: &Inputs<N>) -> N {
-        N::out_of_line(
-            #[inline(always)]
-            || {
-                let mut stack = [N::splat(0.0); DEPTH];
-                let height = self.run(at, q, inputs, &mut stack);
-                let first = height - self.ops[at].takes();
-                match self.ops[at] {
-                    Op::Min | Op::Max | Op::Where => stack[first] - stack[first + 1],
-                    _ => stack[first],
-                }
-            },
-        )
+        out_of_line!(N, {
+            let mut stack = [N::splat(0.0); DEPTH];
+            let height = self.run(at, q, inputs, &mut stack);
+            let first = height - self.ops[at].takes();
+            match self.ops[at] {
+                Op::Min | Op::Max | Op::Where => stack[first] - stack[first + 1],
+                _ => stack[first],
+            }
+        })
     }
 
     /// Works through the first instructions; returns how many numbers are on the stack.

@@ -9,6 +9,7 @@
 //!
 //! Source: e.g. Griewank and Walther, *Evaluating Derivatives*, 2nd ed., chapter 13, table 13.2.
 
+use crate::out_of_line;
 use crate::real::{COEFFICIENTS, Lift, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -70,68 +71,56 @@ impl<R: Real, const N: usize> Add for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut c = self.c;
-                for k in 0..N {
-                    c[k] = c[k] + o.c[k];
-                }
-                Jet { c }
-            },
-        )
+        out_of_line!(R, {
+            let mut c = self.c;
+            for k in 0..N {
+                c[k] = c[k] + o.c[k];
+            }
+            Jet { c }
+        })
     }
 }
 impl<R: Real, const N: usize> Sub for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut c = self.c;
-                for k in 0..N {
-                    c[k] = c[k] - o.c[k];
-                }
-                Jet { c }
-            },
-        )
+        out_of_line!(R, {
+            let mut c = self.c;
+            for k in 0..N {
+                c[k] = c[k] - o.c[k];
+            }
+            Jet { c }
+        })
     }
 }
 impl<R: Real, const N: usize> Mul for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut c = self.c;
-                for k in 0..N {
-                    c[k] = convolve(&self.c, &o.c, k, 0, k);
-                }
-                Jet { c }
-            },
-        )
+        out_of_line!(R, {
+            let mut c = self.c;
+            for k in 0..N {
+                c[k] = convolve(&self.c, &o.c, k, 0, k);
+            }
+            Jet { c }
+        })
     }
 }
 impl<R: Real, const N: usize> Div for Jet<R, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, o: Self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let inverse = o.c[0].recip();
-                let mut c = self.c;
-                for k in 0..N {
-                    if k > 0 {
-                        c[k] = c[k] - convolve(&c, &o.c, k, 0, k - 1);
-                    }
-                    c[k] = c[k] * inverse;
+        out_of_line!(R, {
+            let inverse = o.c[0].recip();
+            let mut c = self.c;
+            for k in 0..N {
+                if k > 0 {
+                    c[k] = c[k] - convolve(&c, &o.c, k, 0, k - 1);
                 }
-                Jet { c }
-            },
-        )
+                c[k] = c[k] * inverse;
+            }
+            Jet { c }
+        })
     }
 }
 impl<R: Real, const N: usize> Neg for Jet<R, N> {
@@ -196,18 +185,15 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// r² = x: 2 r₀ r_k = x_k − Σ r_i r_{k−i}.
     #[inline(always)]
     fn sqrt(self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut c = self.c;
-                c[0] = c[0].sqrt();
-                let half = c[0].recip() * 0.5;
-                for k in 1..N {
-                    c[k] = (c[k] - convolve(&c, &c, k, 1, k - 1)) * half;
-                }
-                Jet { c }
-            },
-        )
+        out_of_line!(R, {
+            let mut c = self.c;
+            c[0] = c[0].sqrt();
+            let half = c[0].recip() * 0.5;
+            for k in 1..N {
+                c[k] = (c[k] - convolve(&c, &c, k, 1, k - 1)) * half;
+            }
+            Jet { c }
+        })
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -216,81 +202,69 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// s′ = x′ c, c′ = −x′ s.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let (sin, cos) = self.c[0].sin_cos();
-                let (mut s, mut c) = (Self::constant(sin), Self::constant(cos));
-                for k in 1..N {
-                    let (mut up, mut down) = (R::splat(0.0), R::splat(0.0));
-                    for i in 1..=k {
-                        let slope = self.c[i] * i as f64;
-                        up = slope.mul_add(c.c[k - i], up);
-                        down = slope.mul_add(s.c[k - i], down);
-                    }
-                    s.c[k] = up * (1.0 / k as f64);
-                    c.c[k] = down * (-1.0 / k as f64);
+        out_of_line!(R, {
+            let (sin, cos) = self.c[0].sin_cos();
+            let (mut s, mut c) = (Self::constant(sin), Self::constant(cos));
+            for k in 1..N {
+                let (mut up, mut down) = (R::splat(0.0), R::splat(0.0));
+                for i in 1..=k {
+                    let slope = self.c[i] * i as f64;
+                    up = slope.mul_add(c.c[k - i], up);
+                    down = slope.mul_add(s.c[k - i], down);
                 }
-                (s, c)
-            },
-        )
+                s.c[k] = up * (1.0 / k as f64);
+                c.c[k] = down * (-1.0 / k as f64);
+            }
+            (s, c)
+        })
     }
     /// y′ = x′ y.
     #[inline(always)]
     fn exp(self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut y = Self::constant(self.c[0].exp());
-                for k in 1..N {
-                    let mut sum = R::splat(0.0);
-                    for i in 1..=k {
-                        sum = (self.c[i] * i as f64).mul_add(y.c[k - i], sum);
-                    }
-                    y.c[k] = sum * (1.0 / k as f64);
+        out_of_line!(R, {
+            let mut y = Self::constant(self.c[0].exp());
+            for k in 1..N {
+                let mut sum = R::splat(0.0);
+                for i in 1..=k {
+                    sum = (self.c[i] * i as f64).mul_add(y.c[k - i], sum);
                 }
-                y
-            },
-        )
+                y.c[k] = sum * (1.0 / k as f64);
+            }
+            y
+        })
     }
     /// x y′ = x′.
     #[inline(always)]
     fn ln(self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let inverse = self.c[0].recip();
-                let mut y = Self::constant(self.c[0].ln());
-                for k in 1..N {
-                    let mut sum = self.c[k] * k as f64;
-                    for i in 1..k {
-                        sum = sum - y.c[i] * self.c[k - i] * i as f64;
-                    }
-                    y.c[k] = sum * inverse * (1.0 / k as f64);
+        out_of_line!(R, {
+            let inverse = self.c[0].recip();
+            let mut y = Self::constant(self.c[0].ln());
+            for k in 1..N {
+                let mut sum = self.c[k] * k as f64;
+                for i in 1..k {
+                    sum = sum - y.c[i] * self.c[k - i] * i as f64;
                 }
-                y
-            },
-        )
+                y.c[k] = sum * inverse * (1.0 / k as f64);
+            }
+            y
+        })
     }
     /// (1 + x²) y′ = x′.
     #[inline(always)]
     fn atan(self) -> Self {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let w = self * self + 1.0;
-                let inverse = w.c[0].recip();
-                let mut y = Self::constant(self.c[0].atan());
-                for k in 1..N {
-                    let mut sum = self.c[k] * k as f64;
-                    for i in 1..k {
-                        sum = sum - y.c[i] * w.c[k - i] * i as f64;
-                    }
-                    y.c[k] = sum * inverse * (1.0 / k as f64);
+        out_of_line!(R, {
+            let w = self * self + 1.0;
+            let inverse = w.c[0].recip();
+            let mut y = Self::constant(self.c[0].atan());
+            for k in 1..N {
+                let mut sum = self.c[k] * k as f64;
+                for i in 1..k {
+                    sum = sum - y.c[i] * w.c[k - i] * i as f64;
                 }
-                y
-            },
-        )
+                y.c[k] = sum * inverse * (1.0 / k as f64);
+            }
+            y
+        })
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
@@ -314,22 +288,19 @@ impl<R: Real, const N: usize> Real for Jet<R, N> {
     /// f(x₀ + δ) = Σ f_j δʲ, and the series of its k-th coefficient likewise, with binomials.
     #[inline(always)]
     fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let mut all = [R::splat(0.0); COEFFICIENTS];
-                self.c[0].taylor(f, &mut all[..to.len() + N - 1]);
-                let mut delta = self;
-                delta.c[0] = R::splat(0.0);
-                for (k, x) in to.iter_mut().enumerate() {
-                    *x = Self::splat(0.0);
-                    for j in (0..N).rev() {
-                        let binomial: f64 = (1..=j).map(|i| (k + i) as f64 / i as f64).product();
-                        *x = *x * delta + Self::constant(all[k + j] * binomial);
-                    }
+        out_of_line!(R, {
+            let mut all = [R::splat(0.0); COEFFICIENTS];
+            self.c[0].taylor(f, &mut all[..to.len() + N - 1]);
+            let mut delta = self;
+            delta.c[0] = R::splat(0.0);
+            for (k, x) in to.iter_mut().enumerate() {
+                *x = Self::splat(0.0);
+                for j in (0..N).rev() {
+                    let binomial: f64 = (1..=j).map(|i| (k + i) as f64 / i as f64).product();
+                    *x = *x * delta + Self::constant(all[k + j] * binomial);
                 }
-            },
-        );
+            }
+        });
     }
     #[inline(always)]
     fn max_lane(self) -> f64 {

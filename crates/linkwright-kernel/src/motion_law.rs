@@ -7,6 +7,7 @@
 //! The numbers of the pieces may be parameters of a machine as well: then duals work a piece out in its own arithmetic, of those
 //! parameters, and derivatives follow them.
 
+use crate::out_of_line;
 use crate::real::Real;
 use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Range};
@@ -143,10 +144,7 @@ impl MotionLaw {
         if !R::IS_DUAL || self.slots.is_empty() {
             return self.at(phi);
         }
-        R::out_of_line(
-            #[inline(always)]
-            || self.along(phi, q),
-        )
+        out_of_line!(R, self.along(phi, q))
     }
 
     /// Each lane on its piece, of which there is one where all lanes are at one angle.

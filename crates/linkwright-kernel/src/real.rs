@@ -147,6 +147,17 @@ pub trait Real:
     }
 }
 
+/// An expression worked out by a function of its own ([`Real::out_of_line`]), compiled once for each kind of number.
+#[macro_export]
+macro_rules! out_of_line {
+    ($number:ty, $work:expr) => {
+        <$number as $crate::real::Real>::out_of_line(
+            #[inline(always)]
+            || $work,
+        )
+    };
+}
+
 /// Below this size the hyperbolic tangent is a quotient of polynomials.
 const TANH_NEAR: f64 = 0.5;
 

@@ -5,6 +5,7 @@
 
 use crate::call::poll;
 use crate::lanes::{Job, in_single_lanes};
+use crate::out_of_line;
 use crate::real::{Real, load_part, store_part};
 
 /// Systems of n equations with some right sides each; numbers of all systems follow each other.
@@ -44,15 +45,12 @@ impl Job for Systems<'_> {
         };
         for at in (0..n).step_by(R::LANES) {
             poll();
-            R::out_of_line(
-                #[inline(always)]
-                || {
-                    let none = block.load(at, n, matrix, right);
-                    block.eliminate();
-                    block.substitute();
-                    block.store(at, n, none, right);
-                },
-            );
+            out_of_line!(R, {
+                let none = block.load(at, n, matrix, right);
+                block.eliminate();
+                block.substitute();
+                block.store(at, n, none, right);
+            });
         }
     }
 }

@@ -6,6 +6,7 @@ use super::retreat;
 use super::uncut::{ShortEdge, Uncut};
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::{Real, store_part};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -128,10 +129,7 @@ impl Job for Chunk<'_> {
         let mut heights = vec![[R::splat(0.0); 2]; stations.turns.len()];
         for at in (0..n).step_by(R::LANES) {
             poll();
-            let found = R::out_of_line(
-                #[inline(always)]
-                || self.work.lanes::<R>(self.first + at, &mut heights),
-            );
+            let found = out_of_line!(R, self.work.lanes::<R>(self.first + at, &mut heights));
             let [half, _, p, s, ..] = found;
             let [x, y] = self.work.point(p, s);
             store_part(half + half, &mut need[at..]);
@@ -145,20 +143,14 @@ impl Job for Chunk<'_> {
             uncut.clear();
             for lane in (0..R::LANES.min(n - at)).filter(|&lane| edge.half < of(0, lane)) {
                 let head = self.work.head(self.first + at + lane);
-                R::out_of_line(
-                    #[inline(always)]
-                    || uncut.add::<R>(edge, lane, &head, [of(4, lane), of(5, lane)], of(1, lane)),
-                );
+                out_of_line!(R, uncut.add::<R>(edge, lane, &head, [of(4, lane), of(5, lane)], of(1, lane)));
             }
-            R::out_of_line(
-                #[inline(always)]
-                || {
-                    uncut.areas::<R>(edge, |lane, area| {
-                        behind[at + lane] += area[0];
-                        ahead[at + lane] += area[1];
-                    });
-                },
-            );
+            out_of_line!(R, {
+                uncut.areas::<R>(edge, |lane, area| {
+                    behind[at + lane] += area[0];
+                    ahead[at + lane] += area[1];
+                });
+            });
         }
     }
 }

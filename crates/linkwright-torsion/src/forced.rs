@@ -20,6 +20,7 @@
 use super::Train;
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use num_complex::Complex64;
 use rayon::current_num_threads;
@@ -156,18 +157,15 @@ impl Job for ResponseJob<'_> {
             let speed: R = lanes(damping.speeds, first, &mut buffer);
             for (block, &order) in torques.chunks_exact_mut(n * speeds).zip(orders) {
                 poll();
-                R::out_of_line(
-                    #[inline(always)]
-                    || {
-                        for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {
-                            step.M = read(row, first);
-                        }
-                        train.respond(speed * order, &parts, &mut steps);
-                        for (step, row) in steps.iter().zip(block.chunks_exact_mut(speeds)) {
-                            write(step.M, row, first);
-                        }
-                    },
-                );
+                out_of_line!(R, {
+                    for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {
+                        step.M = read(row, first);
+                    }
+                    train.respond(speed * order, &parts, &mut steps);
+                    for (step, row) in steps.iter().zip(block.chunks_exact_mut(speeds)) {
+                        write(step.M, row, first);
+                    }
+                });
             }
         }
     }

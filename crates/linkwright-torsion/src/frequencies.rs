@@ -18,6 +18,7 @@
 use super::holzer::Holzer;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 
 /// Halvings at most before Aberth's iteration.
@@ -97,10 +98,7 @@ impl<R: Real> Search<'_, R> {
         for first in (0..self.width).step_by(R::LANES) {
             poll();
             let lambda = R::load(&places[first..]);
-            let found = R::out_of_line(
-                #[inline(always)]
-                || self.holzer.sweep::<R, SLOPE>(lambda, &mut self.side),
-            );
+            let found = out_of_line!(R, self.holzer.sweep::<R, SLOPE>(lambda, &mut self.side));
             found.store(&mut self.values[first..]);
         }
     }
@@ -183,10 +181,7 @@ impl<R: Real> Search<'_, R> {
             self.sweep::<true>(&ring);
             for first in (0..self.width).step_by(R::LANES) {
                 let slope = R::load(&self.values[first..]);
-                let (next, gap) = R::out_of_line(
-                    #[inline(always)]
-                    || self.step(slope, &ring[first..]),
-                );
+                let (next, gap) = out_of_line!(R, self.step(slope, &ring[first..]));
                 next.store(&mut found[first..]);
                 (gap * slope.abs()).store(&mut self.values[first..]);
             }

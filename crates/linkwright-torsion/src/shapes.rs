@@ -19,6 +19,7 @@
 use super::Train;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 
 /// A pivot is moved off zero by this share of the stiffness, so little that no other value changes: what the disc answers is then
@@ -68,10 +69,7 @@ impl Job for Shapes<'_> {
             poll();
             let n = R::LANES.min(modes - first);
             neighbours(lambda, first, R::LANES, &mut padded);
-            let (found, straight) = R::out_of_line(
-                #[inline(always)]
-                || twisted.refine(&padded),
-            );
+            let (found, straight) = out_of_line!(R, twisted.refine(&padded));
             found.store(&mut buffer);
             lambda[first..first + n].copy_from_slice(&buffer[..n]);
             straight.store(&mut buffer);

@@ -11,6 +11,7 @@
 
 use linkwright_kernel::call::{in_threads, poll};
 use linkwright_kernel::lanes::{Job, in_lanes};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use num_complex::Complex64;
 use rayon::prelude::*;
@@ -105,33 +106,27 @@ impl Job for WaveJob<'_> {
         let end = range.end;
         for first in range.step_by(R::LANES) {
             poll();
-            R::out_of_line(
-                #[inline(always)]
-                || {
-                    for (c, &h) in c.iter_mut().zip(numbers).filter(|(_, h)| **h < harmonics) {
-                        let row = &coefficients[h * waves..][..waves];
-                        let (re, im) = buffer.split_at_mut(R::LANES);
-                        for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
-                            let z = row[(first + lane).min(end - 1)];
-                            (*re, *im) = (z.re, z.im);
-                        }
-                        *c = (R::load(re), R::load(im));
+            out_of_line!(R, {
+                for (c, &h) in c.iter_mut().zip(numbers).filter(|(_, h)| **h < harmonics) {
+                    let row = &coefficients[h * waves..][..waves];
+                    let (re, im) = buffer.split_at_mut(R::LANES);
+                    for (lane, (re, im)) in re.iter_mut().zip(im.iter_mut()).enumerate() {
+                        let z = row[(first + lane).min(end - 1)];
+                        (*re, *im) = (z.re, z.im);
                     }
-                    let [second, third] = bounds(&c, numbers);
-                    third.store(&mut thirds);
-                    let range = sample(&c, table, quarter, &mut samples);
-                    for (side, sign) in SIGNS.into_iter().enumerate() {
-                        let top = range[side] * sign;
-                        tops_of(&samples, sign, least_beside(top, second, places), side, &mut tops);
-                    }
-                },
-            );
+                    *c = (R::load(re), R::load(im));
+                }
+                let [second, third] = bounds(&c, numbers);
+                third.store(&mut thirds);
+                let range = sample(&c, table, quarter, &mut samples);
+                for (side, sign) in SIGNS.into_iter().enumerate() {
+                    let top = range[side] * sign;
+                    tops_of(&samples, sign, least_beside(top, second, places), side, &mut tops);
+                }
+            });
             for lane in 0..R::LANES.min(end - first) {
                 wave.set((0..harmonics).map(|h| coefficients[h * waves + first + lane]));
-                found.push(R::out_of_line(
-                    #[inline(always)]
-                    || wave_extremes(&wave, &mut tops[lane], places, thirds[lane]),
-                ));
+                found.push(out_of_line!(R, wave_extremes(&wave, &mut tops[lane], places, thirds[lane])));
             }
         }
         found

@@ -11,6 +11,7 @@
 use crate::drive::cycle::Turn;
 use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::value as on_quintic;
 use crate::kernel::real::Real;
 use crate::kernel::series::{G, SHARES, TERMS, integral, missing, newton, terms};
@@ -48,10 +49,7 @@ impl<R: Real> Turn<R> {
         }
         let (mut all, mut worst) = (Vec::with_capacity(self.steps.len()), 0.0_f64);
         for k in 0..self.steps.len() {
-            let (series, error) = R::out_of_line(
-                #[inline(always)]
-                || self.between_of(machine, k, accuracy, scale, m),
-            );
+            let (series, error) = out_of_line!(R, self.between_of(machine, k, accuracy, scale, m));
             // A NaN is not below the limit.
             worst = worst.max(error.select_lt(R::splat(SHARE), error, R::splat(f64::INFINITY)).max_lane());
             if worst > SHARE {

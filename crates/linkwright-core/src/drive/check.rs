@@ -13,6 +13,7 @@ use crate::drive::equation::Machine;
 use crate::drive::layout::{bundle, unbundle};
 use crate::drive::measures::INTEGRALS;
 use crate::drive::step::{CONVERGED, Step};
+use crate::kernel::out_of_line;
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -106,10 +107,7 @@ impl<R: Real> Turn<R> {
             return check;
         }
         for (k, of_step) in differences.iter_mut().enumerate() {
-            R::out_of_line(
-                #[inline(always)]
-                || self.add_beside_ends(machine, k, of_step, limits, m),
-            );
+            out_of_line!(R, self.add_beside_ends(machine, k, of_step, limits, m));
         }
         self.judged(machine, &differences, &integrals, kinks, limits)
     }

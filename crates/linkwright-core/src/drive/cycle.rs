@@ -12,6 +12,7 @@ use crate::drive::layout::{Layout, bundle};
 use crate::drive::step::{CONVERGED, SHRINK, Step};
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{B, S, StageNewton};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -193,10 +194,7 @@ impl<R: Real> Turn<R> {
         let mut work = Vec::with_capacity(self.steps.len());
         while self.sweeps < SWEEPS_MAX && self.correction.max_lane() >= self.limit {
             poll();
-            R::out_of_line(
-                #[inline(always)]
-                || self.sweep(machine, &mut work),
-            );
+            out_of_line!(R, self.sweep(machine, &mut work));
             self.sweeps += 1;
         }
     }
@@ -208,10 +206,7 @@ impl<R: Real> Turn<R> {
         let is_needed = self.correction.max_lane() > limit;
         if is_needed {
             let converged = std::mem::replace(&mut self.limit, 0.0);
-            R::out_of_line(
-                #[inline(always)]
-                || self.sweep(machine, &mut Vec::with_capacity(self.steps.len())),
-            );
+            out_of_line!(R, self.sweep(machine, &mut Vec::with_capacity(self.steps.len())));
             self.limit = converged;
             self.sweeps += 1;
         }

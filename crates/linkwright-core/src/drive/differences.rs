@@ -9,6 +9,7 @@ use crate::drive::cycle::Turn;
 use crate::drive::equation::Machine;
 use crate::drive::measures::INTEGRALS;
 use crate::drive::step::{CONVERGED, Step, stages_of_part};
+use crate::kernel::out_of_line;
 use crate::kernel::radau::S;
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -85,13 +86,10 @@ impl<R: Real> Turn<R> {
                 d.growths = [step.growth, first.growth * second.growth];
                 if let Some(flag) = ends_on_kink.filter(|flag| flag.max_lane() > 0.0) {
                     let own = self.geometry_of(machine, k);
-                    let [whole, last] = R::out_of_line(
-                        #[inline(always)]
-                        || {
-                            let last = machine.growth_on_side(&second, &geometry_second);
-                            [machine.growth_on_side(step, own), first.growth * last]
-                        },
-                    );
+                    let [whole, last] = out_of_line!(R, {
+                        let last = machine.growth_on_side(&second, &geometry_second);
+                        [machine.growth_on_side(step, own), first.growth * last]
+                    });
                     d.growths[0] = zero.select_lt(flag, whole, d.growths[0]);
                     d.growths[1] = zero.select_lt(flag, last, d.growths[1]);
                 }

@@ -12,6 +12,7 @@ use crate::drive::law::LawGeometry;
 use crate::drive::structure::Plan;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::dual::Dual;
+use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
 use crate::kernel::radau::S;
 use crate::kernel::real::{Lift, Real};
@@ -119,10 +120,7 @@ impl<'a, R: Real> Machine<'a, R> {
     /// Load torque of all laws at a stage; no time counts, since no turn differs from another.
     #[inline(always)]
     pub fn laws<N: Lift<R>>(&self, geometry: &[LawGeometry<R>], omega: N) -> N {
-        N::out_of_line(
-            #[inline(always)]
-            || self.plan.law_torque::<R, R, N>(self.q, geometry, omega, N::splat(f64::NAN)),
-        )
+        out_of_line!(N, self.plan.law_torque::<R, R, N>(self.q, geometry, omega, N::splat(f64::NAN)))
     }
 
     /// The same on the branch of a reference, where the laws know what is `known`.
@@ -133,9 +131,9 @@ impl<'a, R: Real> Machine<'a, R> {
     {
         let both: Vec<LawGeometry<OnBranch<R, R>>> =
             geometry.iter().zip(known).map(|(geometry, known)| geometry.on_branch_of(known)).collect();
-        N::out_of_line(
-            #[inline(always)]
-            || self.plan.law_torque::<R, OnBranch<R, R>, N>(self.q, &both, omega, N::splat(f64::NAN)),
+        out_of_line!(
+            N,
+            self.plan.law_torque::<R, OnBranch<R, R>, N>(self.q, &both, omega, N::splat(f64::NAN))
         )
     }
 
@@ -162,17 +160,14 @@ impl<'a, R: Real> Machine<'a, R> {
     /// The reduced machine at a crank angle; what its laws need to know there is added to `geometry`.
     #[inline(always)]
     pub fn row(&self, phi: R, m: &mut Motion<R>, geometry: &mut Vec<LawGeometry<R>>) -> Row<R> {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
-                if !self.plan.laws.is_empty() {
-                    self.plan.add_geometry(self.q, phi, m, geometry);
-                }
-                let inverse = r.J.recip();
-                Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
-            },
-        )
+        out_of_line!(R, {
+            let r = self.plan.reduce::<R, 2>(self.q, Angle::new(phi), 1.0, m);
+            if !self.plan.laws.is_empty() {
+                self.plan.add_geometry(self.q, phi, m, geometry);
+            }
+            let inverse = r.J.recip();
+            Row { inverse, drift: r.J_d1 * inverse, load: r.load + r.dry, viscous: r.viscous }
+        })
     }
 
     /// The reduced machine at an end of a step, on its side of a jump there: drawn on from two angles inside, of which the

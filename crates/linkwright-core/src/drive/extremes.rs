@@ -10,6 +10,7 @@ use crate::drive::cycle::Turn;
 use crate::drive::equation::Machine;
 use crate::drive::layout::{Layout, bundle, unbundle};
 use crate::drive::step::{Step, stages_of_part};
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{AT, N, S, slope_and_bend, through};
 use crate::kernel::real::Real;
 use crate::kernel::series::{TERMS, derivatives, value as on_series};
@@ -168,10 +169,7 @@ impl<R: Real> Turn<R> {
     ) -> Extremes<R> {
         let samples = self.samples(starts);
         let numbers = self.numbers(&samples, between);
-        let hints = R::out_of_line(
-            #[inline(always)]
-            || hints(&samples),
-        );
+        let hints = out_of_line!(R, hints(&samples));
         let mut best = match self.layout {
             Layout::Machines => {
                 let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
@@ -279,13 +277,10 @@ impl<R: Real> Turn<R> {
             }
             // u has one derivative more than its derivative: its quintic's peak is good enough.
             let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
-            let found = R::out_of_line(
-                #[inline(always)]
-                || {
-                    Promise::<R>::of_picks(&picks, numbers, has_series)
-                        .read_around(machine, self.limit, asides, m)
-                },
-            );
+            let found = out_of_line!(R, {
+                Promise::<R>::of_picks(&picks, numbers, has_series)
+                    .read_around(machine, self.limit, asides, m)
+            });
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
             let value = worth.select_lt(hint.value, found.value, lowest);
             best.keep_larger(&Extreme { value, phi: found.phi });
@@ -357,13 +352,10 @@ impl<R: Real> Turn<R> {
         m: &mut Motion<R>,
     ) {
         for picks in picks.chunks(R::LANES) {
-            let found = R::out_of_line(
-                #[inline(always)]
-                || {
-                    let promise = Promise::<R>::of_picks(picks, numbers, has_series);
-                    promise.read_around(machine, self.limit, &ASIDE, m)
-                },
-            );
+            let found = out_of_line!(R, {
+                let promise = Promise::<R>::of_picks(picks, numbers, has_series);
+                promise.read_around(machine, self.limit, &ASIDE, m)
+            });
             let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
             for (lane, pick) in picks.iter().enumerate() {
                 best[pick.quantity].keep_larger(&Extreme { value: values[lane], phi: places[lane] });

@@ -27,6 +27,7 @@ use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::matrix::LuFactors;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::S;
 use crate::kernel::real::{LANES_MAX, Real};
 use crate::linkage::motion::Motion;
@@ -206,10 +207,7 @@ impl Job for Gradient<'_> {
         let ends = if self.steady.crossings.is_empty() {
             None
         } else {
-            Some(R::out_of_line(
-                #[inline(always)]
-                || MovingEnds::new::<R>(&self, &solved),
-            ))
+            Some(out_of_line!(R, MovingEnds::new::<R>(&self, &solved)))
         };
         let extremes = &self.steady.extremes;
         let accelerations = [&extremes.acceleration_min, &extremes.acceleration_max];
@@ -262,12 +260,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
         let (plan, steady) = (of.plan, of.steady);
         let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
-        let mut moved = R::out_of_line(
-            #[inline(always)]
-            || machine.moving(&solved.on_kinks, m),
-        )
-        .into_iter()
-        .peekable();
+        let mut moved = out_of_line!(R, machine.moving(&solved.on_kinks, m)).into_iter().peekable();
         let ends = solved.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]);
         let mut edges = Vec::with_capacity(solved.marks.len() + 1);
         for phi in ends {
@@ -317,10 +310,7 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         // The first sweep gives the derivative of the solution, the second that of its growth.
         for _ in 0..2 {
             self.turn.correction = Dual::splat(f64::INFINITY);
-            R::out_of_line(
-                #[inline(always)]
-                || self.turn.sweep(&self.machine, &mut work),
-            );
+            out_of_line!(R, self.turn.sweep(&self.machine, &mut work));
         }
     }
 

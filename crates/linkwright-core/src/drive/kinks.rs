@@ -17,6 +17,7 @@ use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::Variable;
+use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
@@ -278,10 +279,7 @@ impl<R: Real> Machine<'_, R> {
         let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
         let watches = self.plan.watches();
         if !watches.is_empty() {
-            let scan = R::out_of_line(
-                #[inline(always)]
-                || self.scan(&watches, m),
-            );
+            let scan = out_of_line!(R, self.scan(&watches, m));
             for (&watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
                 match watch {
                     Watch::Switch(load, at) if self.plan.winds(load, at) => {
@@ -337,10 +335,7 @@ impl<R: Real> Machine<'_, R> {
             return;
         }
         let watches: Vec<Watch> = rests.iter().map(|rest| rest.1).collect();
-        let scan = R::out_of_line(
-            #[inline(always)]
-            || self.scan(&watches, m),
-        );
+        let scan = out_of_line!(R, self.scan(&watches, m));
         for (&(load, watch), values) in rests.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
             let mut zeros = vec![Vec::new(); R::LANES];
             self.zeros(watch, values, &mut zeros, m);
@@ -349,10 +344,7 @@ impl<R: Real> Machine<'_, R> {
                 let mut places: Vec<f64> = (0..R::LANES).map(|lane| at(lane).unwrap_or(0.0)).collect();
                 let zero = R::load(&places);
                 let widths = [-1.0, 1.0].map(|side| {
-                    let width = R::out_of_line(
-                        #[inline(always)]
-                        || self.width(&load, zero, side, m),
-                    );
+                    let width = out_of_line!(R, self.width(&load, zero, side, m));
                     width.store(&mut places);
                     places.clone()
                 });
@@ -474,9 +466,9 @@ impl<R: Real> Machine<'_, R> {
                     (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
                 }
             }
-            let root = R::out_of_line(
-                #[inline(always)]
-                || self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m),
+            let root = out_of_line!(
+                R,
+                self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m)
             );
             root.store(&mut guess);
             for lane in 0..R::LANES {

@@ -12,6 +12,7 @@ use crate::drive::structure::Plan;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::dual::Dual;
 use crate::kernel::formula::{Formula, Inputs, Switch, Variable};
+use crate::kernel::out_of_line;
 use crate::kernel::plane::Vec2;
 use crate::kernel::real::{Lift, Real};
 use crate::kernel::table::Knot;
@@ -269,14 +270,14 @@ impl Plan {
     #[inline(always)]
     pub fn add_geometry<R: Real>(&self, q: &[R], phi: R, m: &Motion<R>, to: &mut Vec<LawGeometry<R>>) {
         for law in &self.laws {
-            to.push(R::out_of_line(
-                #[inline(always)]
-                || match *law {
+            to.push(out_of_line!(
+                R,
+                match *law {
                     Law::Formula(ref load) => load.geometry(&self.formulas[load.formula], q, phi, m),
                     Law::Damper { from, to, .. } => {
                         LawGeometry { g: stretch(m, from, to).1, ..LawGeometry::nothing() }
                     }
-                },
+                }
             ));
         }
     }

@@ -13,6 +13,7 @@ use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
 use crate::drive::motor::Motor;
 use crate::drive::structure::Plan;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{B, S};
 use crate::kernel::real::Real;
 
@@ -93,10 +94,7 @@ impl<R: Real> Turn<R> {
         let mut may = zero;
         for level in 0..levels {
             let energy = top * 0.5_f64.powf(f64::from(level) / f64::from(fine));
-            let left = R::out_of_line(
-                #[inline(always)]
-                || self.torque_left(machine, energy),
-            );
+            let left = out_of_line!(R, self.torque_left(machine, energy));
             may = left.select_lt(zero, may, one);
         }
         if levels == 1 || !machine.plan.is_drawn() {
@@ -105,10 +103,7 @@ impl<R: Real> Turn<R> {
         // However near kinks or jumps over the speed are to each other.
         let near = bottom.energy * NEAR;
         for energy in self.levels_of_kinks(machine) {
-            let left = R::out_of_line(
-                #[inline(always)]
-                || self.torque_left(machine, energy),
-            );
+            let left = out_of_line!(R, self.torque_left(machine, energy));
             let above = near.select_lt(energy, one, may);
             may = left.select_lt(zero, may, above);
         }
@@ -125,10 +120,7 @@ impl<R: Real> Turn<R> {
         }
         let near = self.bottom().energy * NEAR;
         for energy in [-near, near] {
-            let left = R::out_of_line(
-                #[inline(always)]
-                || self.torque_left(machine, energy),
-            );
+            let left = out_of_line!(R, self.torque_left(machine, energy));
             may = zero.select_lt(left.abs(), may, one);
         }
         may
@@ -149,10 +141,7 @@ impl<R: Real> Turn<R> {
             let near = 0.5_f64.powf(f64::from(level) / f64::from(fine));
             for share in [near, 1.0 - near] {
                 let energy = bottom.energy * -share;
-                let left = R::out_of_line(
-                    #[inline(always)]
-                    || self.torque_left(machine, energy),
-                );
+                let left = out_of_line!(R, self.torque_left(machine, energy));
                 may = zero.select_lt(left, may, one);
             }
         }
@@ -174,10 +163,7 @@ impl<R: Real> Turn<R> {
         for energy in self.levels_of_kinks(machine) {
             let known = first(energy);
             if known > least && known.abs() > -least * NEAR {
-                let left = R::out_of_line(
-                    #[inline(always)]
-                    || self.torque_left(machine, energy),
-                );
+                let left = out_of_line!(R, self.torque_left(machine, energy));
                 signs.push((known, first(left)));
             }
         }

@@ -8,6 +8,7 @@ use crate::drive::structure::Plan;
 use crate::kernel::call::{in_threads, poll};
 use crate::kernel::jet::Jet;
 use crate::kernel::lanes::{Job, in_lanes, in_single_lanes};
+use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
 use crate::linkage::chain::Chain;
@@ -140,15 +141,9 @@ impl Job for MotionJob<'_, '_> {
     #[inline(always)]
     fn run<R: Real>(self) -> bool {
         if self.request.chains.is_empty() {
-            R::out_of_line(
-                #[inline(always)]
-                || self.place_all::<R>(),
-            )
+            out_of_line!(R, self.place_all::<R>())
         } else {
-            R::out_of_line(
-                #[inline(always)]
-                || self.follow_chains::<R>(),
-            )
+            out_of_line!(R, self.follow_chains::<R>())
         }
     }
 }

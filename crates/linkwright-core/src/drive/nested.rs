@@ -23,6 +23,7 @@ use crate::kernel::dual::Dual;
 use crate::kernel::nested::{
     Correction, END, MORE, SHARES, START, WEIGHTS, correction, residual, spread, terms, unresolved, whole,
 };
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{B, S, value};
 use crate::kernel::real::Real;
 use crate::kernel::series::{G, TERMS, integral};
@@ -104,10 +105,7 @@ impl<R: Real> NodeSolution<R> {
             self.steps.resize(turn.steps.len(), NodeStep::empty());
         }
         for k in 0..turn.steps.len() {
-            R::out_of_line(
-                #[inline(always)]
-                || self.evaluate(turn, machine, k, kinks[k + 1], m),
-            );
+            out_of_line!(R, self.evaluate(turn, machine, k, kinks[k + 1], m));
         }
         let growth: Vec<R> = self.steps.iter().map(|step| step.correction.u[END]).collect();
         let ends = turn.layout.ends(&turn.steps.iter().map(|step| step.u).collect::<Vec<_>>());
@@ -120,10 +118,8 @@ impl<R: Real> NodeSolution<R> {
         self.between.clear();
         self.starts.clear();
         for (k, &delta) in delta.iter().enumerate() {
-            let (of_step, grown) = R::out_of_line(
-                #[inline(always)]
-                || self.take(turn, machine, k, delta, [kinks[k], kinks[k + 1]]),
-            );
+            let (of_step, grown) =
+                out_of_line!(R, self.take(turn, machine, k, delta, [kinks[k], kinks[k + 1]]));
             for (sum, part) in sums.iter_mut().zip(of_step) {
                 *sum = *sum + part;
             }
@@ -135,10 +131,7 @@ impl<R: Real> NodeSolution<R> {
                 self.take_corner(turn, machine, k, kinks[k + 1], m);
             }
         }
-        R::out_of_line(
-            #[inline(always)]
-            || self.measure(turn, machine, &growth, &sums),
-        );
+        out_of_line!(R, self.measure(turn, machine, &growth, &sums));
         self.give_to(turn, promised);
         Totals::new(turn.layout, sums)
     }

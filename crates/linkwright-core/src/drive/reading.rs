@@ -11,6 +11,7 @@ use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{N, S, through};
 use crate::kernel::real::Real;
 use crate::kernel::series::{TERMS, value as on_series};
@@ -198,19 +199,16 @@ impl ReadCurves<'_> {
                 numbers[(3 + TERMS + i) * R::LANES + lane] = series.t[i];
             }
         }
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let load = |number: usize| R::load(&numbers[number * R::LANES..]);
-                let (phi, share, start) = (load(0), load(1), load(2));
-                let (mut u, mut t) = ([phi; TERMS], [phi; TERMS]);
-                for i in 0..TERMS {
-                    (u[i], t[i]) = (load(3 + i), load(3 + TERMS + i));
-                }
-                let state = machine.state_of(phi, on_series(&u, share), m);
-                (start + on_series(&t, share), state)
-            },
-        )
+        out_of_line!(R, {
+            let load = |number: usize| R::load(&numbers[number * R::LANES..]);
+            let (phi, share, start) = (load(0), load(1), load(2));
+            let (mut u, mut t) = ([phi; TERMS], [phi; TERMS]);
+            for i in 0..TERMS {
+                (u[i], t[i]) = (load(3 + i), load(3 + TERMS + i));
+            }
+            let state = machine.state_of(phi, on_series(&u, share), m);
+            (start + on_series(&t, share), state)
+        })
     }
 
     /// The same by a step from each mark.
@@ -237,10 +235,7 @@ impl ReadCurves<'_> {
         let X = stages_of_part(&through(&samples), R::splat(0.0), h / whole);
         let there = machine.advance_near(phi, u, h, X, m);
         let time = start + there.0.duration();
-        let state = R::out_of_line(
-            #[inline(always)]
-            || machine.state_at_end(&there),
-        );
+        let state = out_of_line!(R, machine.state_at_end(&there));
         (time, state)
     }
 

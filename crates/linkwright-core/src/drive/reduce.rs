@@ -12,6 +12,7 @@ use crate::drive::loads::{Body, Load};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::lanes::{Job, in_lanes};
+use crate::kernel::out_of_line;
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::linkage::motion::{Motion, on_link, stretch};
@@ -59,10 +60,7 @@ impl Job for ReductionJob<'_> {
             poll();
             lanes.fill(angles[0]);
             lanes[..angles.len()].copy_from_slice(angles);
-            let r = R::out_of_line(
-                #[inline(always)]
-                || plan.reduce::<R, 2>(&q, Angle::new(R::load(&lanes)), sense, &mut m),
-            );
+            let r = out_of_line!(R, plan.reduce::<R, 2>(&q, Angle::new(R::load(&lanes)), sense, &mut m));
             let columns = numbers.chunks_exact_mut(R::LANES);
             for (number, to) in [r.J, r.J_d1, r.load, r.dry, r.viscous].into_iter().zip(columns) {
                 number.store(to);
@@ -107,10 +105,7 @@ impl Plan {
             self.add_load(load, q, angle, sense, m, &mut r);
         }
         if !self.force_elements.is_empty() {
-            let (load, viscous) = R::out_of_line(
-                #[inline(always)]
-                || self.force_element_torques(q, angle.phi, sense, m),
-            );
+            let (load, viscous) = out_of_line!(R, self.force_element_torques(q, angle.phi, sense, m));
             (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
         }
         for &gap in &m.gaps {

@@ -12,6 +12,7 @@ use crate::drive::cycle::Turn;
 use crate::drive::equation::Machine;
 use crate::drive::step::SHRINK;
 use crate::kernel::dual::Dual;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
 
@@ -95,18 +96,12 @@ impl<R: Real> RoughMotion<R> {
         }
         let mut change = R::splat(f64::INFINITY);
         for _ in 0..SWEEPS_MAX {
-            change = R::out_of_line(
-                #[inline(always)]
-                || self.sweep(turn, machine, change),
-            );
+            change = out_of_line!(R, self.sweep(turn, machine, change));
             if change.max_lane() < CONVERGED {
                 break;
             }
         }
-        R::out_of_line(
-            #[inline(always)]
-            || self.give(turn, change),
-        );
+        out_of_line!(R, self.give(turn, change));
     }
 
     /// One sweep of Newton over the revolution; the largest relative correction of each lane. Lanes that have converged keep

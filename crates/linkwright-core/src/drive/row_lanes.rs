@@ -12,6 +12,7 @@ use crate::drive::row_mesh::RowMesh;
 use crate::drive::rows::{QUANTITIES, Rows, row_of};
 use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
 use crate::kernel::status::Status;
@@ -93,10 +94,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
     pub(super) fn new_meshes(&mut self, rows: &[usize], first: usize) -> Vec<RowMesh> {
         self.load(rows.iter().copied(), first);
         let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
-        let breaks = R::out_of_line(
-            #[inline(always)]
-            || machine.ends(m),
-        );
+        let breaks = out_of_line!(R, machine.ends(m));
         rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect()
     }
 
@@ -111,15 +109,9 @@ impl<'a, R: Real> RowLanes<'a, R> {
         self.load(meshes.iter().map(|mesh| mesh.row), to.first);
         self.tabulate(&meshes);
         let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
-        R::out_of_line(
-            #[inline(always)]
-            || turn.start_from_balance(&machine),
-        );
+        out_of_line!(R, turn.start_from_balance(&machine));
         rough.start(turn, &machine);
-        if R::out_of_line(
-            #[inline(always)]
-            || self.place_rough_kinks(&mut meshes),
-        ) {
+        if out_of_line!(R, self.place_rough_kinks(&mut meshes)) {
             next.append(&mut meshes);
             return 0;
         }
@@ -143,19 +135,10 @@ impl<'a, R: Real> RowLanes<'a, R> {
             return false;
         }
         let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
-        R::out_of_line(
-            #[inline(always)]
-            || turn.take_accelerations(&machine),
-        );
-        R::out_of_line(
-            #[inline(always)]
-            || turn.give_samples(meshes),
-        );
+        out_of_line!(R, turn.take_accelerations(&machine));
+        out_of_line!(R, turn.give_samples(meshes));
         let has_kinks: Vec<bool> = kinks.iter().map(|kinks| !kinks.is_empty()).collect();
-        R::out_of_line(
-            #[inline(always)]
-            || turn.give_starts(meshes, &has_kinks),
-        );
+        out_of_line!(R, turn.give_starts(meshes, &has_kinks));
         for (mesh, kinks) in meshes.iter_mut().zip(&kinks).filter(|(_, kinks)| !kinks.is_empty()) {
             mesh.place_kinks(kinks);
         }
@@ -179,10 +162,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         turn.limit = CONVERGED;
         let mut displaced = R::splat(0.0);
         for placement in 0..=PLACEMENTS {
-            displaced = R::out_of_line(
-                #[inline(always)]
-                || turn.move_to_kinks(&machine, &mut meshes, m),
-            );
+            displaced = out_of_line!(R, turn.move_to_kinks(&machine, &mut meshes, m));
             if placement > 0 && displaced.max_lane() <= 0.0 {
                 break;
             }
@@ -204,10 +184,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         let mut edges: Vec<&[f64]> = meshes.iter().map(|mesh| &mesh.edges[..]).collect();
         edges.resize(R::LANES, &meshes[meshes.len() - 1].edges);
-        R::out_of_line(
-            #[inline(always)]
-            || turn.tabulate_machines(&machine, &edges, m),
-        );
+        out_of_line!(R, turn.tabulate_machines(&machine, &edges, m));
     }
 
     /// Takes the results of the solved rows that are good, and makes meshes for those that need others.
@@ -226,10 +203,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let passes = kinks.iter().any(|kinks| !kinks.is_empty());
         if passes {
             let turn = &self.turn;
-            R::out_of_line(
-                #[inline(always)]
-                || turn.give_samples(&mut meshes),
-            );
+            out_of_line!(R, turn.give_samples(&mut meshes));
         }
         for (lane, verdict) in verdicts.iter_mut().enumerate() {
             if is_solved[lane].partial_cmp(&CONVERGED) != Some(Ordering::Less) {
@@ -241,10 +215,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let errors = self.judge(&meshes, displaced, &mut verdicts, to);
         if !passes && verdicts.contains(&Verdict::Coarse) {
             let turn = &self.turn;
-            R::out_of_line(
-                #[inline(always)]
-                || turn.give_samples(&mut meshes),
-            );
+            out_of_line!(R, turn.give_samples(&mut meshes));
         }
         self.refuse_pulses(&meshes, &mut verdicts, to.first);
         for (lane, mut mesh) in meshes.into_iter().enumerate() {
@@ -353,18 +324,9 @@ impl<'a, R: Real> RowLanes<'a, R> {
         if !verdicts.contains(&Verdict::Good) {
             return errors;
         }
-        let extremes = R::out_of_line(
-            #[inline(always)]
-            || turn.extremes(&machine, Some(&nested.between), &nested.starts, m),
-        );
-        let may_have_faster = R::out_of_line(
-            #[inline(always)]
-            || turn.may_have_faster(&machine),
-        );
-        let may_be_neutral = R::out_of_line(
-            #[inline(always)]
-            || turn.may_be_neutral(&machine),
-        );
+        let extremes = out_of_line!(R, turn.extremes(&machine, Some(&nested.between), &nested.starts, m));
+        let may_have_faster = out_of_line!(R, turn.may_have_faster(&machine));
+        let may_be_neutral = out_of_line!(R, turn.may_be_neutral(&machine));
         let may_have_faster = may_have_faster.max(may_be_neutral);
         // A motion that the machine departs from, or that may not be the fastest, is no answer.
         let (zero, one) = (R::splat(0.0), R::splat(1.0));

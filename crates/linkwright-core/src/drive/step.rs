@@ -3,6 +3,7 @@
 use crate::drive::equation::{Machine, Row};
 use crate::drive::law::LawGeometry;
 use crate::kernel::dual::Dual;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{B, C, N, S, StageNewton, stage_newton, through, value};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -192,13 +193,10 @@ impl<R: Real> Machine<'_, R> {
     pub fn settle(&self, step: &mut Step<R>, geometry: &[LawGeometry<R>]) {
         let once = R::splat(f64::INFINITY);
         for _ in 0..OVER_KINK {
-            R::out_of_line(
-                #[inline(always)]
-                || {
-                    let newton = self.step_newton(step, geometry, once, 0.0);
-                    step.take(&newton, R::splat(0.0), once, 0.0);
-                },
-            );
+            out_of_line!(R, {
+                let newton = self.step_newton(step, geometry, once, 0.0);
+                step.take(&newton, R::splat(0.0), once, 0.0);
+            });
         }
     }
 
@@ -215,10 +213,8 @@ impl<R: Real> Machine<'_, R> {
     ) -> (Step<R>, Vec<LawGeometry<R>>) {
         let mut geometry = Vec::new();
         let rows = self.rows(phi, h, m, &mut geometry);
-        let step = R::out_of_line(
-            #[inline(always)]
-            || self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &geometry, limit),
-        );
+        let step =
+            out_of_line!(R, self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &geometry, limit));
         (step, geometry)
     }
 

@@ -20,6 +20,7 @@
 
 use super::guided::{Line, bar};
 use super::motion::Motion;
+use crate::kernel::out_of_line;
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
@@ -176,62 +177,59 @@ impl Group {
     /// Derivatives at the position found, bars, and the closure measure.
     #[inline(always)]
     fn finish<R: Real, const ORDER: u8>(&self, q: &[R], m: &mut Motion<R>, system: &mut System<R>) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                self.carry::<R, 0>(q, m);
-                self.linearise(q, m, system);
-                system.factorise();
-                let mut residual = R::splat(0.0);
-                for condition in &self.conditions {
-                    residual = residual.max(self.factors(condition, q, m).value.abs());
-                }
-                for order in 1..=ORDER {
-                    for &unknown in &self.unknowns {
-                        let place = &mut m.points[unknown];
-                        if order == 1 {
-                            (place.d1, place.d2) = (Vec2::zero(), Vec2::zero());
-                        } else {
-                            place.d2 = Vec2::zero();
-                        }
-                    }
-                    self.carry::<R, ORDER>(q, m);
-                    for (row, condition) in self.conditions.iter().enumerate() {
-                        let f = self.factors(condition, q, m);
-                        let [a, b] = [f.a, f.b];
-                        system.rhs[row] = -if order == 1 {
-                            a[1].dot(b[0]) + a[0].dot(b[1])
-                        } else {
-                            a[2].dot(b[0]) + a[1].dot(b[1]) * 2.0 + a[0].dot(b[2])
-                        };
-                    }
-                    system.solve();
-                    for (k, &unknown) in self.unknowns.iter().enumerate() {
-                        let found = Vec2::new(system.rhs[2 * k], system.rhs[2 * k + 1]);
-                        let place = &mut m.points[unknown];
-                        if order == 1 {
-                            place.d1 = found;
-                        } else {
-                            place.d2 = found;
-                        }
+        out_of_line!(R, {
+            self.carry::<R, 0>(q, m);
+            self.linearise(q, m, system);
+            system.factorise();
+            let mut residual = R::splat(0.0);
+            for condition in &self.conditions {
+                residual = residual.max(self.factors(condition, q, m).value.abs());
+            }
+            for order in 1..=ORDER {
+                for &unknown in &self.unknowns {
+                    let place = &mut m.points[unknown];
+                    if order == 1 {
+                        (place.d1, place.d2) = (Vec2::zero(), Vec2::zero());
+                    } else {
+                        place.d2 = Vec2::zero();
                     }
                 }
                 self.carry::<R, ORDER>(q, m);
-                for each in &self.bars {
-                    let (from, to) = (m.points[each.from], m.points[each.to]);
-                    bar(m, each.link, &from, &to, q[each.inverse_length]);
+                for (row, condition) in self.conditions.iter().enumerate() {
+                    let f = self.factors(condition, q, m);
+                    let [a, b] = [f.a, f.b];
+                    system.rhs[row] = -if order == 1 {
+                        a[1].dot(b[0]) + a[0].dot(b[1])
+                    } else {
+                        a[2].dot(b[0]) + a[1].dot(b[1]) * 2.0 + a[0].dot(b[2])
+                    };
                 }
-                self.slide(q, m);
-                // Not converged: reported as not closing.
-                let scale = self.scale(q, m);
-                let open = (residual - scale.squared() * 1e-10).select_lt(
-                    R::splat(0.0),
-                    system.determinant().squared(),
-                    R::splat(-1.0),
-                );
-                m.gaps[self.gap] = residual.select_lt(R::splat(f64::INFINITY), open, R::splat(-1.0));
-            },
-        )
+                system.solve();
+                for (k, &unknown) in self.unknowns.iter().enumerate() {
+                    let found = Vec2::new(system.rhs[2 * k], system.rhs[2 * k + 1]);
+                    let place = &mut m.points[unknown];
+                    if order == 1 {
+                        place.d1 = found;
+                    } else {
+                        place.d2 = found;
+                    }
+                }
+            }
+            self.carry::<R, ORDER>(q, m);
+            for each in &self.bars {
+                let (from, to) = (m.points[each.from], m.points[each.to]);
+                bar(m, each.link, &from, &to, q[each.inverse_length]);
+            }
+            self.slide(q, m);
+            // Not converged: reported as not closing.
+            let scale = self.scale(q, m);
+            let open = (residual - scale.squared() * 1e-10).select_lt(
+                R::splat(0.0),
+                system.determinant().squared(),
+                R::splat(-1.0),
+            );
+            m.gaps[self.gap] = residual.select_lt(R::splat(f64::INFINITY), open, R::splat(-1.0));
+        })
     }
 
     /// The maximum of the given lengths, or one where there is none.
@@ -301,9 +299,9 @@ impl Group {
     /// Both factors of a condition with two derivatives, and its value.
     #[inline(always)]
     fn factors<R: Real>(&self, condition: &Condition, q: &[R], m: &Motion<R>) -> Factors<R> {
-        R::out_of_line(
-            #[inline(always)]
-            || match *condition {
+        out_of_line!(
+            R,
+            match *condition {
                 Condition::Distance { from, to, length } => {
                     let u = between(&m.points[from], &m.points[to]);
                     Factors { a: u, b: u, value: u[0].dot(u[0]) - q[length].squared() }
@@ -328,60 +326,54 @@ impl Group {
                     }
                     Factors { a: n, b: c, value: n[0].dot(c[0]) - q[line.offset] }
                 }
-            },
+            }
         )
     }
 
     /// The Jacobian: for each condition its gradient by the points it depends on, carried to the unknowns.
     #[inline(always)]
     fn linearise<R: Real>(&self, q: &[R], m: &Motion<R>, system: &mut System<R>) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                system.clear();
-                for (row, condition) in self.conditions.iter().enumerate() {
-                    let Factors { a, b, .. } = self.factors(condition, q, m);
-                    let minus = R::splat(-1.0);
-                    match *condition {
-                        Condition::Distance { from, to, .. } => {
-                            self.spread(to, a[0] * R::splat(2.0), row, system);
-                            self.spread(from, a[0] * R::splat(-2.0), row, system);
-                        }
-                        Condition::OnLine { point, line, .. } => {
-                            self.spread(point, a[0], row, system);
-                            self.spread(line.through, a[0] * minus, row, system);
-                        }
-                        Condition::OnBar { point, line, bar, .. } => {
-                            self.spread(point, a[0], row, system);
-                            self.spread(line.through, a[0] * minus, row, system);
-                            // n·c by u: n = Z u with Z a rotation and a factor, so Zᵀ c.
-                            let (cos, sin) =
-                                (q[line.cos] * q[bar.inverse_length], q[line.sin] * q[bar.inverse_length]);
-                            let back = b[0].left() * minus;
-                            let by_u = (back * cos).plus(back.left(), -sin);
-                            self.spread(bar.to, by_u, row, system);
-                            self.spread(bar.from, by_u * minus, row, system);
-                        }
+        out_of_line!(R, {
+            system.clear();
+            for (row, condition) in self.conditions.iter().enumerate() {
+                let Factors { a, b, .. } = self.factors(condition, q, m);
+                let minus = R::splat(-1.0);
+                match *condition {
+                    Condition::Distance { from, to, .. } => {
+                        self.spread(to, a[0] * R::splat(2.0), row, system);
+                        self.spread(from, a[0] * R::splat(-2.0), row, system);
                     }
-                    self.hand_on(row, q, system);
+                    Condition::OnLine { point, line, .. } => {
+                        self.spread(point, a[0], row, system);
+                        self.spread(line.through, a[0] * minus, row, system);
+                    }
+                    Condition::OnBar { point, line, bar, .. } => {
+                        self.spread(point, a[0], row, system);
+                        self.spread(line.through, a[0] * minus, row, system);
+                        // n·c by u: n = Z u with Z a rotation and a factor, so Zᵀ c.
+                        let (cos, sin) =
+                            (q[line.cos] * q[bar.inverse_length], q[line.sin] * q[bar.inverse_length]);
+                        let back = b[0].left() * minus;
+                        let by_u = (back * cos).plus(back.left(), -sin);
+                        self.spread(bar.to, by_u, row, system);
+                        self.spread(bar.from, by_u * minus, row, system);
+                    }
                 }
-            },
-        )
+                self.hand_on(row, q, system);
+            }
+        })
     }
 
     /// Adds a gradient by a point to the row; a carried point keeps it for [`Group::hand_on`].
     #[inline(always)]
     fn spread<R: Real>(&self, point: usize, gradient: Vec2<R>, row: usize, system: &mut System<R>) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
-                    system.add(row, 2 * k, gradient);
-                } else if let Some(c) = self.bar_points.iter().position(|each| each.point == point) {
-                    system.kept[c] = system.kept[c] + gradient;
-                }
-            },
-        )
+        out_of_line!(R, {
+            if let Some(k) = self.unknowns.iter().position(|&unknown| unknown == point) {
+                system.add(row, 2 * k, gradient);
+            } else if let Some(c) = self.bar_points.iter().position(|each| each.point == point) {
+                system.kept[c] = system.kept[c] + gradient;
+            }
+        })
     }
 
     /// Hands the gradients that carried points keep on to their ends, from the last to the first: each depends on
@@ -449,55 +441,49 @@ impl<R: Real> System<R> {
 
     #[inline(always)]
     fn factorise(&mut self) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let n = self.n;
-                for k in 0..n {
-                    let (before, rest) = self.columns.split_at_mut(k * n);
-                    let column = &mut rest[..n];
-                    for j in 0..k {
-                        let share = dot(&before[j * n..(j + 1) * n], column);
-                        self.upper[j * n + k] = share;
-                        for i in 0..n {
-                            column[i] = column[i] - before[j * n + i] * share;
-                        }
-                    }
-                    let length = dot(column, column).sqrt();
-                    self.upper[k * n + k] = length;
-                    let inverse = length.recip();
-                    for x in column {
-                        *x = *x * inverse;
+        out_of_line!(R, {
+            let n = self.n;
+            for k in 0..n {
+                let (before, rest) = self.columns.split_at_mut(k * n);
+                let column = &mut rest[..n];
+                for j in 0..k {
+                    let share = dot(&before[j * n..(j + 1) * n], column);
+                    self.upper[j * n + k] = share;
+                    for i in 0..n {
+                        column[i] = column[i] - before[j * n + i] * share;
                     }
                 }
-            },
-        )
+                let length = dot(column, column).sqrt();
+                self.upper[k * n + k] = length;
+                let inverse = length.recip();
+                for x in column {
+                    *x = *x * inverse;
+                }
+            }
+        })
     }
 
     /// Turns `rhs` into the solution.
     #[inline(always)]
     fn solve(&mut self) {
-        R::out_of_line(
-            #[inline(always)]
-            || {
-                let n = self.n;
-                let mut x = vec![R::splat(0.0); n];
-                for k in 0..n {
-                    // Modified: what is found is taken out before the next.
-                    x[k] = dot(&self.columns[k * n..(k + 1) * n], &self.rhs);
-                    for i in 0..n {
-                        self.rhs[i] = self.rhs[i] - self.columns[k * n + i] * x[k];
-                    }
+        out_of_line!(R, {
+            let n = self.n;
+            let mut x = vec![R::splat(0.0); n];
+            for k in 0..n {
+                // Modified: what is found is taken out before the next.
+                x[k] = dot(&self.columns[k * n..(k + 1) * n], &self.rhs);
+                for i in 0..n {
+                    self.rhs[i] = self.rhs[i] - self.columns[k * n + i] * x[k];
                 }
-                for k in (0..n).rev() {
-                    for j in k + 1..n {
-                        x[k] = x[k] - self.upper[k * n + j] * x[j];
-                    }
-                    x[k] = x[k] / self.upper[k * n + k];
+            }
+            for k in (0..n).rev() {
+                for j in k + 1..n {
+                    x[k] = x[k] - self.upper[k * n + j] * x[j];
                 }
-                self.rhs.copy_from_slice(&x);
-            },
-        )
+                x[k] = x[k] / self.upper[k * n + k];
+            }
+            self.rhs.copy_from_slice(&x);
+        })
     }
 
     /// |det J|: zero where the group is at a limit of its motion.

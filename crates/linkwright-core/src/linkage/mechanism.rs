@@ -9,6 +9,7 @@ use super::folding::{self, Folding, FoldingRod};
 use super::group::{Bar, Group};
 use super::guided::{self, Crossing, GuidedRod, SlottedLever};
 use super::motion::{Motion, on_link};
+use crate::kernel::out_of_line;
 use crate::kernel::plane::{Angle, Heading, Place, Slide, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
@@ -129,10 +130,7 @@ impl Mechanism {
                     m.points[point].set(place.p, place.d1, place.d2);
                 }
                 // A function of their own keeps the loop over the common elements small.
-                _ => R::out_of_line(
-                    #[inline(always)]
-                    || element.place_rarer::<R, ORDER>(q, angle, m),
-                ),
+                _ => out_of_line!(R, element.place_rarer::<R, ORDER>(q, angle, m)),
             }
         }
     }

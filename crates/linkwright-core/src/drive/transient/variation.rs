@@ -23,6 +23,7 @@ use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
 use crate::kernel::lanes::{Job, in_single_lanes};
 use crate::kernel::matrix::LuFactors;
+use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
 use crate::kernel::radau::{A, B, C, S};
 use crate::kernel::real::{LANES_MAX, Real};
@@ -229,21 +230,18 @@ impl<'a> Plain<'a> {
 /// ε at a crank angle and a speed, counter-clockwise.
 #[inline(always)]
 fn acceleration<N: Real>(plan: &Plan, q: &[N], phi: N, omega: N, m: &mut Motion<N>) -> N {
-    N::out_of_line(
-        #[inline(always)]
-        || {
-            let r = plan.reduce::<N, 2>(q, Angle::new(phi), 1.0, m);
-            let mut net = plan.drive.torque::<N, N>(&plan.tables, q, omega)
-                - (r.load + r.dry)
-                - omega * (r.viscous + omega * r.J_d1 * 0.5);
-            if !plan.laws.is_empty() {
-                let mut geometry = Vec::new();
-                plan.add_geometry(q, phi, m, &mut geometry);
-                net = net - plan.law_torque::<N, N, N>(q, &geometry, omega, N::splat(f64::NAN));
-            }
-            net / r.J
-        },
-    )
+    out_of_line!(N, {
+        let r = plan.reduce::<N, 2>(q, Angle::new(phi), 1.0, m);
+        let mut net = plan.drive.torque::<N, N>(&plan.tables, q, omega)
+            - (r.load + r.dry)
+            - omega * (r.viscous + omega * r.J_d1 * 0.5);
+        if !plan.laws.is_empty() {
+            let mut geometry = Vec::new();
+            plan.add_geometry(q, phi, m, &mut geometry);
+            net = net - plan.law_torque::<N, N, N>(q, &geometry, omega, N::splat(f64::NAN));
+        }
+        net / r.J
+    })
 }
 
 /// What the slope at the end of a step is made of, of a polynomial through the values at its stages.
