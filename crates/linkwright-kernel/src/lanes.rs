@@ -8,7 +8,6 @@
 use crate::real::{COEFFICIENTS, Real};
 use pulp::{Simd, WithSimd};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
-use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A piece of work that can be done in any number of lanes.
@@ -19,15 +18,54 @@ pub trait Job {
     fn run<R: Real>(self) -> Self::Output;
 }
 
-/// Runs the job two registers at a time on the best instruction set found.
+/// Runs the job two registers at a time on the widest registers that this processor has.
 pub fn in_lanes<J: Job>(job: J) -> J::Output {
-    dispatch(InBundles(job, PhantomData::<Two>))
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V4::try_new() {
+        return simd.vectorize(
+            #[inline(always)]
+            || job.run::<Pair<V<pulp::x86::V4>>>(),
+        );
+    }
+    in_common::<J, Two>(job)
 }
 
-/// Runs the job one register at a time: for numbers that carry derivatives along, two of which fill the processor
-/// as two registers do, in half the code.
+/// Runs the job one register at a time, on registers of the one kind that all processors of an architecture have: for what is
+/// not hot, or carries derivatives along, two numbers of which fill the processor as two registers do, in half the code.
 pub fn in_single_lanes<J: Job>(job: J) -> J::Output {
-    dispatch(InBundles(job, PhantomData::<One>))
+    in_common::<J, One>(job)
+}
+
+/// The same with as many registers as a bundle has.
+#[inline(always)]
+fn in_common<J: Job, B: Bundle>(job: J) -> J::Output {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    {
+        let Some(simd) = Common::try_new() else { panic!("{NEEDS}") };
+        simd.vectorize(
+            #[inline(always)]
+            || job.run::<B::Of<Common>>(),
+        )
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    scalar(job)
+}
+
+/// Registers of the one kind.
+#[cfg(target_arch = "x86_64")]
+type Common = pulp::x86::V3;
+#[cfg(target_arch = "aarch64")]
+type Common = pulp::aarch64::Neon;
+
+/// What a processor needs: kernels for one without would be a third of all code, and nobody has one.
+pub const NEEDS: &str = "Linkwright needs a processor with AVX2 and FMA: Intel since 2013, AMD since 2015";
+
+/// Whether this processor has it.
+pub fn is_supported() -> bool {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    return Common::try_new().is_some();
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    true
 }
 
 /// How many registers are one number.
@@ -43,49 +81,6 @@ impl Bundle for One {
 struct Two;
 impl Bundle for Two {
     type Of<S: Simd> = Pair<V<S>>;
-}
-
-/// A job, and what its numbers are.
-struct InBundles<J, B>(J, PhantomData<B>);
-impl<J: Job, B: Bundle> WithSimd for InBundles<J, B> {
-    type Output = J::Output;
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> J::Output {
-        self.0.run::<B::Of<S>>()
-    }
-}
-
-/// Runs the job on the best instruction set found; on plain numbers, which most kernels are compiled for anyway,
-/// where a processor has no registers for several.
-#[inline(always)]
-fn dispatch<J: Job, B: Bundle>(work: InBundles<J, B>) -> J::Output {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use pulp::x86::{V3, V4};
-        if let Some(simd) = V4::try_new() {
-            return simd.vectorize(
-                #[inline(always)]
-                || work.with_simd(simd),
-            );
-        }
-        if let Some(simd) = V3::try_new() {
-            return simd.vectorize(
-                #[inline(always)]
-                || work.with_simd(simd),
-            );
-        }
-        scalar(work.0)
-    }
-    #[cfg(target_arch = "aarch64")]
-    match pulp::aarch64::Neon::try_new() {
-        Some(simd) => simd.vectorize(
-            #[inline(always)]
-            || work.with_simd(simd),
-        ),
-        None => scalar(work.0),
-    }
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    scalar(work.0)
 }
 
 /// Runs the job on plain `f64`: the truth that lanes are measured against.

@@ -11,6 +11,7 @@ use crate::drive::equation::Machine;
 use crate::drive::law::LawGeometry;
 use crate::drive::measures::INTEGRALS;
 use crate::drive::step::{CONVERGED, Step, stages_of_part};
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{BEHIND, N, S, TO_START, value};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -40,23 +41,25 @@ impl<R: Real> Turn<R> {
         limits: Limits,
         m: &mut Motion<R>,
     ) {
-        let step = &self.steps[k];
-        let (quintic, geometry) = (step.quintic(), self.geometry_of(machine, k).to_vec());
-        let whole = Part { step: *step, geometry, from: 0.0, length: 1.0, quintic: &quintic };
-        let [mut first, mut last] = whole.halves(machine, m);
-        for _ in 0..PARTS {
-            let [ahead, beside] = last.halves(machine, m);
-            last.add(machine, [&ahead, &beside], 0, to, limits);
-            last = beside;
-        }
-        for level in 0..PARTS {
-            let [beside, behind] = first.halves(machine, m);
-            first.add(machine, [&beside, &behind], level as usize + 1, to, limits);
-            first = beside;
-        }
-        if !machine.keeps_branch {
-            to.add_acceleration(&first.step, first.off_at_start(machine, m), limits);
-        }
+        out_of_line!(R, {
+            let step = &self.steps[k];
+            let (quintic, geometry) = (step.quintic(), self.geometry_of(machine, k).to_vec());
+            let whole = Part { step: *step, geometry, from: 0.0, length: 1.0, quintic: &quintic };
+            let [mut first, mut last] = whole.halves(machine, m);
+            for _ in 0..PARTS {
+                let [ahead, beside] = last.halves(machine, m);
+                last.add(machine, [&ahead, &beside], 0, to, limits);
+                last = beside;
+            }
+            for level in 0..PARTS {
+                let [beside, behind] = first.halves(machine, m);
+                first.add(machine, [&beside, &behind], level as usize + 1, to, limits);
+                first = beside;
+            }
+            if !machine.keeps_branch {
+                to.add_acceleration(&first.step, first.off_at_start(machine, m), limits);
+            }
+        })
     }
 }
 
@@ -64,16 +67,18 @@ impl<'a, R: Real> Part<'a, R> {
     /// Its halves, solved one after the other.
     #[inline(always)]
     fn halves(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> [Part<'a, R>; 2] {
-        let Part { step, from, length, quintic, .. } = *self;
-        let (x, length) = (step.h * 0.5, 0.5 * length);
-        let mut half = |phi: R, u: R, from: f64| {
-            let X = stages_of_part(quintic, R::splat(from), R::splat(length));
-            let (step, geometry) = machine.advance_within(CONVERGED, phi, u, x, X, m);
-            Part { step, geometry, from, length, quintic }
-        };
-        let first = half(step.phi, step.u, from);
-        let second = half(step.phi + x, first.step.end(), from + length);
-        [first, second]
+        out_of_line!(R, {
+            let Part { step, from, length, quintic, .. } = *self;
+            let (x, length) = (step.h * 0.5, 0.5 * length);
+            let mut half = |phi: R, u: R, from: f64| {
+                let X = stages_of_part(quintic, R::splat(from), R::splat(length));
+                let (step, geometry) = machine.advance_within(CONVERGED, phi, u, x, X, m);
+                Part { step, geometry, from, length, quintic }
+            };
+            let first = half(step.phi, step.u, from);
+            let second = half(step.phi + x, first.step.end(), from + length);
+            [first, second]
+        })
     }
 
     /// Adds by what it differs from its halves.
@@ -86,26 +91,30 @@ impl<'a, R: Real> Part<'a, R> {
         to: &mut Differences<R>,
         limits: Limits,
     ) {
-        to.add_part(&self.step, &halves[1].step, self.step.steepness(), level, limits);
-        let [own, first, second] =
-            [self, halves[0], halves[1]].map(|part| machine.integrals(&part.step, &part.geometry));
-        for i in 0..INTEGRALS {
-            to.integrals[i] = to.integrals[i] + (first[i] + second[i] - own[i]).abs();
-        }
+        out_of_line!(R, {
+            to.add_part(&self.step, &halves[1].step, self.step.steepness(), level, limits);
+            let [own, first, second] =
+                [self, halves[0], halves[1]].map(|part| machine.integrals(&part.step, &part.geometry));
+            for i in 0..INTEGRALS {
+                to.integrals[i] = to.integrals[i] + (first[i] + second[i] - own[i]).abs();
+            }
+        })
     }
 
     /// By what the acceleration where it begins differs from what its stages make of it.
     #[inline(always)]
     fn off_at_start(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> R {
-        let (step, zero, mut geometry) = (&self.step, R::splat(0.0), Vec::new());
-        // On the very start rounding would decide on which side of a kink it lies.
-        let row = machine.row(step.h.mul_add(R::splat(BEHIND), step.phi), m, &mut geometry);
-        let u = value(&step.quintic(), R::splat(BEHIND));
-        let mut off = machine.acceleration(&row, &geometry, u).value;
-        for i in 0..S {
-            off = off - step.K[i] * TO_START[i];
-        }
-        // A lane may be filled up by a step of no length.
-        zero.select_lt(step.h, off.abs(), zero)
+        out_of_line!(R, {
+            let (step, zero, mut geometry) = (&self.step, R::splat(0.0), Vec::new());
+            // On the very start rounding would decide on which side of a kink it lies.
+            let row = machine.row(step.h.mul_add(R::splat(BEHIND), step.phi), m, &mut geometry);
+            let u = value(&step.quintic(), R::splat(BEHIND));
+            let mut off = machine.acceleration(&row, &geometry, u).value;
+            for i in 0..S {
+                off = off - step.K[i] * TO_START[i];
+            }
+            // A lane may be filled up by a step of no length.
+            zero.select_lt(step.h, off.abs(), zero)
+        })
     }
 }

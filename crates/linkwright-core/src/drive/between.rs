@@ -49,7 +49,7 @@ impl<R: Real> Turn<R> {
         }
         let (mut all, mut worst) = (Vec::with_capacity(self.steps.len()), 0.0_f64);
         for k in 0..self.steps.len() {
-            let (series, error) = out_of_line!(R, self.between_of(machine, k, accuracy, scale, m));
+            let (series, error) = self.between_of(machine, k, accuracy, scale, m);
             // A NaN is not below the limit.
             worst = worst.max(error.select_lt(R::splat(SHARE), error, R::splat(f64::INFINITY)).max_lane());
             if worst > SHARE {
@@ -70,72 +70,77 @@ impl<R: Real> Turn<R> {
         scale: f64,
         m: &mut Motion<R>,
     ) -> (Between<R>, R) {
-        let step = &self.steps[k];
-        let zero = R::splat(0.0);
-        let (mut x, mut f, mut d) = ([step.u; G], [zero; G], [zero; G]);
-        let (mut rows, mut geometry) = ([step.rows[0]; G], Vec::new());
-        let quintic = step.quintic();
-        for i in 0..G {
-            rows[i] = machine.row(step.h.mul_add(R::splat(SHARES[i]), step.phi), m, &mut geometry);
-            x[i] = on_quintic(&quintic, R::splat(SHARES[i]));
-        }
-        let mut squared = zero;
-        for _ in 0..CORRECTIONS {
+        out_of_line!(R, {
+            let step = &self.steps[k];
+            let zero = R::splat(0.0);
+            let (mut x, mut f, mut d) = ([step.u; G], [zero; G], [zero; G]);
+            let (mut rows, mut geometry) = ([step.rows[0]; G], Vec::new());
+            let quintic = step.quintic();
             for i in 0..G {
-                let epsilon = machine.acceleration(&rows[i], machine.geometry_at(&geometry, i), x[i]);
-                (f[i], d[i]) = (epsilon.value, epsilon.d);
+                rows[i] = machine.row(step.h.mul_add(R::splat(SHARES[i]), step.phi), m, &mut geometry);
+                x[i] = on_quintic(&quintic, R::splat(SHARES[i]));
             }
-            let delta = newton(step.u, step.h, &f, &d, &x);
-            let (mut worst, mut steepest) = (zero, d[0].abs());
+            let mut squared = zero;
+            for _ in 0..CORRECTIONS {
+                for i in 0..G {
+                    let epsilon = machine.acceleration(&rows[i], machine.geometry_at(&geometry, i), x[i]);
+                    (f[i], d[i]) = (epsilon.value, epsilon.d);
+                }
+                let delta = newton(step.u, step.h, &f, &d, &x);
+                let (mut worst, mut steepest) = (zero, d[0].abs());
+                for i in 0..G {
+                    worst = worst.max(delta[i].abs() / x[i]);
+                    steepest = steepest.max(d[i].abs());
+                    x[i] = x[i] + delta[i];
+                    // The tangent gives ε at the corrected node to the square of the correction.
+                    f[i] = d[i].mul_add(delta[i], f[i]);
+                }
+                // What the next correction would be: of the speed, and what a steep drive makes of it.
+                let of_acceleration = steepest * step.u * (1.0 / scale);
+                squared = worst.squared() * (of_acceleration + 1.0) * (1.0 / accuracy);
+                if squared.max_lane() < 0.1 * SHARE {
+                    break;
+                }
+            }
+            let slope = terms(&f);
+            let u = integral(step.u, step.h, &slope);
+            let mut pace = x;
             for i in 0..G {
-                worst = worst.max(delta[i].abs() / x[i]);
-                steepest = steepest.max(d[i].abs());
-                x[i] = x[i] + delta[i];
-                // The tangent gives ε at the corrected node to the square of the correction.
-                f[i] = d[i].mul_add(delta[i], f[i]);
+                pace[i] = (x[i] * 2.0).sqrt().recip();
             }
-            // What the next correction would be: of the speed, and what a steep drive makes of it.
-            let of_acceleration = steepest * step.u * (1.0 / scale);
-            squared = worst.squared() * (of_acceleration + 1.0) * (1.0 / accuracy);
-            if squared.max_lane() < 0.1 * SHARE {
-                break;
+            let pace = terms(&pace);
+            let left = missing(step.h, &slope);
+            let mut steepest = d[0].abs();
+            for d in &d[1..] {
+                steepest = steepest.max(d.abs());
             }
-        }
-        let slope = terms(&f);
-        let u = integral(step.u, step.h, &slope);
-        let mut pace = x;
-        for i in 0..G {
-            pace[i] = (x[i] * 2.0).sqrt().recip();
-        }
-        let pace = terms(&pace);
-        let left = missing(step.h, &slope);
-        let mut steepest = d[0].abs();
-        for d in &d[1..] {
-            steepest = steepest.max(d.abs());
-        }
-        let of_speed = left / step.u * (0.5 / accuracy);
-        let of_acceleration = steepest * left * (1.0 / (accuracy * scale));
-        let of_time = missing(R::splat(1.0), &pace) / pace[0] * (1.0 / accuracy);
-        let error = of_speed.max(of_acceleration).max(of_time).max(squared);
-        (Between { u, t: integral(zero, step.h, &pace) }, error)
+            let of_speed = left / step.u * (0.5 / accuracy);
+            let of_acceleration = steepest * left * (1.0 / (accuracy * scale));
+            let of_time = missing(R::splat(1.0), &pace) / pace[0] * (1.0 / accuracy);
+            let error = of_speed.max(of_acceleration).max(of_time).max(squared);
+            (Between { u, t: integral(zero, step.h, &pace) }, error)
+        })
     }
 
     /// The series of the steps in a row, those of no length left out.
     #[inline(always)]
     pub fn in_a_row(&self, series: &[Between<R>]) -> Vec<Between<f64>> {
-        let mut row = Vec::with_capacity(series.len() * R::LANES);
-        let mut numbers = vec![0.0; 2 * TERMS * R::LANES];
-        for (step, series) in self.steps.iter().zip(series) {
-            for (term, lanes) in series.u.iter().chain(&series.t).zip(numbers.chunks_exact_mut(R::LANES)) {
-                term.store(lanes);
-            }
-            for (lane, h) in unbundle(&[step.h]).into_iter().enumerate() {
-                let of = |first: usize| std::array::from_fn(|i| numbers[(first + i) * R::LANES + lane]);
-                if h > 0.0 {
-                    row.push(Between { u: of(0), t: of(TERMS) });
+        out_of_line!(R, {
+            let mut row = Vec::with_capacity(series.len() * R::LANES);
+            let mut numbers = vec![0.0; 2 * TERMS * R::LANES];
+            for (step, series) in self.steps.iter().zip(series) {
+                for (term, lanes) in series.u.iter().chain(&series.t).zip(numbers.chunks_exact_mut(R::LANES))
+                {
+                    term.store(lanes);
+                }
+                for (lane, h) in unbundle(&[step.h]).into_iter().enumerate() {
+                    let of = |first: usize| std::array::from_fn(|i| numbers[(first + i) * R::LANES + lane]);
+                    if h > 0.0 {
+                        row.push(Between { u: of(0), t: of(TERMS) });
+                    }
                 }
             }
-        }
-        row
+            row
+        })
     }
 }

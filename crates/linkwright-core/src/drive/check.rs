@@ -107,7 +107,7 @@ impl<R: Real> Turn<R> {
             return check;
         }
         for (k, of_step) in differences.iter_mut().enumerate() {
-            out_of_line!(R, self.add_beside_ends(machine, k, of_step, limits, m));
+            self.add_beside_ends(machine, k, of_step, limits, m);
         }
         self.judged(machine, &differences, &integrals, kinks, limits)
     }
@@ -122,29 +122,32 @@ impl<R: Real> Turn<R> {
         kinks: &[KinkAtEnd],
         limits: Limits,
     ) -> Check {
-        let column = |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
-        let defect = column(&|k| differences[k].defect);
-        let mut check = Check {
-            excess: column(&|k| differences[k].error)
-                .into_iter()
-                .zip(column(&|k| differences[k].halvings))
-                .map(|(error, halvings)| Excess { error, halvings: halvings as u32 })
-                .collect(),
-            reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
-            rounding: column(&|k| self.steps[k].steepness() * self.steps[k].u)
-                .into_iter()
-                .fold(0.0, f64::max)
-                * (2.0 * ROUNDING / limits.epsilon),
-        };
-        let growths = [column(&|k| differences[k].growths[0]), column(&|k| differences[k].growths[1])];
-        let multiplier = add_growth(&mut check, &growths, limits.accuracy);
-        self.add_carried(&mut check, &defect, kinks, multiplier, limits);
-        let roundings = self.integral_roundings(machine, integrals);
-        for (i, size) in self.integral_sizes(machine, integrals).into_iter().enumerate() {
-            let parts = column(&|k| differences[k].integrals[i]);
-            add_integral(&mut check, &parts, size, roundings[i], limits.accuracy);
-        }
-        check
+        out_of_line!(R, {
+            let column =
+                |of: &dyn Fn(usize) -> R| unbundle(&(0..differences.len()).map(of).collect::<Vec<_>>());
+            let defect = column(&|k| differences[k].defect);
+            let mut check = Check {
+                excess: column(&|k| differences[k].error)
+                    .into_iter()
+                    .zip(column(&|k| differences[k].halvings))
+                    .map(|(error, halvings)| Excess { error, halvings: halvings as u32 })
+                    .collect(),
+                reached: column(&|k| differences[k].relative).into_iter().fold(0.0, f64::max),
+                rounding: column(&|k| self.steps[k].steepness() * self.steps[k].u)
+                    .into_iter()
+                    .fold(0.0, f64::max)
+                    * (2.0 * ROUNDING / limits.epsilon),
+            };
+            let growths = [column(&|k| differences[k].growths[0]), column(&|k| differences[k].growths[1])];
+            let multiplier = add_growth(&mut check, &growths, limits.accuracy);
+            self.add_carried(&mut check, &defect, kinks, multiplier, limits);
+            let roundings = self.integral_roundings(machine, integrals);
+            for (i, size) in self.integral_sizes(machine, integrals).into_iter().enumerate() {
+                let parts = column(&|k| differences[k].integrals[i]);
+                add_integral(&mut check, &parts, size, roundings[i], limits.accuracy);
+            }
+            check
+        })
     }
 
     /// 1 in the lanes of steps that end on a kink, 0 elsewhere; nothing where there is no kink.

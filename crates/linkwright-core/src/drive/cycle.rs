@@ -123,17 +123,19 @@ impl<R: Real> Turn<R> {
     /// asks for once.
     #[inline(always)]
     pub fn tabulate_again(&mut self, machine: &Machine<'_, R>, steps: &[(R, R)], m: &mut Motion<R>) {
-        let zero = R::splat(0.0);
-        self.geometry.clear();
-        self.passed.clear();
-        if self.steps.len() != steps.len() {
-            self.steps.resize(steps.len(), Step::unsolved(zero, zero, zero));
-        }
-        for (k, &(phi, h)) in steps.iter().enumerate() {
-            (self.steps[k].phi, self.steps[k].h) = (phi, h);
-            self.take_rows(machine, k, m);
-        }
-        (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
+        out_of_line!(R, {
+            let zero = R::splat(0.0);
+            self.geometry.clear();
+            self.passed.clear();
+            if self.steps.len() != steps.len() {
+                self.steps.resize(steps.len(), Step::unsolved(zero, zero, zero));
+            }
+            for (k, &(phi, h)) in steps.iter().enumerate() {
+                (self.steps[k].phi, self.steps[k].h) = (phi, h);
+                self.take_rows(machine, k, m);
+            }
+            (self.multiplier, self.sweeps, self.correction) = (zero, 0, R::splat(f64::INFINITY));
+        })
     }
 
     /// The stages of a step, which has its start and length; what laws need there is added to `geometry`.
@@ -153,10 +155,12 @@ impl<R: Real> Turn<R> {
     /// Starts every step from one constant speed that balances the mean load.
     #[inline(always)]
     pub fn start_from_balance(&mut self, machine: &Machine<'_, R>) {
-        let u = machine.guess_speed(self).squared() * 0.5;
-        for step in &mut self.steps {
-            (step.u, step.X) = (u, [u; S]);
-        }
+        out_of_line!(R, {
+            let u = machine.guess_speed(self).squared() * 0.5;
+            for step in &mut self.steps {
+                (step.u, step.X) = (u, [u; S]);
+            }
+        })
     }
 
     /// Means over the revolution of the load and of the viscous coefficient.
@@ -194,7 +198,7 @@ impl<R: Real> Turn<R> {
         let mut work = Vec::with_capacity(self.steps.len());
         while self.sweeps < SWEEPS_MAX && self.correction.max_lane() >= self.limit {
             poll();
-            out_of_line!(R, self.sweep(machine, &mut work));
+            self.sweep(machine, &mut work);
             self.sweeps += 1;
         }
     }
@@ -206,7 +210,7 @@ impl<R: Real> Turn<R> {
         let is_needed = self.correction.max_lane() > limit;
         if is_needed {
             let converged = std::mem::replace(&mut self.limit, 0.0);
-            out_of_line!(R, self.sweep(machine, &mut Vec::with_capacity(self.steps.len())));
+            self.sweep(machine, &mut Vec::with_capacity(self.steps.len()));
             self.limit = converged;
             self.sweeps += 1;
         }
@@ -216,43 +220,47 @@ impl<R: Real> Turn<R> {
     /// ε at the stages of a start.
     #[inline(always)]
     pub(super) fn take_accelerations(&mut self, machine: &Machine<'_, R>) {
-        let laws = S * machine.plan.laws.len();
-        for (k, step) in self.steps.iter_mut().enumerate() {
-            step.K = machine.accelerations(step, &self.geometry[k * laws..(k + 1) * laws]).0;
-        }
+        out_of_line!(R, {
+            let laws = S * machine.plan.laws.len();
+            for (k, step) in self.steps.iter_mut().enumerate() {
+                step.K = machine.accelerations(step, &self.geometry[k * laws..(k + 1) * laws]).0;
+            }
+        })
     }
 
     /// Newton for the stages of every step on its own, then for the starts of all steps together.
     #[inline(always)]
     pub fn sweep(&mut self, machine: &Machine<'_, R>, work: &mut Vec<StageNewton<R>>) {
-        work.clear();
-        let mut starts = Vec::with_capacity(self.steps.len());
-        let laws = S * machine.plan.laws.len();
-        for (k, step) in self.steps.iter_mut().enumerate() {
-            let geometry = &self.geometry[k * laws..(k + 1) * laws];
-            work.push(machine.step_newton(step, geometry, self.correction, self.limit));
-            starts.push(step.u);
-        }
-        let ends = self.layout.ends(&starts);
-        let (mut growth, mut defect) = (starts, ends);
-        for (k, step) in self.steps.iter().enumerate() {
-            growth[k] = step.growth;
-            let mut end = step.end() + work[k].p[S - 1];
-            if let Some(&[scale, offset]) = self.passed.get(k) {
-                growth[k] = growth[k] * scale;
-                end = end.mul_add(scale, offset);
+        out_of_line!(R, {
+            work.clear();
+            let mut starts = Vec::with_capacity(self.steps.len());
+            let laws = S * machine.plan.laws.len();
+            for (k, step) in self.steps.iter_mut().enumerate() {
+                let geometry = &self.geometry[k * laws..(k + 1) * laws];
+                work.push(machine.step_newton(step, geometry, self.correction, self.limit));
+                starts.push(step.u);
             }
-            defect[k] = end - defect[k];
-        }
-        let (delta, multiplier) = self.layout.close(&growth, &defect);
-        let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(self.limit));
-        for ((step, newton), delta) in self.steps.iter_mut().zip(work.iter()).zip(delta) {
-            worst = worst.max(step.take(newton, delta, done, self.limit));
-            let next = (step.u + delta).max(step.u * SHRINK);
-            step.u = done.select_lt(limit, step.u, next);
-        }
-        self.multiplier = done.select_lt(limit, self.multiplier, multiplier);
-        self.correction = done.select_lt(limit, done, self.layout.highest(worst));
+            let ends = self.layout.ends(&starts);
+            let (mut growth, mut defect) = (starts, ends);
+            for (k, step) in self.steps.iter().enumerate() {
+                growth[k] = step.growth;
+                let mut end = step.end() + work[k].p[S - 1];
+                if let Some(&[scale, offset]) = self.passed.get(k) {
+                    growth[k] = growth[k] * scale;
+                    end = end.mul_add(scale, offset);
+                }
+                defect[k] = end - defect[k];
+            }
+            let (delta, multiplier) = self.layout.close(&growth, &defect);
+            let (mut worst, done, limit) = (R::splat(0.0), self.correction, R::splat(self.limit));
+            for ((step, newton), delta) in self.steps.iter_mut().zip(work.iter()).zip(delta) {
+                worst = worst.max(step.take(newton, delta, done, self.limit));
+                let next = (step.u + delta).max(step.u * SHRINK);
+                step.u = done.select_lt(limit, step.u, next);
+            }
+            self.multiplier = done.select_lt(limit, self.multiplier, multiplier);
+            self.correction = done.select_lt(limit, done, self.layout.highest(worst));
+        })
     }
 
     /// Whether every dyad closes, and the machine has inertia, at every stage.

@@ -59,60 +59,62 @@ impl<R: Real> Turn<R> {
         limits: Limits,
         m: &mut Motion<R>,
     ) -> Differences<R> {
-        let step = &self.steps[k];
-        let zero = R::splat(0.0);
-        let steepness = step.steepness();
-        let growths = [zero; 2];
-        let mut d =
-            Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals, growths };
-        let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
-        let quintic = step.quintic();
-        for level in 0..LEVELS {
-            x = x * 0.5;
-            share *= 0.5;
-            let at = R::splat(share);
-            // Growth counts of the whole step.
-            let limit = if level == 0 { limits.correction } else { CONVERGED };
-            let X = stages_of_part(&quintic, zero, at);
-            let (first, geometry) = machine.advance_within(limit, step.phi, step.u, x, X, m);
-            let X = stages_of_part(&quintic, at, at);
-            let (mut second, geometry_second) =
-                machine.advance_within(limit, step.phi + x, first.end(), x, X, m);
-            if level == 0 {
-                if ends_on_kink.is_some() {
-                    machine.settle(&mut second, &geometry_second);
+        out_of_line!(R, {
+            let step = &self.steps[k];
+            let zero = R::splat(0.0);
+            let steepness = step.steepness();
+            let growths = [zero; 2];
+            let mut d =
+                Differences { defect: zero, error: zero, halvings: zero, relative: zero, integrals, growths };
+            let (mut whole, mut x, mut share) = (*step, step.h, 1.0);
+            let quintic = step.quintic();
+            for level in 0..LEVELS {
+                x = x * 0.5;
+                share *= 0.5;
+                let at = R::splat(share);
+                // Growth counts of the whole step.
+                let limit = if level == 0 { limits.correction } else { CONVERGED };
+                let X = stages_of_part(&quintic, zero, at);
+                let (first, geometry) = machine.advance_within(limit, step.phi, step.u, x, X, m);
+                let X = stages_of_part(&quintic, at, at);
+                let (mut second, geometry_second) =
+                    machine.advance_within(limit, step.phi + x, first.end(), x, X, m);
+                if level == 0 {
+                    if ends_on_kink.is_some() {
+                        machine.settle(&mut second, &geometry_second);
+                    }
+                    d.defect = second.end() - whole.end();
+                    d.growths = [step.growth, first.growth * second.growth];
+                    if let Some(flag) = ends_on_kink.filter(|flag| flag.max_lane() > 0.0) {
+                        let own = self.geometry_of(machine, k);
+                        let [whole, last] = out_of_line!(R, {
+                            let last = machine.growth_on_side(&second, &geometry_second);
+                            [machine.growth_on_side(step, own), first.growth * last]
+                        });
+                        d.growths[0] = zero.select_lt(flag, whole, d.growths[0]);
+                        d.growths[1] = zero.select_lt(flag, last, d.growths[1]);
+                    }
+                    if machine.keeps_branch {
+                        let of_speed = (step.u * (2.0 * limits.accuracy)).max(step.u * (4.0 * ROUNDING));
+                        let off = machine.off_branch(&first, &geometry)
+                            + machine.off_branch(&second, &geometry_second);
+                        d.error = d.error.max(off / of_speed);
+                        d.relative = d.relative.max(off / step.u * 0.5);
+                    }
+                    let halves =
+                        [machine.integrals(&first, &geometry), machine.integrals(&second, &geometry_second)];
+                    for i in 0..INTEGRALS {
+                        d.integrals[i] = (halves[0][i] + halves[1][i] - d.integrals[i]).abs();
+                    }
                 }
-                d.defect = second.end() - whole.end();
-                d.growths = [step.growth, first.growth * second.growth];
-                if let Some(flag) = ends_on_kink.filter(|flag| flag.max_lane() > 0.0) {
-                    let own = self.geometry_of(machine, k);
-                    let [whole, last] = out_of_line!(R, {
-                        let last = machine.growth_on_side(&second, &geometry_second);
-                        [machine.growth_on_side(step, own), first.growth * last]
-                    });
-                    d.growths[0] = zero.select_lt(flag, whole, d.growths[0]);
-                    d.growths[1] = zero.select_lt(flag, last, d.growths[1]);
-                }
-                if machine.keeps_branch {
-                    let of_speed = (step.u * (2.0 * limits.accuracy)).max(step.u * (4.0 * ROUNDING));
-                    let off =
-                        machine.off_branch(&first, &geometry) + machine.off_branch(&second, &geometry_second);
-                    d.error = d.error.max(off / of_speed);
-                    d.relative = d.relative.max(off / step.u * 0.5);
-                }
-                let halves =
-                    [machine.integrals(&first, &geometry), machine.integrals(&second, &geometry_second)];
-                for i in 0..INTEGRALS {
-                    d.integrals[i] = (halves[0][i] + halves[1][i] - d.integrals[i]).abs();
+                d.add_part(&whole, &second, steepness, level, limits);
+                whole = first;
+                if (steepness * x).max_lane() <= 1.0 {
+                    break;
                 }
             }
-            d.add_part(&whole, &second, steepness, level, limits);
-            whole = first;
-            if (steepness * x).max_lane() <= 1.0 {
-                break;
-            }
-        }
-        d
+            d
+        })
     }
 }
 

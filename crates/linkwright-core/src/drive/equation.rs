@@ -91,12 +91,14 @@ impl<'a, R: Real> Machine<'a, R> {
     /// ε, and its derivative by u.
     #[inline(always)]
     pub fn acceleration(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: R) -> Dual<R> {
-        let free = self.drive_acceleration(row, Dual::variable(u));
-        if geometry.is_empty() {
-            return free;
-        }
-        let taken = self.laws(geometry, (Dual::variable(u) * 2.0).sqrt());
-        free - taken * Dual::constant(row.inverse)
+        out_of_line!(R, {
+            let free = self.drive_acceleration(row, Dual::variable(u));
+            if geometry.is_empty() {
+                return free;
+            }
+            let taken = self.laws(geometry, (Dual::variable(u) * 2.0).sqrt());
+            free - taken * Dual::constant(row.inverse)
+        })
     }
 
     /// The same with laws on the branch of a reference, which has its own `known` and u. The drive's torque is continuous.
@@ -108,13 +110,15 @@ impl<'a, R: Real> Machine<'a, R> {
         u: R,
         (known, at): (&[LawGeometry<R>], R),
     ) -> Dual<R> {
-        let free = self.drive_acceleration(row, Dual::variable(u));
-        if geometry.is_empty() {
-            return free;
-        }
-        let u = OnBranch { value: Dual::variable(u), at };
-        let taken = self.laws_on_branch(geometry, known, (u * 2.0).sqrt()).value;
-        free - taken * Dual::constant(row.inverse)
+        out_of_line!(R, {
+            let free = self.drive_acceleration(row, Dual::variable(u));
+            if geometry.is_empty() {
+                return free;
+            }
+            let u = OnBranch { value: Dual::variable(u), at };
+            let taken = self.laws_on_branch(geometry, known, (u * 2.0).sqrt()).value;
+            free - taken * Dual::constant(row.inverse)
+        })
     }
 
     /// Load torque of all laws at a stage; no time counts, since no turn differs from another.
@@ -181,16 +185,18 @@ impl<'a, R: Real> Machine<'a, R> {
         m: &mut Motion<R>,
         geometry: &mut Vec<LawGeometry<R>>,
     ) -> Row<R> {
-        if self.inside == 0.0 {
-            return self.row(phi, m, geometry);
-        }
-        let mut none = Vec::new();
-        let [far, near] = [inside + inside, inside].map(|by| self.row(phi + by, m, &mut none));
-        if !self.plan.laws.is_empty() {
-            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
-            self.plan.add_geometry(self.q, phi, m, geometry);
-        }
-        near.drawn_on_from(&far)
+        out_of_line!(R, {
+            if self.inside == 0.0 {
+                return self.row(phi, m, geometry);
+            }
+            let mut none = Vec::new();
+            let [far, near] = [inside + inside, inside].map(|by| self.row(phi + by, m, &mut none));
+            if !self.plan.laws.is_empty() {
+                self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+                self.plan.add_geometry(self.q, phi, m, geometry);
+            }
+            near.drawn_on_from(&far)
+        })
     }
 }
 

@@ -167,38 +167,44 @@ impl<R: Real> Turn<R> {
         starts: &[R],
         m: &mut Motion<R>,
     ) -> Extremes<R> {
-        let samples = self.samples(starts);
-        let numbers = self.numbers(&samples, between);
-        let hints = out_of_line!(R, hints(&samples));
-        let mut best = match self.layout {
-            Layout::Machines => {
-                let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
-                let mut best = [nothing; QUANTITIES.len()];
-                for (quantity, hints) in hints.into_iter().enumerate() {
-                    let numbers = (&numbers[..], between.is_some());
-                    best[quantity] = self.largest_of_machine(machine, &samples, numbers, quantity, hints, m);
+        out_of_line!(R, {
+            let samples = self.samples(starts);
+            let numbers = self.numbers(&samples, between);
+            let hints = hints(&samples);
+            let mut best = match self.layout {
+                Layout::Machines => {
+                    let nothing = Extreme { value: R::splat(f64::NEG_INFINITY), phi: R::splat(0.0) };
+                    let mut best = [nothing; QUANTITIES.len()];
+                    for (quantity, hints) in hints.into_iter().enumerate() {
+                        let numbers = (&numbers[..], between.is_some());
+                        best[quantity] =
+                            self.largest_of_machine(machine, &samples, numbers, quantity, hints, m);
+                    }
+                    best
                 }
-                best
+                Layout::Steps => {
+                    self.largest_of_steps(machine, &samples, (&numbers, between.is_some()), &hints, m)
+                }
+            };
+            for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
+                best.value = best.value * quantity.sign;
+                if quantity.is_speed {
+                    best.value = (best.value * 2.0).sqrt();
+                }
             }
-            Layout::Steps => {
-                self.largest_of_steps(machine, &samples, (&numbers, between.is_some()), &hints, m)
-            }
-        };
-        for (best, quantity) in best.iter_mut().zip(QUANTITIES) {
-            best.value = best.value * quantity.sign;
-            if quantity.is_speed {
-                best.value = (best.value * 2.0).sqrt();
-            }
-        }
-        let [speed_min, speed_max, acceleration_min, acceleration_max] = best;
-        Extremes { speed_min, speed_max, acceleration_min, acceleration_max }
+            let [speed_min, speed_max, acceleration_min, acceleration_max] = best;
+            Extremes { speed_min, speed_max, acceleration_min, acceleration_max }
+        })
     }
 
     /// ε at the starts of the steps.
     #[inline(always)]
     pub fn starts(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> Vec<R> {
-        let of_step = |(k, step): (usize, &Step<R>)| machine.start(step, self.geometry_of(machine, k), m);
-        self.steps.iter().enumerate().map(of_step).collect()
+        let mut starts = Vec::with_capacity(self.steps.len());
+        for (k, step) in self.steps.iter().enumerate() {
+            starts.push(machine.start(step, self.geometry_of(machine, k), m));
+        }
+        starts
     }
 
     /// Takes ε at some ends of steps, numbered one by one, to both sides: into their last stages, and into the `starts`.
@@ -277,10 +283,7 @@ impl<R: Real> Turn<R> {
             }
             // u has one derivative more than its derivative: its quintic's peak is good enough.
             let asides = if QUANTITIES[quantity].is_speed { &ASIDE[..0] } else { &ASIDE[..1] };
-            let found = out_of_line!(R, {
-                Promise::<R>::of_picks(&picks, numbers, has_series)
-                    .read_around(machine, self.limit, asides, m)
-            });
+            let found = Promise::found(&picks, (numbers, has_series), machine, (self.limit, asides), m);
             // A lane whose step was not worth it takes nothing: its bits do not depend on its neighbours.
             let value = worth.select_lt(hint.value, found.value, lowest);
             best.keep_larger(&Extreme { value, phi: found.phi });
@@ -347,15 +350,12 @@ impl<R: Real> Turn<R> {
         &self,
         machine: &Machine<'_, R>,
         picks: &[Pick],
-        (numbers, has_series): (&[f64], bool),
+        numbers: (&[f64], bool),
         best: &mut [Extreme<f64>; QUANTITIES.len()],
         m: &mut Motion<R>,
     ) {
         for picks in picks.chunks(R::LANES) {
-            let found = out_of_line!(R, {
-                let promise = Promise::<R>::of_picks(picks, numbers, has_series);
-                promise.read_around(machine, self.limit, &ASIDE, m)
-            });
+            let found = Promise::found(picks, numbers, machine, (self.limit, &ASIDE), m);
             let (values, places) = (unbundle(&[found.value]), unbundle(&[found.phi]));
             for (lane, pick) in picks.iter().enumerate() {
                 best[pick.quantity].keep_larger(&Extreme { value: values[lane], phi: places[lane] });
@@ -381,15 +381,17 @@ impl<R: Real> Turn<R> {
 /// What every step promises of each quantity.
 #[inline(always)]
 fn hints<R: Real>(samples: &[Samples<R>]) -> [Vec<Hint<R>>; 4] {
-    let mut hints = [const { Vec::new() }; 4];
-    for sample in samples {
-        for (kind, values) in sample.iter().enumerate() {
-            for (sign, hint) in peaks_of_step(values).into_iter().enumerate() {
-                hints[2 * kind + sign].push(hint);
+    out_of_line!(R, {
+        let mut hints = [const { Vec::new() }; 4];
+        for sample in samples {
+            for (kind, values) in sample.iter().enumerate() {
+                for (sign, hint) in peaks_of_step(values).into_iter().enumerate() {
+                    hints[2 * kind + sign].push(hint);
+                }
             }
         }
-    }
-    hints
+        hints
+    })
 }
 
 /// What steps promise, one after the other.
@@ -417,6 +419,18 @@ fn take_best<R: Real>(hints: &mut [Hint<R>]) -> (R, Hint<R>) {
 }
 
 impl<R: Real> Promise<R> {
+    /// What some steps promise, read around its places.
+    #[inline(always)]
+    fn found(
+        picks: &[Pick],
+        (numbers, has_series): (&[f64], bool),
+        machine: &Machine<'_, R>,
+        (limit, asides): (f64, &[f64]),
+        m: &mut Motion<R>,
+    ) -> Extreme<R> {
+        out_of_line!(R, Self::of_picks(picks, numbers, has_series).read_around(machine, limit, asides, m))
+    }
+
     /// One in each lane; the last fills the lanes that are left.
     #[inline(always)]
     fn of_picks(picks: &[Pick], numbers: &[f64], has_series: bool) -> Self {
@@ -450,21 +464,26 @@ impl<R: Real> Promise<R> {
     /// The quantity at a place of the step, on the curve.
     #[inline(always)]
     fn read(&self, machine: &Machine<'_, R>, limit: f64, at: R, m: &mut Motion<R>) -> Extreme<R> {
-        if let Some(series) = &self.series {
-            let (u, phi) = (on_series(series, at), at.mul_add(self.h, self.phi));
-            if !self.is_speed.any_below(R::splat(0.5)) {
-                return Extreme { value: u * self.sign, phi };
+        out_of_line!(R, {
+            if let Some(series) = &self.series {
+                let (u, phi) = (on_series(series, at), at.mul_add(self.h, self.phi));
+                if !self.is_speed.any_below(R::splat(0.5)) {
+                    return Extreme { value: u * self.sign, phi };
+                }
+                let mut geometry = Vec::new();
+                let row = machine.row(phi, m, &mut geometry);
+                let epsilon = machine.acceleration(&row, &geometry, u).value;
+                return Extreme {
+                    value: self.is_speed.select_lt(R::splat(0.5), epsilon, u) * self.sign,
+                    phi,
+                };
             }
-            let mut geometry = Vec::new();
-            let row = machine.row(phi, m, &mut geometry);
-            let epsilon = machine.acceleration(&row, &geometry, u).value;
-            return Extreme { value: self.is_speed.select_lt(R::splat(0.5), epsilon, u) * self.sign, phi };
-        }
-        let X = stages_of_part(&self.quintic, R::splat(0.0), at);
-        let (mut there, geometry) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
-        machine.settle(&mut there, &geometry);
-        let value = self.is_speed.select_lt(R::splat(0.5), there.K[S - 1], there.end());
-        Extreme { value: value * self.sign, phi: at.mul_add(self.h, self.phi) }
+            let X = stages_of_part(&self.quintic, R::splat(0.0), at);
+            let (mut there, geometry) = machine.advance_within(limit, self.phi, self.u, at * self.h, X, m);
+            machine.settle(&mut there, &geometry);
+            let value = self.is_speed.select_lt(R::splat(0.5), there.K[S - 1], there.end());
+            Extreme { value: value * self.sign, phi: at.mul_add(self.h, self.phi) }
+        })
     }
 
     /// The quantity near the quintic's peak, read at better and better places.
@@ -522,8 +541,11 @@ impl<R: Real> Promise<R> {
             return best;
         }
         let middle = place.max(R::splat(BESIDE)).min(R::splat(1.0 - BESIDE));
-        let [left, centre, right] =
-            [-BESIDE, 0.0, BESIDE].map(|aside| self.read(machine, limit, middle + aside, m).value);
+        let mut beside = [centre; 3];
+        for (aside, value) in [-BESIDE, 0.0, BESIDE].into_iter().zip(&mut beside) {
+            *value = self.read(machine, limit, middle + aside, m).value;
+        }
+        let [left, centre, right] = beside;
         let bend = left - centre - centre + right;
         let top = ((right - left) / bend * (-0.5 * BESIDE)).max(R::splat(-BESIDE)).min(R::splat(BESIDE));
         // Lanes whose series is as good keep what they have.

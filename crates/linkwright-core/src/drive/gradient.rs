@@ -258,60 +258,68 @@ struct DualRevolution<'a, R: Real> {
 impl<'a, R: Real> DualRevolution<'a, R> {
     #[inline(always)]
     fn new(of: &Gradient<'a>, q: &'a [Dual<R>], solved: &'a SolvedSteps, m: &mut Motion<Dual<R>>) -> Self {
-        let (plan, steady) = (of.plan, of.steady);
-        let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
-        let mut moved = out_of_line!(R, machine.moving(&solved.on_kinks, m)).into_iter().peekable();
-        let ends = solved.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]);
-        let mut edges = Vec::with_capacity(solved.marks.len() + 1);
-        for phi in ends {
-            let is_moved = moved.peek().is_some_and(|edge| edge.value.max_lane() == phi);
-            let edge = if is_moved { moved.next() } else { None };
-            edges.push(edge.unwrap_or(Dual::splat(phi)));
-        }
-        let marks = &solved.marks;
-        let mut dual = DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
-        dual.differentiate(m);
-        dual
+        out_of_line!(R, {
+            let (plan, steady) = (of.plan, of.steady);
+            let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
+            let mut moved = out_of_line!(R, machine.moving(&solved.on_kinks, m)).into_iter().peekable();
+            let ends = solved.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]);
+            let mut edges = Vec::with_capacity(solved.marks.len() + 1);
+            for phi in ends {
+                let is_moved = moved.peek().is_some_and(|edge| edge.value.max_lane() == phi);
+                let edge = if is_moved { moved.next() } else { None };
+                edges.push(edge.unwrap_or(Dual::splat(phi)));
+            }
+            let marks = &solved.marks;
+            let mut dual =
+                DualRevolution { machine, steady, marks, turn: Turn::empty(Layout::Machines), edges };
+            dual.differentiate(m);
+            dual
+        })
     }
 
     /// The solution with its derivatives along some directions, as it was found.
     #[inline(always)]
     fn read(of: &Gradient<'a>, q: &'a [Dual<R>], along: &'a SolutionAlong, some: &[usize]) -> Self {
-        let (values, d) = (&along.values, &along.d);
-        let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
-        let machine = Machine::new(of.plan, q).keeping_sides_of_bends().keeping_branch(of.plan.may_jump());
-        let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
-        let mut turn = Turn::empty(Layout::Machines);
-        for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
-            edges.push(own[0]);
-            let end = numbers[(k + 1) * OF_STEP];
-            let mut step = Step::unsolved(own[0], end - own[0], own[1]);
-            step.X.copy_from_slice(&own[2..]);
-            turn.steps.push(step);
-        }
-        edges.push(numbers[along.solved.marks.len() * OF_STEP]);
-        DualRevolution { machine, steady: of.steady, marks: &along.solved.marks, turn, edges }
+        out_of_line!(R, {
+            let (values, d) = (&along.values, &along.d);
+            let numbers = Directions { plan: of.plan, q: values, values: d, n: of.n() }.numbers::<R>(some);
+            let machine =
+                Machine::new(of.plan, q).keeping_sides_of_bends().keeping_branch(of.plan.may_jump());
+            let mut edges = Vec::with_capacity(along.solved.marks.len() + 1);
+            let mut turn = Turn::empty(Layout::Machines);
+            for (k, own) in numbers.chunks_exact(OF_STEP).enumerate() {
+                edges.push(own[0]);
+                let end = numbers[(k + 1) * OF_STEP];
+                let mut step = Step::unsolved(own[0], end - own[0], own[1]);
+                step.X.copy_from_slice(&own[2..]);
+                turn.steps.push(step);
+            }
+            edges.push(numbers[along.solved.marks.len() * OF_STEP]);
+            DualRevolution { machine, steady: of.steady, marks: &along.solved.marks, turn, edges }
+        })
     }
 
     /// The solution on the steps between the edges, with its derivatives.
     #[inline(always)]
     fn differentiate(&mut self, m: &mut Motion<Dual<R>>) {
-        let marks = self.marks;
-        let mut steps = Vec::with_capacity(marks.len());
-        for ends in self.edges.windows(2) {
-            steps.push((ends[0], ends[1] - ends[0]));
-        }
-        self.turn.tabulate_again(&self.machine, &steps, m);
-        for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
-            step.u = Dual::splat(mark.u);
-            step.X = mark.X.map(Dual::splat);
-        }
-        let mut work = Vec::with_capacity(marks.len());
-        // The first sweep gives the derivative of the solution, the second that of its growth.
-        for _ in 0..2 {
-            self.turn.correction = Dual::splat(f64::INFINITY);
-            out_of_line!(R, self.turn.sweep(&self.machine, &mut work));
-        }
+        out_of_line!(Dual<R>, {
+            let marks = self.marks;
+            let mut steps = Vec::with_capacity(marks.len());
+            for ends in self.edges.windows(2) {
+                steps.push((ends[0], ends[1] - ends[0]));
+            }
+            self.turn.tabulate_again(&self.machine, &steps, m);
+            for (step, mark) in self.turn.steps.iter_mut().zip(marks) {
+                step.u = Dual::splat(mark.u);
+                step.X = mark.X.map(Dual::splat);
+            }
+            let mut work = Vec::with_capacity(marks.len());
+            // The first sweep gives the derivative of the solution, the second that of its growth.
+            for _ in 0..2 {
+                self.turn.correction = Dual::splat(f64::INFINITY);
+                self.turn.sweep(&self.machine, &mut work);
+            }
+        })
     }
 
     /// Moves the ends of steps at which the motion passes a kink along with it: the quantity g whose zero the kink is
@@ -321,42 +329,46 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// and jumps count in the multiplier. The crank angle of an end that misses its kink, NaN where none does.
     #[inline(always)]
     fn move_crossings(&mut self, ends: &MovingEnds, size: R, m: &mut Motion<Dual<R>>) -> R {
-        let events = Events::new(self.machine);
-        let (zero, none) = (R::splat(0.0), R::splat(f64::NAN));
-        let mut passages = self.passages(&events, m);
-        for round in 0..ROUNDS {
-            if round > 0 && self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0) {
-                break;
+        out_of_line!(R, {
+            let events = Events::new(self.machine);
+            let (zero, none) = (R::splat(0.0), R::splat(f64::NAN));
+            let mut passages = self.passages(&events, m);
+            for round in 0..ROUNDS {
+                if round > 0 && self.misses(&passages, MOVED, size).iter().all(|miss| miss.max_lane() <= 0.0)
+                {
+                    break;
+                }
+                let late: Vec<Dual<R>> = passages.iter().map(|(_, passage)| passage.late()).collect();
+                let off = |late: &Dual<R>| if round == 0 { late.value } else { zero };
+                let values = ends.moves(&late.iter().map(off).collect::<Vec<_>>());
+                let moves = ends.moves(&late.iter().map(|late| late.d).collect::<Vec<_>>());
+                for ((k, _), (value, d)) in passages.iter().zip(values.into_iter().zip(moves)) {
+                    self.move_end(*k, Dual { value, d });
+                }
+                self.differentiate(m);
+                passages = self.passages(&events, m);
             }
-            let late: Vec<Dual<R>> = passages.iter().map(|(_, passage)| passage.late()).collect();
-            let off = |late: &Dual<R>| if round == 0 { late.value } else { zero };
-            let values = ends.moves(&late.iter().map(off).collect::<Vec<_>>());
-            let moves = ends.moves(&late.iter().map(|late| late.d).collect::<Vec<_>>());
-            for ((k, _), (value, d)) in passages.iter().zip(values.into_iter().zip(moves)) {
-                self.move_end(*k, Dual { value, d });
+            let mut factor = Dual::splat(1.0);
+            for (k, passage) in &passages {
+                let (step, geometry) = (&self.turn.steps[*k], self.turn.geometry_of(&self.machine, *k));
+                factor =
+                    factor * passage.factor() * (self.machine.growth_on_side(step, geometry) / step.growth);
             }
-            self.differentiate(m);
-            passages = self.passages(&events, m);
-        }
-        let mut factor = Dual::splat(1.0);
-        for (k, passage) in &passages {
-            let (step, geometry) = (&self.turn.steps[*k], self.turn.geometry_of(&self.machine, *k));
-            factor = factor * passage.factor() * (self.machine.growth_on_side(step, geometry) / step.growth);
-        }
-        self.turn.multiplier = self.turn.multiplier * factor;
-        let mut lost = none;
-        for ((k, _), miss) in passages.iter().zip(self.misses(&passages, MISSED, size)) {
-            lost = zero.select_lt(miss, self.edges[k + 1].value, lost);
-        }
-        lost = self.parted(lost);
-        // Nothing is known of derivatives that do not settle.
-        let nothing = (-R::splat(f64::INFINITY)).select_lt(lost, none, zero);
-        self.turn.multiplier.d = self.turn.multiplier.d + nothing;
-        for step in &mut self.turn.steps {
-            step.u.d = step.u.d + nothing;
-            step.X.iter_mut().for_each(|X| X.d = X.d + nothing);
-        }
-        lost
+            self.turn.multiplier = self.turn.multiplier * factor;
+            let mut lost = none;
+            for ((k, _), miss) in passages.iter().zip(self.misses(&passages, MISSED, size)) {
+                lost = zero.select_lt(miss, self.edges[k + 1].value, lost);
+            }
+            lost = self.parted(lost);
+            // Nothing is known of derivatives that do not settle.
+            let nothing = (-R::splat(f64::INFINITY)).select_lt(lost, none, zero);
+            self.turn.multiplier.d = self.turn.multiplier.d + nothing;
+            for step in &mut self.turn.steps {
+                step.u.d = step.u.d + nothing;
+                step.X.iter_mut().for_each(|X| X.d = X.d + nothing);
+            }
+            lost
+        })
     }
 
     /// Where kinks of the drive at one speed that the motion passes, as points of two tables, move to different speeds: which of
@@ -424,18 +436,21 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         events: &Events<'_, Dual<R>>,
         m: &mut Motion<Dual<R>>,
     ) -> Vec<(usize, Passage<Dual<R>>)> {
-        let (marks, n) = (self.marks, self.turn.steps.len());
-        let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
-        for crossing in &self.steady.crossings {
-            let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
-            let k = (behind + n - 1) % n;
-            if passages.iter().all(|passage| passage.0 != k) {
-                let sides = [self.turn.steps[k].K[S - 1], self.start_of(behind % n, m)];
-                let (event, phi, u) = (events.nth(crossing.nth), self.edges[k + 1], self.turn.steps[k].end());
-                passages.push((k, events.passage(event, phi, u, sides, m)));
+        out_of_line!(Dual<R>, {
+            let (marks, n) = (self.marks, self.turn.steps.len());
+            let mut passages: Vec<(usize, Passage<Dual<R>>)> = Vec::new();
+            for crossing in &self.steady.crossings {
+                let behind = marks.partition_point(|mark| mark.phi < crossing.phi - AT_END);
+                let k = (behind + n - 1) % n;
+                if passages.iter().all(|passage| passage.0 != k) {
+                    let sides = [self.turn.steps[k].K[S - 1], self.start_of(behind % n, m)];
+                    let (event, phi, u) =
+                        (events.nth(crossing.nth), self.edges[k + 1], self.turn.steps[k].end());
+                    passages.push((k, events.passage(event, phi, u, sides, m)));
+                }
             }
-        }
-        passages
+            passages
+        })
     }
 
     /// Acceleration at the start of a step, on its branch.
@@ -470,32 +485,34 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// where it was read is off by millionths of a step, over which the derivative may change much where inertia does.
     #[inline(always)]
     fn peak_of_speed(&self, extreme: &Extreme<f64>, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let phi = self.turned_back(extreme.phi);
-        let [low, high] = self.step_around(phi);
-        let there = self.state(phi, m).1;
-        // A corner is where it is.
-        if (phi - low).min(high - phi) < AT_END {
-            return there.omega;
-        }
-        let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
-        let beside = self.state(phi + aside, m).1.epsilon.value;
-        let change = beside - there.epsilon.value;
-        let step = &self.turn.steps[self.steps_before(phi)];
-        let rounding = step.steepness().value * step.u.value * f64::EPSILON;
-        let is_surer = (step.steepness().value * step.h.value).max_lane() > SURER;
-        if is_surer && (rounding - change.abs() * PLACED).max_lane() > 0.0 {
-            // As far as rounding tells it is at the end of the step, where the speed may have a corner.
-            let at_ends = [low, high].map(|end| self.state(end, m).1.omega);
-            let is_as_high = |end: &Dual<R>| {
-                let off =
-                    (end.value - there.omega.value).abs() - there.omega.value * (ROUNDINGS * f64::EPSILON);
-                off.max_lane() <= 0.0
-            };
-            return at_ends.into_iter().find(is_as_high).unwrap_or_else(|| self.peak_by_speeds(phi, m));
-        }
-        let off = there.epsilon.value * aside / change;
-        let off = off.abs().select_lt(R::splat(aside.abs()), off, R::splat(0.0));
-        Dual { d: there.omega.d - off * there.epsilon.d / there.omega.value, ..there.omega }
+        out_of_line!(Dual<R>, {
+            let phi = self.turned_back(extreme.phi);
+            let [low, high] = self.step_around(phi);
+            let there = self.state(phi, m).1;
+            // A corner is where it is.
+            if (phi - low).min(high - phi) < AT_END {
+                return there.omega;
+            }
+            let aside = ASIDE * (0.5 * (high + low) - phi).signum() * (high - low);
+            let beside = self.state(phi + aside, m).1.epsilon.value;
+            let change = beside - there.epsilon.value;
+            let step = &self.turn.steps[self.steps_before(phi)];
+            let rounding = step.steepness().value * step.u.value * f64::EPSILON;
+            let is_surer = (step.steepness().value * step.h.value).max_lane() > SURER;
+            if is_surer && (rounding - change.abs() * PLACED).max_lane() > 0.0 {
+                // As far as rounding tells it is at the end of the step, where the speed may have a corner.
+                let at_ends = [low, high].map(|end| self.state(end, m).1.omega);
+                let is_as_high = |end: &Dual<R>| {
+                    let off = (end.value - there.omega.value).abs()
+                        - there.omega.value * (ROUNDINGS * f64::EPSILON);
+                    off.max_lane() <= 0.0
+                };
+                return at_ends.into_iter().find(is_as_high).unwrap_or_else(|| self.peak_by_speeds(phi, m));
+            }
+            let off = there.epsilon.value * aside / change;
+            let off = off.abs().select_lt(R::splat(aside.abs()), off, R::splat(0.0));
+            Dual { d: there.omega.d - off * there.epsilon.d / there.omega.value, ..there.omega }
+        })
     }
 
     /// An extreme of the acceleration, or what its corner is. Its derivative is that at the place of the peak too.
@@ -555,11 +572,13 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// The acceleration at an end of a step, along its move. Where it jumps there, on the side that has the value.
     #[inline(always)]
     fn corner(&self, edge: usize, value: f64, m: &mut Motion<Dual<R>>) -> Dual<R> {
-        let before = self.state(self.turned_back(self.marked(edge)), m).1.epsilon;
-        let behind = self.start_of(edge % self.turn.steps.len(), m);
-        let far = |side: Dual<R>| (side.value - value).abs().max_lane();
-        // Where it is continuous rounding has no say.
-        if far(behind) < 0.5 * far(before) && far(before) > SIDES * value.abs() { behind } else { before }
+        out_of_line!(Dual<R>, {
+            let before = self.state(self.turned_back(self.marked(edge)), m).1.epsilon;
+            let behind = self.start_of(edge % self.turn.steps.len(), m);
+            let far = |side: Dual<R>| (side.value - value).abs().max_lane();
+            // Where it is continuous rounding has no say.
+            if far(behind) < 0.5 * far(before) && far(before) > SIDES * value.abs() { behind } else { before }
+        })
     }
 
     /// The curves at a crank angle.
@@ -572,26 +591,30 @@ impl<'a, R: Real> DualRevolution<'a, R> {
     /// Time and state at a crank angle, or at the end of a step that lies there, which may move.
     #[inline(always)]
     fn state(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Dual<R>, State<Dual<R>>) {
-        let there = self.step_to(phi, m);
-        let mut t = there.0.duration();
-        for before in &self.turn.steps[..self.steps_before(phi)] {
-            t = t + before.duration();
-        }
-        // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
-        let start = (self.turn.steps[0].u * 2.0).sqrt();
-        (t + self.edges[0] / start, self.machine.state_at_end(&there))
+        out_of_line!(Dual<R>, {
+            let there = self.step_to(phi, m);
+            let mut t = there.0.duration();
+            for before in &self.turn.steps[..self.steps_before(phi)] {
+                t = t + before.duration();
+            }
+            // Time counts from φ = 0, which may lie beside the start of the first step where that moves.
+            let start = (self.turn.steps[0].u * 2.0).sqrt();
+            (t + self.edges[0] / start, self.machine.state_at_end(&there))
+        })
     }
 
     /// The part of a step to a crank angle, or to the end of the step that lies there, which may move.
     #[inline(always)]
     fn step_to(&self, phi: f64, m: &mut Motion<Dual<R>>) -> (Step<Dual<R>>, Vec<LawGeometry<Dual<R>>>) {
-        let k = self.steps_before(phi);
-        let step = &self.turn.steps[k];
-        let ends_here = (self.marked(k + 1) - phi).abs() < AT_END;
-        let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
-        let h = to - step.phi;
-        let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
-        self.machine.advance_near(step.phi, step.u, h, near, m)
+        out_of_line!(Dual<R>, {
+            let k = self.steps_before(phi);
+            let step = &self.turn.steps[k];
+            let ends_here = (self.marked(k + 1) - phi).abs() < AT_END;
+            let to = if ends_here { self.edges[k + 1] } else { Dual::splat(phi) };
+            let h = to - step.phi;
+            let near = stages_of_part(&step.quintic(), Dual::splat(0.0), h / step.h);
+            self.machine.advance_near(step.phi, step.u, h, near, m)
+        })
     }
 }
 

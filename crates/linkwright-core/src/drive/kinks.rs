@@ -276,48 +276,53 @@ impl<R: Real> Machine<'_, R> {
     /// Ends of the smooth pieces of the cycle of each lane: increasing from 0 to its end.
     #[inline(always)]
     pub fn breaks(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
-        let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
-        let watches = self.plan.watches();
-        if !watches.is_empty() {
-            let scan = out_of_line!(R, self.scan(&watches, m));
-            for (&watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
-                match watch {
-                    Watch::Switch(load, at) if self.plan.winds(load, at) => {
-                        let brackets = self.for_each_lane(|q| brackets(self.plan, q, load, at));
-                        self.add_zeros(watch, &brackets, &mut lanes, m);
+        out_of_line!(R, {
+            let mut lanes: Vec<Vec<f64>> = vec![vec![0.0]; R::LANES];
+            let watches = self.plan.watches();
+            if !watches.is_empty() {
+                let scan = self.scan(&watches, m);
+                for (&watch, values) in watches.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES))
+                {
+                    match watch {
+                        Watch::Switch(load, at) if self.plan.winds(load, at) => {
+                            let brackets = self.for_each_lane(|q| brackets(self.plan, q, load, at));
+                            self.add_zeros(watch, &brackets, &mut lanes, m);
+                        }
+                        _ => self.zeros(watch, values, &mut lanes, m),
                     }
-                    _ => self.zeros(watch, values, &mut lanes, m),
                 }
             }
-        }
-        self.programme_joints(&mut lanes);
-        let cycle = self.plan.cycle();
-        for lane in &mut lanes {
-            lane.extend(self.plan.angle_knots());
-            for angle in lane.iter_mut() {
-                *angle = if *angle > cycle - WRAP { 0.0 } else { *angle };
+            self.programme_joints(&mut lanes);
+            let cycle = self.plan.cycle();
+            for lane in &mut lanes {
+                lane.extend(self.plan.angle_knots());
+                for angle in lane.iter_mut() {
+                    *angle = if *angle > cycle - WRAP { 0.0 } else { *angle };
+                }
+                lane.push(cycle);
+                lane.sort_by(f64::total_cmp);
+                lane.dedup();
             }
-            lane.push(cycle);
-            lane.sort_by(f64::total_cmp);
-            lane.dedup();
-        }
-        lanes
+            lanes
+        })
     }
 
     /// The same, and ends of steps at rests and where a formula is steep: between two stages of a long step nothing would be
     /// seen of it.
     #[inline(always)]
     pub fn ends(&self, m: &mut Motion<R>) -> Vec<Vec<f64>> {
-        let mut lanes = self.breaks(m);
-        let breaks = if self.plan.may_be_steep() { lanes.clone() } else { Vec::new() };
-        self.add_rests(&mut lanes, m);
-        let mut of_lanes = breaks.iter().zip(&mut lanes);
-        self.for_each_lane(|q| {
-            if let Some((breaks, ends)) = of_lanes.next() {
-                add_steep(self.plan, q, breaks, ends);
-            }
-        });
-        lanes
+        out_of_line!(R, {
+            let mut lanes = self.breaks(m);
+            let breaks = if self.plan.may_be_steep() { lanes.clone() } else { Vec::new() };
+            self.add_rests(&mut lanes, m);
+            let mut of_lanes = breaks.iter().zip(&mut lanes);
+            self.for_each_lane(|q| {
+                if let Some((breaks, ends)) = of_lanes.next() {
+                    add_steep(self.plan, q, breaks, ends);
+                }
+            });
+            lanes
+        })
     }
 
     /// What comes of the numbers of each lane.
@@ -335,7 +340,7 @@ impl<R: Real> Machine<'_, R> {
             return;
         }
         let watches: Vec<Watch> = rests.iter().map(|rest| rest.1).collect();
-        let scan = out_of_line!(R, self.scan(&watches, m));
+        let scan = self.scan(&watches, m);
         for (&(load, watch), values) in rests.iter().zip(scan.chunks_exact(2 * self.plan.scan() * R::LANES)) {
             let mut zeros = vec![Vec::new(); R::LANES];
             self.zeros(watch, values, &mut zeros, m);
@@ -344,7 +349,7 @@ impl<R: Real> Machine<'_, R> {
                 let mut places: Vec<f64> = (0..R::LANES).map(|lane| at(lane).unwrap_or(0.0)).collect();
                 let zero = R::load(&places);
                 let widths = [-1.0, 1.0].map(|side| {
-                    let width = out_of_line!(R, self.width(&load, zero, side, m));
+                    let width = self.width(&load, zero, side, m);
                     width.store(&mut places);
                     places.clone()
                 });
@@ -361,25 +366,27 @@ impl<R: Real> Machine<'_, R> {
     /// 0 where it does not.
     #[inline(always)]
     fn width(&self, load: &FormulaLoad, zero: R, side: f64, m: &mut Motion<R>) -> R {
-        let (mut forces, mut largest) = ([zero; LOOKS], R::splat(0.0));
-        let mut off = FARTHEST;
-        for force in &mut forces {
-            let phi = zero + R::splat(side * off);
-            self.plan.mechanism.place::<R, 1>(self.q, Angle::new(phi), m);
-            *force = self.plan.force(load, self.q, phi, self.q[self.plan.drive.speed_start], m);
-            largest = largest.max(force.abs());
-            off *= NEARER;
-        }
-        let (mut width, mut off) = (R::splat(0.0), FARTHEST);
-        let mut before = (forces[0] - forces[1]).abs();
-        for ends in forces[1..].windows(2) {
-            off *= NEARER;
-            let change = (ends[0] - ends[1]).abs();
-            let first = width.select_lt(R::splat(f64::MIN_POSITIVE), R::splat(off), width);
-            width = (before * STEEP).max(largest * SLIGHT).select_lt(change, first, width);
-            before = change;
-        }
-        width
+        out_of_line!(R, {
+            let (mut forces, mut largest) = ([zero; LOOKS], R::splat(0.0));
+            let mut off = FARTHEST;
+            for force in &mut forces {
+                let phi = zero + R::splat(side * off);
+                self.plan.mechanism.place::<R, 1>(self.q, Angle::new(phi), m);
+                *force = self.plan.force(load, self.q, phi, self.q[self.plan.drive.speed_start], m);
+                largest = largest.max(force.abs());
+                off *= NEARER;
+            }
+            let (mut width, mut off) = (R::splat(0.0), FARTHEST);
+            let mut before = (forces[0] - forces[1]).abs();
+            for ends in forces[1..].windows(2) {
+                off *= NEARER;
+                let change = (ends[0] - ends[1]).abs();
+                let first = width.select_lt(R::splat(f64::MIN_POSITIVE), R::splat(off), width);
+                width = (before * STEEP).max(largest * SLIGHT).select_lt(change, first, width);
+                before = change;
+            }
+            width
+        })
     }
 
     /// Adds the joints of motion laws in pieces, where a derivative jumps.
@@ -402,81 +409,87 @@ impl<R: Real> Machine<'_, R> {
     /// angle by angle, lane by lane.
     #[inline(always)]
     fn scan(&self, watches: &[Watch], m: &mut Motion<R>) -> Vec<f64> {
-        let n = self.plan.scan();
-        let mut values = vec![0.0; watches.len() * 2 * n * R::LANES];
-        for i in 0..n {
-            let phi = R::splat(scan_angle(i));
-            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
-            for (w, watch) in watches.iter().enumerate() {
-                let (value, slope) = self.watched(*watch, phi, m);
-                value.store(&mut values[(2 * w * n + i) * R::LANES..]);
-                slope.store(&mut values[((2 * w + 1) * n + i) * R::LANES..]);
+        out_of_line!(R, {
+            let n = self.plan.scan();
+            let mut values = vec![0.0; watches.len() * 2 * n * R::LANES];
+            for i in 0..n {
+                let phi = R::splat(scan_angle(i));
+                self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+                for (w, watch) in watches.iter().enumerate() {
+                    let (value, slope) = self.watched(*watch, phi, m);
+                    value.store(&mut values[(2 * w * n + i) * R::LANES..]);
+                    slope.store(&mut values[((2 * w + 1) * n + i) * R::LANES..]);
+                }
             }
-        }
-        values
+            values
+        })
     }
 
     /// Adds the zeros of one watched quantity to each lane's list.
     #[inline(always)]
     fn zeros(&self, watch: Watch, values: &[f64], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
-        let n = self.plan.scan();
-        let (values, slopes) = values.split_at(n * R::LANES);
-        let (mut brackets, mut dips) = (vec![Vec::new(); R::LANES], vec![Vec::new(); R::LANES]);
-        let mut pairs = vec![Vec::new(); R::LANES];
-        for lane in 0..R::LANES {
-            let at = |list: &[f64], i: usize| list[(i % n) * R::LANES + lane];
-            for i in 0..n {
-                let (a, b) = (at(values, i), at(values, i + 1));
-                if a * b < 0.0 {
-                    let (low, width) = (scan_angle(i), TAU / SCAN as f64);
-                    brackets[lane].push(Bracket {
-                        low,
-                        high: low + width,
-                        guess: low + a / (a - b) * width,
-                        sign: a.signum(),
-                    });
-                    continue;
-                }
-                let slopes = [at(slopes, i), at(slopes, i + 1)];
-                if slopes[0] * a.signum() >= 0.0 || slopes[1] * a.signum() <= 0.0 {
-                    continue;
-                }
-                let dip = Dip { low: scan_angle(i), values: [a, b], slopes };
-                if dip.is_deep() {
-                    dips[lane].push(dip);
+        out_of_line!(R, {
+            let n = self.plan.scan();
+            let (values, slopes) = values.split_at(n * R::LANES);
+            let (mut brackets, mut dips) = (vec![Vec::new(); R::LANES], vec![Vec::new(); R::LANES]);
+            let mut pairs = vec![Vec::new(); R::LANES];
+            for lane in 0..R::LANES {
+                let at = |list: &[f64], i: usize| list[(i % n) * R::LANES + lane];
+                for i in 0..n {
+                    let (a, b) = (at(values, i), at(values, i + 1));
+                    if a * b < 0.0 {
+                        let (low, width) = (scan_angle(i), TAU / SCAN as f64);
+                        brackets[lane].push(Bracket {
+                            low,
+                            high: low + width,
+                            guess: low + a / (a - b) * width,
+                            sign: a.signum(),
+                        });
+                        continue;
+                    }
+                    let slopes = [at(slopes, i), at(slopes, i + 1)];
+                    if slopes[0] * a.signum() >= 0.0 || slopes[1] * a.signum() <= 0.0 {
+                        continue;
+                    }
+                    let dip = Dip { low: scan_angle(i), values: [a, b], slopes };
+                    if dip.is_deep() {
+                        dips[lane].push(dip);
+                    }
                 }
             }
-        }
-        for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
-            self.split(watch, nth, &dips, &mut pairs, m);
-        }
-        self.add_zeros(watch, &brackets, lanes, m);
-        self.add_zeros(watch, &pairs, lanes, m);
+            for nth in 0..dips.iter().map(Vec::len).max().unwrap_or(0) {
+                self.split(watch, nth, &dips, &mut pairs, m);
+            }
+            self.add_zeros(watch, &brackets, lanes, m);
+            self.add_zeros(watch, &pairs, lanes, m);
+        })
     }
 
     /// Adds the zeros in the brackets of each lane to its list.
     #[inline(always)]
     fn add_zeros(&self, watch: Watch, brackets: &[Vec<Bracket>], lanes: &mut [Vec<f64>], m: &mut Motion<R>) {
-        let [mut low, mut high, mut guess, mut sign] =
-            [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
-        for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
-            for lane in 0..R::LANES {
-                if let Some(bracket) = brackets[lane].get(nth) {
-                    (low[lane], high[lane]) = (bracket.low, bracket.high);
-                    (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
+        out_of_line!(R, {
+            let [mut low, mut high, mut guess, mut sign] =
+                [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; R::LANES]);
+            for nth in 0..brackets.iter().map(Vec::len).max().unwrap_or(0) {
+                for lane in 0..R::LANES {
+                    if let Some(bracket) = brackets[lane].get(nth) {
+                        (low[lane], high[lane]) = (bracket.low, bracket.high);
+                        (guess[lane], sign[lane]) = (bracket.guess, bracket.sign);
+                    }
+                }
+                let root = out_of_line!(
+                    R,
+                    self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m)
+                );
+                root.store(&mut guess);
+                for lane in 0..R::LANES {
+                    if brackets[lane].len() > nth && guess[lane].is_finite() {
+                        lanes[lane].push(guess[lane].rem_euclid(self.plan.cycle()));
+                    }
                 }
             }
-            let root = out_of_line!(
-                R,
-                self.polish(watch, [R::load(&low), R::load(&high), R::load(&sign)], R::load(&guess), m)
-            );
-            root.store(&mut guess);
-            for lane in 0..R::LANES {
-                if brackets[lane].len() > nth && guess[lane].is_finite() {
-                    lanes[lane].push(guess[lane].rem_euclid(self.plan.cycle()));
-                }
-            }
-        }
+        })
     }
 
     /// Goes to the bottom of one dip a lane, and adds brackets on either side where it lies beyond zero.
@@ -489,58 +502,62 @@ impl<R: Real> Machine<'_, R> {
         brackets: &mut [Vec<Bracket>],
         m: &mut Motion<R>,
     ) {
-        let width = TAU / SCAN as f64;
-        let of = |lane: usize| dips[lane].get(nth).copied().unwrap_or(Dip::NONE);
-        let load = |of: &dyn Fn(usize) -> f64| R::load(&(0..R::LANES).map(of).collect::<Vec<_>>());
-        let sign = load(&|lane| of(lane).values[0].signum());
-        let (mut low, mut high) = (load(&|lane| of(lane).low), load(&|lane| of(lane).low + width));
-        let (mut falls, mut rises) = (load(&|lane| of(lane).slopes[0]), load(&|lane| of(lane).slopes[1]));
-        (falls, rises) = (falls * sign, rises * sign);
-        let (zero, mut bottom, mut least) = (R::splat(0.0), low, R::splat(f64::INFINITY));
-        for _ in 0..BOTTOM_STEPS {
-            let phi = (low * rises - high * falls) / (rises - falls);
-            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
-            let (value, slope) = self.watched(watch, phi, m);
-            let (value, slope) = (value * sign, slope * sign);
-            bottom = value.select_lt(least, phi, bottom);
-            least = least.min(value);
-            (low, falls) = (slope.select_lt(zero, phi, low), slope.select_lt(zero, slope, falls));
-            (high, rises) = (slope.select_lt(zero, high, phi), slope.select_lt(zero, rises, slope));
-        }
-        let (mut place, mut depth) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
-        bottom.store(&mut place);
-        least.store(&mut depth);
-        for (lane, brackets) in brackets.iter_mut().enumerate() {
-            if let Some(dip) = dips[lane].get(nth).filter(|_| depth[lane] < 0.0) {
-                brackets.extend(dip.halves(place[lane], depth[lane], width));
+        out_of_line!(R, {
+            let width = TAU / SCAN as f64;
+            let of = |lane: usize| dips[lane].get(nth).copied().unwrap_or(Dip::NONE);
+            let load = |of: &dyn Fn(usize) -> f64| R::load(&(0..R::LANES).map(of).collect::<Vec<_>>());
+            let sign = load(&|lane| of(lane).values[0].signum());
+            let (mut low, mut high) = (load(&|lane| of(lane).low), load(&|lane| of(lane).low + width));
+            let (mut falls, mut rises) = (load(&|lane| of(lane).slopes[0]), load(&|lane| of(lane).slopes[1]));
+            (falls, rises) = (falls * sign, rises * sign);
+            let (zero, mut bottom, mut least) = (R::splat(0.0), low, R::splat(f64::INFINITY));
+            for _ in 0..BOTTOM_STEPS {
+                let phi = (low * rises - high * falls) / (rises - falls);
+                self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+                let (value, slope) = self.watched(watch, phi, m);
+                let (value, slope) = (value * sign, slope * sign);
+                bottom = value.select_lt(least, phi, bottom);
+                least = least.min(value);
+                (low, falls) = (slope.select_lt(zero, phi, low), slope.select_lt(zero, slope, falls));
+                (high, rises) = (slope.select_lt(zero, high, phi), slope.select_lt(zero, rises, slope));
             }
-        }
+            let (mut place, mut depth) = (vec![0.0; R::LANES], vec![0.0; R::LANES]);
+            bottom.store(&mut place);
+            least.store(&mut depth);
+            for (lane, brackets) in brackets.iter_mut().enumerate() {
+                if let Some(dip) = dips[lane].get(nth).filter(|_| depth[lane] < 0.0) {
+                    brackets.extend(dip.halves(place[lane], depth[lane], width));
+                }
+            }
+        })
     }
 
     /// Newton from a linear guess, kept inside the bracket.
     #[inline(always)]
     fn polish(&self, watch: Watch, [low, high, sign]: [R; 3], guess: R, m: &mut Motion<R>) -> R {
-        let (mut phi, mut low, mut high) = (guess, low, high);
-        let (zero, mut change) = (R::splat(0.0), R::splat(f64::INFINITY));
-        for polish in 0..POLISHES_MAX {
-            if polish >= POLISHES && change.max_lane() < POLISHED {
-                break;
+        out_of_line!(R, {
+            let (mut phi, mut low, mut high) = (guess, low, high);
+            let (zero, mut change) = (R::splat(0.0), R::splat(f64::INFINITY));
+            for polish in 0..POLISHES_MAX {
+                if polish >= POLISHES && change.max_lane() < POLISHED {
+                    break;
+                }
+                self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
+                let (value, slope) = self.watched(watch, phi, m);
+                // On the lower side of the zero the value has the sign that it has at the low end.
+                let below = zero.select_lt(value * sign, R::splat(1.0), zero);
+                (low, high) = (zero.select_lt(below, phi, low), zero.select_lt(below, high, phi));
+                let newton = phi - value / slope;
+                let middle = (low + high) * 0.5;
+                let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
+                let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
+                // A lane that is there stays: its last bits do not depend on how long another takes.
+                let there = R::splat(if polish < POLISHES { 0.0 } else { POLISHED });
+                let moved = change.select_lt(there, change, (next - phi).abs());
+                (phi, change) = (change.select_lt(there, phi, next), moved);
             }
-            self.plan.mechanism.place::<R, 2>(self.q, Angle::new(phi), m);
-            let (value, slope) = self.watched(watch, phi, m);
-            // On the lower side of the zero the value has the sign that it has at the low end.
-            let below = zero.select_lt(value * sign, R::splat(1.0), zero);
-            (low, high) = (zero.select_lt(below, phi, low), zero.select_lt(below, high, phi));
-            let newton = phi - value / slope;
-            let middle = (low + high) * 0.5;
-            let inside = newton.select_lt(low, middle, high.select_lt(newton, middle, newton));
-            let next = value.abs().select_lt(R::splat(f64::MIN_POSITIVE), phi, inside);
-            // A lane that is there stays: its last bits do not depend on how long another takes.
-            let there = R::splat(if polish < POLISHES { 0.0 } else { POLISHED });
-            let moved = change.select_lt(there, change, (next - phi).abs());
-            (phi, change) = (change.select_lt(there, phi, next), moved);
-        }
-        zero.select_lt(self.room(watch, m), phi, R::splat(f64::NAN))
+            zero.select_lt(self.room(watch, m), phi, R::splat(f64::NAN))
+        })
     }
 
     /// Positive where a zero of the watched quantity is a kink.

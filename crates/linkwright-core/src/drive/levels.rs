@@ -82,70 +82,76 @@ impl<R: Real> Turn<R> {
     /// 1 in the lanes where motions that repeat may lie above the solved one, 0 elsewhere.
     #[inline(always)]
     pub fn may_have_faster(&self, machine: &Machine<'_, R>) -> R {
-        let (one, zero) = (R::splat(1.0), R::splat(0.0));
-        let bottom = self.bottom();
-        let working = machine.q[machine.plan.drive.speed_start].squared() * 0.5;
-        let top = working * (FASTEST * FASTEST) / bottom.inverse;
-        // Where nothing rises from here on, the top level alone tells of a load that drives.
-        let rises = bottom.viscous.select_lt(zero, one, zero);
-        let rises = (bottom.u * 2.0).sqrt().select_lt(machine.plan.falls_from(machine.q), one, rises);
-        let fine = machine.plan.levels_in_place_of_one();
-        let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 1 };
-        let mut may = zero;
-        for level in 0..levels {
-            let energy = top * 0.5_f64.powf(f64::from(level) / f64::from(fine));
-            let left = out_of_line!(R, self.torque_left(machine, energy));
-            may = left.select_lt(zero, may, one);
-        }
-        if levels == 1 || !machine.plan.is_drawn() {
-            return may;
-        }
-        // However near kinks or jumps over the speed are to each other.
-        let near = bottom.energy * NEAR;
-        for energy in self.levels_of_kinks(machine) {
-            let left = out_of_line!(R, self.torque_left(machine, energy));
-            let above = near.select_lt(energy, one, may);
-            may = left.select_lt(zero, may, above);
-        }
-        may
+        out_of_line!(R, {
+            let (one, zero) = (R::splat(1.0), R::splat(0.0));
+            let bottom = self.bottom();
+            let working = machine.q[machine.plan.drive.speed_start].squared() * 0.5;
+            let top = working * (FASTEST * FASTEST) / bottom.inverse;
+            // Where nothing rises from here on, the top level alone tells of a load that drives.
+            let rises = bottom.viscous.select_lt(zero, one, zero);
+            let rises = (bottom.u * 2.0).sqrt().select_lt(machine.plan.falls_from(machine.q), one, rises);
+            let fine = machine.plan.levels_in_place_of_one();
+            let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 1 };
+            let mut may = zero;
+            for level in 0..levels {
+                let energy = top * 0.5_f64.powf(f64::from(level) / f64::from(fine));
+                let left = self.torque_left(machine, energy);
+                may = left.select_lt(zero, may, one);
+            }
+            if levels == 1 || !machine.plan.is_drawn() {
+                return may;
+            }
+            // However near kinks or jumps over the speed are to each other.
+            let near = bottom.energy * NEAR;
+            for energy in self.levels_of_kinks(machine) {
+                let left = self.torque_left(machine, energy);
+                let above = near.select_lt(energy, one, may);
+                may = left.select_lt(zero, may, above);
+            }
+            may
+        })
     }
 
     /// 1 in the lanes where drive and loads leave no torque right beside the motion: whatever is as fast repeats as well.
     #[inline(always)]
     pub fn may_be_neutral(&self, machine: &Machine<'_, R>) -> R {
-        let (one, zero) = (R::splat(1.0), R::splat(0.0));
-        let mut may = zero;
-        if !machine.plan.may_be_neutral() {
-            return may;
-        }
-        let near = self.bottom().energy * NEAR;
-        for energy in [-near, near] {
-            let left = out_of_line!(R, self.torque_left(machine, energy));
-            may = zero.select_lt(left.abs(), may, one);
-        }
-        may
+        out_of_line!(R, {
+            let (one, zero) = (R::splat(1.0), R::splat(0.0));
+            let mut may = zero;
+            if !machine.plan.may_be_neutral() {
+                return may;
+            }
+            let near = self.bottom().energy * NEAR;
+            for energy in [-near, near] {
+                let left = self.torque_left(machine, energy);
+                may = zero.select_lt(left.abs(), may, one);
+            }
+            may
+        })
     }
 
     /// The same for motions below it.
     #[inline(always)]
     pub fn may_have_slower(&self, machine: &Machine<'_, R>) -> R {
-        let (one, zero) = (R::splat(1.0), R::splat(0.0));
-        let bottom = self.bottom();
-        let rises = bottom.viscous.select_lt(zero, one, zero);
-        let rises = zero.select_lt(machine.plan.falls_from(machine.q), one, rises);
-        let fine = machine.plan.levels_in_place_of_one();
-        let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 0 };
-        let mut may = zero;
-        for level in 1..=levels {
-            // Down to where the machine comes to rest at some angle, and close to the known motion.
-            let near = 0.5_f64.powf(f64::from(level) / f64::from(fine));
-            for share in [near, 1.0 - near] {
-                let energy = bottom.energy * -share;
-                let left = out_of_line!(R, self.torque_left(machine, energy));
-                may = zero.select_lt(left, may, one);
+        out_of_line!(R, {
+            let (one, zero) = (R::splat(1.0), R::splat(0.0));
+            let bottom = self.bottom();
+            let rises = bottom.viscous.select_lt(zero, one, zero);
+            let rises = zero.select_lt(machine.plan.falls_from(machine.q), one, rises);
+            let fine = machine.plan.levels_in_place_of_one();
+            let levels = if rises.max_lane() > 0.5 { LEVELS * fine } else { 0 };
+            let mut may = zero;
+            for level in 1..=levels {
+                // Down to where the machine comes to rest at some angle, and close to the known motion.
+                let near = 0.5_f64.powf(f64::from(level) / f64::from(fine));
+                for share in [near, 1.0 - near] {
+                    let energy = bottom.energy * -share;
+                    let left = self.torque_left(machine, energy);
+                    may = zero.select_lt(left, may, one);
+                }
             }
-        }
-        may
+            may
+        })
     }
 
     /// u at φ = 0 of levels between which motions of one machine may lie, however near kinks or jumps over the speed are to
@@ -163,7 +169,7 @@ impl<R: Real> Turn<R> {
         for energy in self.levels_of_kinks(machine) {
             let known = first(energy);
             if known > least && known.abs() > -least * NEAR {
-                let left = out_of_line!(R, self.torque_left(machine, energy));
+                let left = self.torque_left(machine, energy);
                 signs.push((known, first(left)));
             }
         }
@@ -245,26 +251,28 @@ impl<R: Real> Turn<R> {
     /// Work over the revolution that drive and loads leave at a level of energy \[J\], zero where it is noise.
     #[inline(always)]
     fn torque_left(&self, machine: &Machine<'_, R>, level: R) -> R {
-        let zero = R::splat(0.0);
-        let (mut left, mut parts) = (zero, zero);
-        for (k, step) in self.steps.iter().enumerate() {
-            let geometry = self.geometry_of(machine, k);
-            for i in 0..S {
-                let row = &step.rows[i];
-                let u = level.mul_add(row.inverse, step.X[i]);
-                let omega = (u * 2.0).sqrt();
-                let torque = machine.plan.drive.torque(&machine.plan.tables, machine.q, omega);
-                let mut drag = row.viscous.mul_add(omega, row.load);
-                if !geometry.is_empty() {
-                    drag = drag + machine.laws(machine.geometry_at(geometry, i), omega);
+        out_of_line!(R, {
+            let zero = R::splat(0.0);
+            let (mut left, mut parts) = (zero, zero);
+            for (k, step) in self.steps.iter().enumerate() {
+                let geometry = self.geometry_of(machine, k);
+                for i in 0..S {
+                    let row = &step.rows[i];
+                    let u = level.mul_add(row.inverse, step.X[i]);
+                    let omega = (u * 2.0).sqrt();
+                    let torque = machine.plan.drive.torque(&machine.plan.tables, machine.q, omega);
+                    let mut drag = row.viscous.mul_add(omega, row.load);
+                    if !geometry.is_empty() {
+                        drag = drag + machine.laws(machine.geometry_at(geometry, i), omega);
+                    }
+                    let dphi = step.h * B[i];
+                    left = (torque - drag).mul_add(dphi, left);
+                    parts = (torque.abs() + drag.abs()).mul_add(dphi, parts);
                 }
-                let dphi = step.h * B[i];
-                left = (torque - drag).mul_add(dphi, left);
-                parts = (torque.abs() + drag.abs()).mul_add(dphi, parts);
             }
-        }
-        let (left, parts) = (self.layout.total(left), self.layout.total(parts));
-        (parts * NOISE).select_lt(left.abs(), left, zero)
+            let (left, parts) = (self.layout.total(left), self.layout.total(parts));
+            (parts * NOISE).select_lt(left.abs(), left, zero)
+        })
     }
 }
 

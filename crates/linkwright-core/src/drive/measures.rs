@@ -8,6 +8,7 @@ use crate::drive::law::LawGeometry;
 use crate::drive::layout::Layout;
 use crate::drive::step::{REFERENCE, Step};
 use crate::kernel::branch::OnBranch;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{B, S};
 use crate::kernel::real::{Lift, Real};
 
@@ -65,37 +66,41 @@ impl<R: Real> Machine<'_, R> {
     /// The same of a row at u, with laws as they are there.
     #[inline(always)]
     pub fn torques_at<N: Lift<R>>(&self, row: &Row<R>, geometry: &[LawGeometry<R>], u: N) -> [N; 3] {
-        let (drive, tables) = (&self.plan.drive, &self.plan.tables);
-        let omega = (u * 2.0).sqrt();
-        let torque = drive.motor_torque(tables, self.q, omega);
-        let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
-        if !drive.speed_loads.is_empty() {
-            drag = drag + drive.speed_load(tables, self.q, omega);
-        }
-        if !geometry.is_empty() {
-            drag = drag + self.laws(geometry, omega);
-        }
-        [torque, drive.geared_torque(self.q, torque), drag]
+        out_of_line!(N, {
+            let (drive, tables) = (&self.plan.drive, &self.plan.tables);
+            let omega = (u * 2.0).sqrt();
+            let torque = drive.motor_torque(tables, self.q, omega);
+            let mut drag = N::lift(row.viscous).mul_add(omega, N::lift(row.load));
+            if !drive.speed_loads.is_empty() {
+                drag = drag + drive.speed_load(tables, self.q, omega);
+            }
+            if !geometry.is_empty() {
+                drag = drag + self.laws(geometry, omega);
+            }
+            [torque, drive.geared_torque(self.q, torque), drag]
+        })
     }
 
     /// The integrals over one step.
     #[inline(always)]
     pub fn integrals(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> [R; INTEGRALS] {
-        let q = self.q;
-        let mut sums = [R::splat(0.0); INTEGRALS];
-        for i in 0..S {
-            let dphi = step.h * B[i];
-            let omega = (step.X[i] * 2.0).sqrt();
-            let dt = dphi / omega;
-            let [torque, geared, drag] = self.torques(step, geometry, i);
-            sums[0] = sums[0] + dt;
-            sums[1] = (torque * q[self.plan.drive.ratio]).mul_add(dphi, sums[1]);
-            sums[2] = geared.mul_add(dphi, sums[2]);
-            sums[3] = drag.mul_add(dphi, sums[3]);
-            sums[4] = torque.mul_add(dt, sums[4]);
-            sums[5] = torque.squared().mul_add(dt, sums[5]);
-        }
-        sums
+        out_of_line!(R, {
+            let q = self.q;
+            let mut sums = [R::splat(0.0); INTEGRALS];
+            for i in 0..S {
+                let dphi = step.h * B[i];
+                let omega = (step.X[i] * 2.0).sqrt();
+                let dt = dphi / omega;
+                let [torque, geared, drag] = self.torques(step, geometry, i);
+                sums[0] = sums[0] + dt;
+                sums[1] = (torque * q[self.plan.drive.ratio]).mul_add(dphi, sums[1]);
+                sums[2] = geared.mul_add(dphi, sums[2]);
+                sums[3] = drag.mul_add(dphi, sums[3]);
+                sums[4] = torque.mul_add(dt, sums[4]);
+                sums[5] = torque.squared().mul_add(dt, sums[5]);
+            }
+            sums
+        })
     }
 }
 

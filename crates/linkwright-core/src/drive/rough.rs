@@ -96,7 +96,7 @@ impl<R: Real> RoughMotion<R> {
         }
         let mut change = R::splat(f64::INFINITY);
         for _ in 0..SWEEPS_MAX {
-            change = out_of_line!(R, self.sweep(turn, machine, change));
+            change = self.sweep(turn, machine, change);
             if change.max_lane() < CONVERGED {
                 break;
             }
@@ -108,58 +108,60 @@ impl<R: Real> RoughMotion<R> {
     /// what they have: no lane's bits depend on how long another takes.
     #[inline(always)]
     fn sweep(&mut self, turn: &Turn<R>, machine: &Machine<'_, R>, last: R) -> R {
-        let (one, limit, n) = (R::splat(1.0), R::splat(CONVERGED), turn.steps.len());
-        let mut start = self.steps[n - 1].energy[1];
-        let mut before = machine.torque_left(turn, n - 1, TAKEN[1], start);
-        self.growth.clear();
-        self.defect.clear();
-        for k in 0..n {
-            let (rough, step) = (&mut self.steps[k], &turn.steps[k]);
-            let mut torque = [before; 3];
-            for i in 0..TAKEN.len() {
-                torque[i + 1] = machine.torque_left(turn, k, TAKEN[i], rough.energy[i]);
-            }
-            let (mut r, mut to_start, mut matrix) = ([start; 2], [one; 2], [[one; 2]; 2]);
-            for i in 0..TAKEN.len() {
-                let rises = &RISES[TAKEN[i]];
-                r[i] = start - rough.energy[i];
-                for j in 0..PLACES.len() {
-                    r[i] = (step.h * rises[j]).mul_add(torque[j].value, r[i]);
+        out_of_line!(R, {
+            let (one, limit, n) = (R::splat(1.0), R::splat(CONVERGED), turn.steps.len());
+            let mut start = self.steps[n - 1].energy[1];
+            let mut before = machine.torque_left(turn, n - 1, TAKEN[1], start);
+            self.growth.clear();
+            self.defect.clear();
+            for k in 0..n {
+                let (rough, step) = (&mut self.steps[k], &turn.steps[k]);
+                let mut torque = [before; 3];
+                for i in 0..TAKEN.len() {
+                    torque[i + 1] = machine.torque_left(turn, k, TAKEN[i], rough.energy[i]);
                 }
-                to_start[i] = (step.h * rises[0]).mul_add(torque[0].d, one);
-                for j in 0..TAKEN.len() {
-                    let entry = torque[j + 1].d * (step.h * -rises[j + 1]);
-                    matrix[i][j] = if i == j { entry + one } else { entry };
+                let (mut r, mut to_start, mut matrix) = ([start; 2], [one; 2], [[one; 2]; 2]);
+                for i in 0..TAKEN.len() {
+                    let rises = &RISES[TAKEN[i]];
+                    r[i] = start - rough.energy[i];
+                    for j in 0..PLACES.len() {
+                        r[i] = (step.h * rises[j]).mul_add(torque[j].value, r[i]);
+                    }
+                    to_start[i] = (step.h * rises[0]).mul_add(torque[0].d, one);
+                    for j in 0..TAKEN.len() {
+                        let entry = torque[j + 1].d * (step.h * -rises[j + 1]);
+                        matrix[i][j] = if i == j { entry + one } else { entry };
+                    }
+                }
+                let [[a, b], [c, d]] = matrix;
+                let inverse = a.mul_add(d, -(b * c)).recip();
+                for (from, to) in [(r, &mut rough.p), (to_start, &mut rough.g)] {
+                    to[0] = d.mul_add(from[0], -(b * from[1])) * inverse;
+                    to[1] = a.mul_add(from[1], -(c * from[0])) * inverse;
+                }
+                for (kept, torque) in rough.torque.iter_mut().zip(torque) {
+                    *kept = Dual { value: last.select_lt(limit, kept.value, torque.value), ..torque };
+                }
+                self.growth.push(rough.g[1]);
+                self.defect.push(rough.p[1]);
+                (start, before) = (rough.energy[1], torque[2]);
+            }
+            let (delta, _) = turn.layout.close(&self.growth, &self.defect);
+            let mut worst = R::splat(0.0);
+            for (rough, delta) in self.steps.iter_mut().zip(delta) {
+                let at_start = last.select_lt(limit, R::splat(0.0), delta);
+                rough.torque[0].value = rough.torque[0].d.mul_add(at_start, rough.torque[0].value);
+                for i in 0..TAKEN.len() {
+                    let (change, energy) = (rough.g[i].mul_add(delta, rough.p[i]), rough.energy[i]);
+                    let next = (energy + change).max(energy * SHRINK);
+                    worst = worst.max(change.abs() / energy);
+                    rough.energy[i] = last.select_lt(limit, energy, next);
+                    let torque = &mut rough.torque[i + 1];
+                    torque.value = torque.d.mul_add(rough.energy[i] - energy, torque.value);
                 }
             }
-            let [[a, b], [c, d]] = matrix;
-            let inverse = a.mul_add(d, -(b * c)).recip();
-            for (from, to) in [(r, &mut rough.p), (to_start, &mut rough.g)] {
-                to[0] = d.mul_add(from[0], -(b * from[1])) * inverse;
-                to[1] = a.mul_add(from[1], -(c * from[0])) * inverse;
-            }
-            for (kept, torque) in rough.torque.iter_mut().zip(torque) {
-                *kept = Dual { value: last.select_lt(limit, kept.value, torque.value), ..torque };
-            }
-            self.growth.push(rough.g[1]);
-            self.defect.push(rough.p[1]);
-            (start, before) = (rough.energy[1], torque[2]);
-        }
-        let (delta, _) = turn.layout.close(&self.growth, &self.defect);
-        let mut worst = R::splat(0.0);
-        for (rough, delta) in self.steps.iter_mut().zip(delta) {
-            let at_start = last.select_lt(limit, R::splat(0.0), delta);
-            rough.torque[0].value = rough.torque[0].d.mul_add(at_start, rough.torque[0].value);
-            for i in 0..TAKEN.len() {
-                let (change, energy) = (rough.g[i].mul_add(delta, rough.p[i]), rough.energy[i]);
-                let next = (energy + change).max(energy * SHRINK);
-                worst = worst.max(change.abs() / energy);
-                rough.energy[i] = last.select_lt(limit, energy, next);
-                let torque = &mut rough.torque[i + 1];
-                torque.value = torque.d.mul_add(rough.energy[i] - energy, torque.value);
-            }
-        }
-        last.select_lt(limit, last, worst)
+            last.select_lt(limit, last, worst)
+        })
     }
 
     /// Gives the steps u at their starts and stages, in the lanes that have converged.

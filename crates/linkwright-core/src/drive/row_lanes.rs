@@ -94,7 +94,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
     pub(super) fn new_meshes(&mut self, rows: &[usize], first: usize) -> Vec<RowMesh> {
         self.load(rows.iter().copied(), first);
         let (machine, m) = (Machine::new(self.plan, &self.q), &mut self.m);
-        let breaks = out_of_line!(R, machine.ends(m));
+        let breaks = machine.ends(m);
         rows.iter().zip(breaks).map(|(&row, breaks)| RowMesh::new(row, breaks)).collect()
     }
 
@@ -109,7 +109,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         self.load(meshes.iter().map(|mesh| mesh.row), to.first);
         self.tabulate(&meshes);
         let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
-        out_of_line!(R, turn.start_from_balance(&machine));
+        turn.start_from_balance(&machine);
         rough.start(turn, &machine);
         if out_of_line!(R, self.place_rough_kinks(&mut meshes)) {
             next.append(&mut meshes);
@@ -135,10 +135,10 @@ impl<'a, R: Real> RowLanes<'a, R> {
             return false;
         }
         let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
-        out_of_line!(R, turn.take_accelerations(&machine));
-        out_of_line!(R, turn.give_samples(meshes));
+        turn.take_accelerations(&machine);
+        turn.give_samples(meshes);
         let has_kinks: Vec<bool> = kinks.iter().map(|kinks| !kinks.is_empty()).collect();
-        out_of_line!(R, turn.give_starts(meshes, &has_kinks));
+        turn.give_starts(meshes, &has_kinks);
         for (mesh, kinks) in meshes.iter_mut().zip(&kinks).filter(|(_, kinks)| !kinks.is_empty()) {
             mesh.place_kinks(kinks);
         }
@@ -162,7 +162,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         turn.limit = CONVERGED;
         let mut displaced = R::splat(0.0);
         for placement in 0..=PLACEMENTS {
-            displaced = out_of_line!(R, turn.move_to_kinks(&machine, &mut meshes, m));
+            displaced = turn.move_to_kinks(&machine, &mut meshes, m);
             if placement > 0 && displaced.max_lane() <= 0.0 {
                 break;
             }
@@ -184,7 +184,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
         let mut edges: Vec<&[f64]> = meshes.iter().map(|mesh| &mesh.edges[..]).collect();
         edges.resize(R::LANES, &meshes[meshes.len() - 1].edges);
-        out_of_line!(R, turn.tabulate_machines(&machine, &edges, m));
+        turn.tabulate_machines(&machine, &edges, m);
     }
 
     /// Takes the results of the solved rows that are good, and makes meshes for those that need others.
@@ -203,7 +203,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let passes = kinks.iter().any(|kinks| !kinks.is_empty());
         if passes {
             let turn = &self.turn;
-            out_of_line!(R, turn.give_samples(&mut meshes));
+            turn.give_samples(&mut meshes);
         }
         for (lane, verdict) in verdicts.iter_mut().enumerate() {
             if is_solved[lane].partial_cmp(&CONVERGED) != Some(Ordering::Less) {
@@ -215,7 +215,7 @@ impl<'a, R: Real> RowLanes<'a, R> {
         let errors = self.judge(&meshes, displaced, &mut verdicts, to);
         if !passes && verdicts.contains(&Verdict::Coarse) {
             let turn = &self.turn;
-            out_of_line!(R, turn.give_samples(&mut meshes));
+            turn.give_samples(&mut meshes);
         }
         self.refuse_pulses(&meshes, &mut verdicts, to.first);
         for (lane, mut mesh) in meshes.into_iter().enumerate() {
@@ -324,9 +324,9 @@ impl<'a, R: Real> RowLanes<'a, R> {
         if !verdicts.contains(&Verdict::Good) {
             return errors;
         }
-        let extremes = out_of_line!(R, turn.extremes(&machine, Some(&nested.between), &nested.starts, m));
-        let may_have_faster = out_of_line!(R, turn.may_have_faster(&machine));
-        let may_be_neutral = out_of_line!(R, turn.may_be_neutral(&machine));
+        let extremes = turn.extremes(&machine, Some(&nested.between), &nested.starts, m);
+        let may_have_faster = turn.may_have_faster(&machine);
+        let may_be_neutral = turn.may_be_neutral(&machine);
         let may_have_faster = may_have_faster.max(may_be_neutral);
         // A motion that the machine departs from, or that may not be the fastest, is no answer.
         let (zero, one) = (R::splat(0.0), R::splat(1.0));

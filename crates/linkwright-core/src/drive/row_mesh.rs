@@ -9,6 +9,7 @@ use crate::drive::equation::Machine;
 use crate::drive::layout::unbundle;
 use crate::drive::mesh::crossing;
 use crate::drive::step::Step;
+use crate::kernel::out_of_line;
 use crate::kernel::radau::{C, S};
 use crate::kernel::real::Real;
 use crate::linkage::motion::Motion;
@@ -201,42 +202,46 @@ impl<R: Real> Turn<R> {
     /// Gives the rows, one a lane, the solution at the starts and stages of their steps.
     #[inline(always)]
     pub(super) fn give_samples(&self, rows: &mut [RowMesh]) {
-        let mut lanes = vec![0.0; 4 * R::LANES];
-        for row in rows.iter_mut() {
-            row.samples = Vec::with_capacity(self.steps.len() * S + 1);
-            row.start.clear();
-        }
-        let first = &self.steps[0];
-        give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], &mut lanes);
-        for (k, step) in self.steps.iter().enumerate() {
-            for i in 0..S - 1 {
-                let phi = step.h.mul_add(R::splat(C[i]), step.phi);
-                give(rows, [phi, step.X[i], step.K[i], step.K[i]], &mut lanes);
+        out_of_line!(R, {
+            let mut lanes = vec![0.0; 4 * R::LANES];
+            for row in rows.iter_mut() {
+                row.samples = Vec::with_capacity(self.steps.len() * S + 1);
+                row.start.clear();
             }
-            // Behind the last step nothing follows.
-            let after = slope_at_start(self.steps.get(k + 1).unwrap_or(step));
-            give(rows, [step.phi + step.h, step.X[S - 1], step.K[S - 1], after], &mut lanes);
-        }
-        // At φ = 0 the motion is that at the end of the cycle.
-        for row in rows {
-            let end = row.samples.last().map_or(f64::NAN, |sample| sample.epsilon);
-            row.samples[0].epsilon = end;
-        }
+            let first = &self.steps[0];
+            give(rows, [first.phi, first.u, first.K[0], slope_at_start(first)], &mut lanes);
+            for (k, step) in self.steps.iter().enumerate() {
+                for i in 0..S - 1 {
+                    let phi = step.h.mul_add(R::splat(C[i]), step.phi);
+                    give(rows, [phi, step.X[i], step.K[i], step.K[i]], &mut lanes);
+                }
+                // Behind the last step nothing follows.
+                let after = slope_at_start(self.steps.get(k + 1).unwrap_or(step));
+                give(rows, [step.phi + step.h, step.X[S - 1], step.K[S - 1], after], &mut lanes);
+            }
+            // At φ = 0 the motion is that at the end of the cycle.
+            for row in rows {
+                let end = row.samples.last().map_or(f64::NAN, |sample| sample.epsilon);
+                row.samples[0].epsilon = end;
+            }
+        })
     }
 
     /// Gives the rows that have no kink the start of their lane on their mesh: beside others they are solved from the same
     /// numbers.
     #[inline(always)]
     pub(super) fn give_starts(&self, rows: &mut [RowMesh], has_kinks: &[bool]) {
-        let mut lanes = vec![0.0; R::LANES];
-        for step in &self.steps {
-            for u in [step.u].iter().chain(&step.X) {
-                u.store(&mut lanes);
-                for (lane, row) in rows.iter_mut().enumerate().filter(|&(lane, _)| !has_kinks[lane]) {
-                    row.start.push(lanes[lane]);
+        out_of_line!(R, {
+            let mut lanes = vec![0.0; R::LANES];
+            for step in &self.steps {
+                for u in [step.u].iter().chain(&step.X) {
+                    u.store(&mut lanes);
+                    for (lane, row) in rows.iter_mut().enumerate().filter(|&(lane, _)| !has_kinks[lane]) {
+                        row.start.push(lanes[lane]);
+                    }
                 }
             }
-        }
+        })
     }
 
     /// Starts every lane from the solution that it has on other steps.
@@ -285,41 +290,43 @@ impl<R: Real> Turn<R> {
         rows: &mut [RowMesh],
         m: &mut Motion<R>,
     ) -> R {
-        let (zero, n) = (R::splat(0.0), self.steps.len());
-        let (mut moves, mut most) = (vec![zero; n + 1], zero);
-        let mut lanes = vec![0.0; R::LANES];
-        for k in 1..n {
-            for (lane, kink) in lanes.iter_mut().enumerate() {
-                *kink = rows[lane.min(rows.len() - 1)].kink(k);
+        out_of_line!(R, {
+            let (zero, n) = (R::splat(0.0), self.steps.len());
+            let (mut moves, mut most) = (vec![zero; n + 1], zero);
+            let mut lanes = vec![0.0; R::LANES];
+            for k in 1..n {
+                for (lane, kink) in lanes.iter_mut().enumerate() {
+                    *kink = rows[lane.min(rows.len() - 1)].kink(k);
+                }
+                let (kink, before, step) = (R::load(&lanes), &self.steps[k - 1], &self.steps[k]);
+                let (by, room) = ((kink - step.u) / before.K[S - 1], before.h.min(step.h) * ROOM);
+                // A NaN is not below the limit.
+                let by = by.abs().select_lt(room, by, room);
+                let by = by.abs().select_lt(R::splat(SETTLED), zero, by);
+                moves[k] = zero.select_lt(kink, by, zero);
+                most = most.max(moves[k].abs());
             }
-            let (kink, before, step) = (R::load(&lanes), &self.steps[k - 1], &self.steps[k]);
-            let (by, room) = ((kink - step.u) / before.K[S - 1], before.h.min(step.h) * ROOM);
-            // A NaN is not below the limit.
-            let by = by.abs().select_lt(room, by, room);
-            let by = by.abs().select_lt(R::splat(SETTLED), zero, by);
-            moves[k] = zero.select_lt(kink, by, zero);
-            most = most.max(moves[k].abs());
-        }
-        if most.max_lane() <= 0.0 {
-            return most;
-        }
-        self.geometry.clear();
-        for k in 0..n {
-            let is_moved = moves[k].abs().max(moves[k + 1].abs()).max_lane() > 0.0;
-            let step = &mut self.steps[k];
-            step.phi = step.phi + moves[k];
-            step.h = step.h + (moves[k + 1] - moves[k]);
-            if is_moved || !machine.plan.laws.is_empty() {
-                self.take_rows(machine, k, m);
+            if most.max_lane() <= 0.0 {
+                return most;
             }
-        }
-        for (k, by) in moves.iter().enumerate().take(n) {
-            let by = unbundle(&[*by]);
-            for (row, by) in rows.iter_mut().zip(by).filter(|(row, _)| row.kink(k) > 0.0) {
-                row.edges[k] += by;
+            self.geometry.clear();
+            for k in 0..n {
+                let is_moved = moves[k].abs().max(moves[k + 1].abs()).max_lane() > 0.0;
+                let step = &mut self.steps[k];
+                step.phi = step.phi + moves[k];
+                step.h = step.h + (moves[k + 1] - moves[k]);
+                if is_moved || !machine.plan.laws.is_empty() {
+                    self.take_rows(machine, k, m);
+                }
             }
-        }
-        self.correction = zero.select_lt(most, R::splat(f64::INFINITY), self.correction);
-        most
+            for (k, by) in moves.iter().enumerate().take(n) {
+                let by = unbundle(&[*by]);
+                for (row, by) in rows.iter_mut().zip(by).filter(|(row, _)| row.kink(k) > 0.0) {
+                    row.edges[k] += by;
+                }
+            }
+            self.correction = zero.select_lt(most, R::splat(f64::INFINITY), self.correction);
+            most
+        })
     }
 }

@@ -95,27 +95,30 @@ impl<R: Real> Machine<'_, R> {
     /// ε at the stages of a step, and its derivatives.
     #[inline(always)]
     pub(super) fn accelerations(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> ([R; S], [R; S]) {
-        let (rows, X) = (&step.rows, &step.X);
-        let (mut f, mut d) = (*X, *X);
-        for i in 0..S {
-            if self.is_on_branch(i) {
-                continue;
+        out_of_line!(R, {
+            let (rows, X) = (&step.rows, &step.X);
+            let (mut f, mut d) = (*X, *X);
+            for i in 0..S {
+                if self.is_on_branch(i) {
+                    continue;
+                }
+                let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
+                (f[i], d[i]) = (free.value, free.d);
             }
-            let free = self.drive_acceleration(&rows[i], Dual::variable(X[i]));
-            (f[i], d[i]) = (free.value, free.d);
-        }
-        for i in 0..S {
-            let own = self.geometry_at(geometry, i);
-            if self.is_on_branch(i) {
-                let reference = self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
-                let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
-                (f[i], d[i]) = (epsilon.value, epsilon.d);
-            } else if !geometry.is_empty() {
-                let taken = self.laws(own, (Dual::variable(X[i]) * 2.0).sqrt());
-                (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
+            for i in 0..S {
+                let own = self.geometry_at(geometry, i);
+                if self.is_on_branch(i) {
+                    let reference =
+                        self.side.unwrap_or((self.geometry_at(geometry, REFERENCE), X[REFERENCE]));
+                    let epsilon = self.acceleration_on_branch(&rows[i], own, X[i], reference);
+                    (f[i], d[i]) = (epsilon.value, epsilon.d);
+                } else if !geometry.is_empty() {
+                    let taken = self.laws(own, (Dual::variable(X[i]) * 2.0).sqrt());
+                    (f[i], d[i]) = (f[i] - taken.value * rows[i].inverse, d[i] - taken.d * rows[i].inverse);
+                }
             }
-        }
-        (f, d)
+            (f, d)
+        })
     }
 
     /// A step with a known solution, and what its laws need to know.
@@ -137,33 +140,39 @@ impl<R: Real> Machine<'_, R> {
     /// kink; the step's own has the slope that rounding chose. The torque itself is the same on either side.
     #[inline(always)]
     pub fn growth_on_side(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
-        let (f, mut d) = self.accelerations(step, geometry);
-        d[S - 1] = d[S - 1] + self.slope_besides(&step.rows[S - 1], step.X[S - 1], step.X[REFERENCE]);
-        stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1]
+        out_of_line!(R, {
+            let (f, mut d) = self.accelerations(step, geometry);
+            d[S - 1] = d[S - 1] + self.slope_besides(&step.rows[S - 1], step.X[S - 1], step.X[REFERENCE]);
+            stage_newton(step.u, step.h, &f, &d, &step.X).u[S - 1]
+        })
     }
 
     /// Where the stages of a step lie on another branch than the one that the step keeps to: the most that this makes of
     /// u at its end. The last stage lies on the kink itself.
     #[inline(always)]
     pub fn off_branch(&self, step: &Step<R>, geometry: &[LawGeometry<R>]) -> R {
-        let mut sum = R::splat(0.0);
-        for i in 0..S - 1 {
-            let own = self.acceleration(&step.rows[i], self.geometry_at(geometry, i), step.X[i]).value;
-            sum = (own - step.K[i]).abs().mul_add(step.h * B[i], sum);
-        }
-        sum
+        out_of_line!(R, {
+            let mut sum = R::splat(0.0);
+            for i in 0..S - 1 {
+                let own = self.acceleration(&step.rows[i], self.geometry_at(geometry, i), step.X[i]).value;
+                sum = (own - step.K[i]).abs().mul_add(step.h * B[i], sum);
+            }
+            sum
+        })
     }
 
     /// ε at the start of a step, on its side where it may jump there, of which the geometry of its stages is known.
     #[inline(always)]
     pub fn start(&self, step: &Step<R>, geometry: &[LawGeometry<R>], m: &mut Motion<R>) -> R {
-        let mut own = Vec::with_capacity(self.plan.laws.len());
-        let row = self.row_at_end(step.phi, self.inside_by(step.h), m, &mut own);
-        if !(self.keeps_branch || self.inside > 0.0) {
-            return self.acceleration(&row, &own, step.u).value;
-        }
-        let known = (self.geometry_at(geometry, REFERENCE), step.X[REFERENCE]);
-        self.acceleration_on_branch(&row, &own, step.u, known).value
+        out_of_line!(R, {
+            let mut own = Vec::with_capacity(self.plan.laws.len());
+            let row = self.row_at_end(step.phi, self.inside_by(step.h), m, &mut own);
+            if !(self.keeps_branch || self.inside > 0.0) {
+                return self.acceleration(&row, &own, step.u).value;
+            }
+            let known = (self.geometry_at(geometry, REFERENCE), step.X[REFERENCE]);
+            self.acceleration_on_branch(&row, &own, step.u, known).value
+        })
     }
 
     /// A step of its own from (`phi`, `u`) on by `h`, and what its laws needed. This is how the solution is
@@ -211,11 +220,15 @@ impl<R: Real> Machine<'_, R> {
         X: [R; S],
         m: &mut Motion<R>,
     ) -> (Step<R>, Vec<LawGeometry<R>>) {
-        let mut geometry = Vec::new();
-        let rows = self.rows(phi, h, m, &mut geometry);
-        let step =
-            out_of_line!(R, self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &geometry, limit));
-        (step, geometry)
+        out_of_line!(R, {
+            let mut geometry = Vec::new();
+            let rows = self.rows(phi, h, m, &mut geometry);
+            let step = out_of_line!(
+                R,
+                self.solve_step(Step { X, ..Step::at_rest(phi, h, rows, u) }, &geometry, limit)
+            );
+            (step, geometry)
+        })
     }
 
     /// Newton for the stages of a step from its start values.
@@ -246,15 +259,17 @@ impl<R: Real> Machine<'_, R> {
         correction: R,
         limit: f64,
     ) -> StageNewton<R> {
-        let limit = R::splat(limit);
-        let (f, d) = self.accelerations(step, geometry);
-        let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
-        for i in 0..S {
-            step.K[i] = correction.select_lt(limit, step.K[i], f[i]);
-            step.D[i] = correction.select_lt(limit, step.D[i], d[i]);
-        }
-        step.growth = correction.select_lt(limit, step.growth, newton.u[S - 1]);
-        newton
+        out_of_line!(R, {
+            let limit = R::splat(limit);
+            let (f, d) = self.accelerations(step, geometry);
+            let newton = stage_newton(step.u, step.h, &f, &d, &step.X);
+            for i in 0..S {
+                step.K[i] = correction.select_lt(limit, step.K[i], f[i]);
+                step.D[i] = correction.select_lt(limit, step.D[i], d[i]);
+            }
+            step.growth = correction.select_lt(limit, step.growth, newton.u[S - 1]);
+            newton
+        })
     }
 }
 
