@@ -3,7 +3,7 @@
 use super::shape::ROWS;
 use super::{Cam, Dimensions, Kind};
 use linkwright_kernel::dual::Dual;
-use linkwright_kernel::lanes::{Job, in_single_lanes};
+use linkwright_kernel::lanes::{Job, in_common_lanes};
 use linkwright_kernel::motion_law::MotionLaw;
 use linkwright_kernel::real::Real;
 
@@ -31,7 +31,7 @@ pub struct CamAlong<'a> {
 impl CamAlong<'_> {
     /// The derivatives: `to` is (rows, angles, n).
     pub fn rows(self, to: &mut [f64]) {
-        in_single_lanes(Rows { of: self, to });
+        in_common_lanes(Rows { of: self, to });
     }
 }
 

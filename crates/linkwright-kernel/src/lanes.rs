@@ -2,9 +2,11 @@
 //!
 //! [`V`] is one register of the instruction set found at run time, [`Pair`] two of them side by side,
 //! which hides the latency of square root and division. A [`Job`] is a piece of work generic over
-//! [`Real`]; [`in_lanes`] runs it on the widest registers this processor has, [`scalar`] on `f64`.
+//! [`Real`]; [`in_lanes`] runs it on the widest registers this processor has, [`in_common_lanes`] on those that all have,
+//! [`scalar`] on `f64`.
 #![allow(unsafe_code)]
 
+use crate::out_of_line;
 use crate::real::{COEFFICIENTS, Real};
 use pulp::{Simd, WithSimd};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -20,32 +22,36 @@ pub trait Job {
 
 /// Runs the job two registers at a time on the widest registers that this processor has.
 pub fn in_lanes<J: Job>(job: J) -> J::Output {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V4::try_new() {
-        return simd.vectorize(
-            #[inline(always)]
-            || job.run::<Pair<V<pulp::x86::V4>>>(),
-        );
-    }
-    in_common::<J, Two>(job)
+    in_widest::<J, Two>(job)
 }
 
-/// Runs the job one register at a time, on registers of the one kind that all processors of an architecture have: for what is
-/// not hot, or carries derivatives along, two numbers of which fill the processor as two registers do, in half the code.
+/// The same one register at a time: for numbers that carry derivatives along, two of which fill the processor as two registers
+/// do, in half the code.
 pub fn in_single_lanes<J: Job>(job: J) -> J::Output {
+    in_widest::<J, One>(job)
+}
+
+/// The same on registers of the one kind that all processors of an architecture have: for large kernels that are not hot, which
+/// are compiled once then.
+pub fn in_common_lanes<J: Job>(job: J) -> J::Output {
     in_common::<J, One>(job)
 }
 
-/// The same with as many registers as a bundle has.
+#[inline(always)]
+fn in_widest<J: Job, B: Bundle>(job: J) -> J::Output {
+    #[cfg(target_arch = "x86_64")]
+    if pulp::x86::V4::try_new().is_some() {
+        return out_of_line!(V<pulp::x86::V4>, job.run::<B::Of<pulp::x86::V4>>());
+    }
+    in_common::<J, B>(job)
+}
+
 #[inline(always)]
 fn in_common<J: Job, B: Bundle>(job: J) -> J::Output {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     {
-        let Some(simd) = Common::try_new() else { panic!("{NEEDS}") };
-        simd.vectorize(
-            #[inline(always)]
-            || job.run::<B::Of<Common>>(),
-        )
+        assert!(Common::try_new().is_some(), "{NEEDS}");
+        out_of_line!(V<Common>, job.run::<B::Of<Common>>())
     }
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     scalar(job)
@@ -285,15 +291,23 @@ impl<S: Simd> Real for V<S> {
     }
     #[inline(always)]
     fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
-        struct Call<F>(F);
-        impl<T, F: FnOnce() -> T> WithSimd for Call<F> {
-            type Output = T;
-            #[inline(always)]
-            fn with_simd<S: Simd>(self, _simd: S) -> T {
-                (self.0)()
-            }
-        }
-        token::<S>().vectorize(Call(f))
+        call::<S, T, _>(f)
+    }
+}
+
+/// Work with registers of a kind as a function of its own. Not inlined: every unit of the compiler that calls it would have its own.
+#[inline(never)]
+fn call<S: Simd, T, F: FnOnce() -> T>(f: F) -> T {
+    token::<S>().vectorize(Work(f))
+}
+
+/// A closure as pulp takes it.
+struct Work<F>(F);
+impl<T, F: FnOnce() -> T> WithSimd for Work<F> {
+    type Output = T;
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> T {
+        (self.0)()
     }
 }
 

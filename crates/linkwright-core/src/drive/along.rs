@@ -7,7 +7,7 @@ use crate::drive::motions::store;
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_single_lanes};
+use crate::kernel::lanes::{Job, in_common_lanes};
 use crate::kernel::plane::Angle;
 use crate::kernel::real::{LANES_MAX, Real};
 use crate::linkage::motion::{Channel, Motion};
@@ -60,7 +60,7 @@ pub(super) fn put<R: Real>(x: R, some: &[usize], row: &mut [f64]) {
 
 /// Derivatives of motions at crank angles: `out` is (numbers of the channels, angles, directions), zero at first.
 pub fn motions_along(of: Directions<'_>, phi: &[f64], channels: &[Channel], out: &mut [f64]) {
-    in_single_lanes(MotionsAlong { of, phi, channels, out });
+    in_common_lanes(MotionsAlong { of, phi, channels, out });
 }
 
 struct MotionsAlong<'a> {
@@ -97,7 +97,7 @@ impl Job for MotionsAlong<'_> {
 
 /// Derivatives of the reduced inertia and of its slope at crank angles: `out` is (2, angles, directions), zero at first.
 pub fn inertias_along(of: Directions<'_>, phi: &[f64], out: &mut [f64]) {
-    in_single_lanes(InertiasAlong { of, phi, out });
+    in_common_lanes(InertiasAlong { of, phi, out });
 }
 
 struct InertiasAlong<'a> {
@@ -130,7 +130,7 @@ impl Job for InertiasAlong<'_> {
 /// Derivatives of crank angles by each direction, where they are kinks: `out` is (angles, directions),
 /// zero at first.
 pub fn kinks_along(of: Directions<'_>, phi: &[f64], out: &mut [f64]) {
-    in_single_lanes(KinksAlong { of, phi, out });
+    in_common_lanes(KinksAlong { of, phi, out });
 }
 
 struct KinksAlong<'a> {

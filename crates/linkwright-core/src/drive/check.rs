@@ -92,24 +92,26 @@ impl<R: Real> Turn<R> {
         closely: bool,
         m: &mut Motion<R>,
     ) -> Check {
-        let correction = last_correction(self.multiplier.max_lane(), accuracy);
-        let limits = Limits { accuracy, epsilon: self.acceleration_scale(machine), correction };
-        let (mut differences, mut integrals) = (Vec::new(), Vec::new());
-        let ends_on_kink = self.ends_on_kink(kinks);
-        for (k, step) in self.steps.iter().enumerate() {
-            let whole = machine.integrals(step, self.geometry_of(machine, k));
-            let of_step = self.differences(machine, k, whole, ends_on_kink.get(k).copied(), limits, m);
-            differences.push(of_step);
-            integrals.push(whole);
-        }
-        let check = self.judged(machine, &differences, &integrals, kinks, limits);
-        if !(closely || check.is_good()) || !machine.plan.may_hide() {
-            return check;
-        }
-        for (k, of_step) in differences.iter_mut().enumerate() {
-            self.add_beside_ends(machine, k, of_step, limits, m);
-        }
-        self.judged(machine, &differences, &integrals, kinks, limits)
+        out_of_line!(R, {
+            let correction = last_correction(self.multiplier.max_lane(), accuracy);
+            let limits = Limits { accuracy, epsilon: self.acceleration_scale(machine), correction };
+            let (mut differences, mut integrals) = (Vec::new(), Vec::new());
+            let ends_on_kink = self.ends_on_kink(kinks);
+            for (k, step) in self.steps.iter().enumerate() {
+                let whole = machine.integrals(step, self.geometry_of(machine, k));
+                let of_step = self.differences(machine, k, whole, ends_on_kink.get(k).copied(), limits, m);
+                differences.push(of_step);
+                integrals.push(whole);
+            }
+            let check = self.judged(machine, &differences, &integrals, kinks, limits);
+            if !(closely || check.is_good()) || !machine.plan.may_hide() {
+                return check;
+            }
+            for (k, of_step) in differences.iter_mut().enumerate() {
+                self.add_beside_ends(machine, k, of_step, limits, m);
+            }
+            self.judged(machine, &differences, &integrals, kinks, limits)
+        })
     }
 
     /// What the differences of all steps make of the revolution.

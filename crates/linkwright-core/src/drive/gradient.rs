@@ -25,7 +25,7 @@ use crate::drive::step::{Step, stages_of_part};
 use crate::drive::structure::Plan;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_single_lanes};
+use crate::kernel::lanes::{Job, in_common_lanes};
 use crate::kernel::matrix::LuFactors;
 use crate::kernel::out_of_line;
 use crate::kernel::radau::S;
@@ -151,7 +151,7 @@ impl CurvesAlong<'_> {
     /// (curves, angles, directions). Not inlined: every crate that called it would compile its own kernel.
     #[inline(never)]
     pub fn curves(self) -> Vec<f64> {
-        in_single_lanes(self)
+        in_common_lanes(self)
     }
 }
 
@@ -187,7 +187,7 @@ impl Gradient<'_> {
     /// The derivatives. Not inlined: every crate that called it would compile its own kernel.
     #[inline(never)]
     pub fn derivatives(self) -> Derivatives {
-        in_single_lanes(self)
+        in_common_lanes(self)
     }
 
     fn along(&self) -> Directions<'_> {

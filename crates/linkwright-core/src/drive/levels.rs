@@ -158,73 +158,78 @@ impl<R: Real> Turn<R> {
     /// each other: above the solved motion, and below it.
     #[inline(always)]
     pub fn hints(&self, machine: &Machine<'_, R>) -> [Vec<f64>; 2] {
-        let mut hints = [Vec::new(), Vec::new()];
-        let first = |x: R| unbundle(&[x])[0];
-        // The last stage lies at the end of the cycle, where the machine is as at its start.
-        let Some(last) = self.steps.last().filter(|_| machine.plan.is_drawn()) else { return hints };
-        let inverse = unbundle(&[last.rows[S - 1].inverse])[R::LANES - 1];
-        let (start, least) = (first(self.steps[0].u), -first(self.bottom().energy));
-        // Right beside the known motion, from which nothing departs.
-        let mut signs = vec![(least * NEAR, 1.0), (-least * NEAR, -1.0)];
-        for energy in self.levels_of_kinks(machine) {
-            let known = first(energy);
-            if known > least && known.abs() > -least * NEAR {
-                let left = self.torque_left(machine, energy);
-                signs.push((known, first(left)));
+        out_of_line!(R, {
+            let mut hints = [Vec::new(), Vec::new()];
+            let first = |x: R| unbundle(&[x])[0];
+            // The last stage lies at the end of the cycle, where the machine is as at its start.
+            let Some(last) = self.steps.last().filter(|_| machine.plan.is_drawn()) else { return hints };
+            let inverse = unbundle(&[last.rows[S - 1].inverse])[R::LANES - 1];
+            let (start, least) = (first(self.steps[0].u), -first(self.bottom().energy));
+            // Right beside the known motion, from which nothing departs.
+            let mut signs = vec![(least * NEAR, 1.0), (-least * NEAR, -1.0)];
+            for energy in self.levels_of_kinks(machine) {
+                let known = first(energy);
+                if known > least && known.abs() > -least * NEAR {
+                    let left = self.torque_left(machine, energy);
+                    signs.push((known, first(left)));
+                }
             }
-        }
-        signs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for ends in signs.windows(2) {
-            let is_known = ends[0].0 < 0.0 && ends[1].0 > 0.0;
-            if !is_known && ends[0].1 * ends[1].1 <= 0.0 {
-                hints[usize::from(ends[0].0 < 0.0)]
-                    .extend(ends.iter().map(|end| end.0.mul_add(inverse, start)));
+            signs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for ends in signs.windows(2) {
+                let is_known = ends[0].0 < 0.0 && ends[1].0 > 0.0;
+                if !is_known && ends[0].1 * ends[1].1 <= 0.0 {
+                    hints[usize::from(ends[0].0 < 0.0)]
+                        .extend(ends.iter().map(|end| end.0.mul_add(inverse, start)));
+                }
             }
-        }
-        hints
+            hints
+        })
     }
 
     /// For each kink over the speed the levels right below and above those at which the machine passes it in the revolution.
     #[inline(always)]
     fn levels_of_kinks(&self, machine: &Machine<'_, R>) -> Vec<R> {
-        let beside = self.bottom().energy * BESIDE;
-        let mut levels = Vec::new();
-        let mut take = |low: R, high: R| {
-            let (low, high) = (self.layout.lowest(low), self.layout.highest(high));
-            levels.extend([low - beside, (low + high) * 0.5, high + beside]);
-        };
-        let infinity = R::splat(f64::INFINITY);
-        for speed in machine.plan.drive.kinks_of_lanes(&machine.plan.tables, machine.q) {
-            if !R::splat(0.0).any_below(speed) {
-                continue;
-            }
-            let (u, mut low, mut high) = (speed.squared() * 0.5, infinity, -infinity);
-            for step in &self.steps {
-                for (row, &X) in step.rows.iter().zip(&step.X) {
-                    let energy = (u - X) / row.inverse;
-                    (low, high) = (low.min(energy), high.max(energy));
+        out_of_line!(R, {
+            let beside = self.bottom().energy * BESIDE;
+            let mut levels = Vec::new();
+            let mut take = |low: R, high: R| {
+                let (low, high) = (self.layout.lowest(low), self.layout.highest(high));
+                levels.extend([low - beside, (low + high) * 0.5, high + beside]);
+            };
+            let infinity = R::splat(f64::INFINITY);
+            for speed in machine.plan.drive.kinks_of_lanes(&machine.plan.tables, machine.q) {
+                if !R::splat(0.0).any_below(speed) {
+                    continue;
                 }
-            }
-            take(low, high);
-        }
-        for kink in machine.plan.speed_kinks() {
-            let (mut low, mut high) = (infinity, -infinity);
-            for (k, step) in self.steps.iter().enumerate() {
-                let geometry = self.geometry_of(machine, k);
-                for i in 0..S {
-                    let known = machine.geometry_at(geometry, i);
-                    let value = |u: R| {
-                        let at = [(u * 2.0).sqrt(), R::splat(f64::NAN)];
-                        machine.plan.speed_kink_value(machine.q, kink, known, at)
-                    };
-                    let u = level_of(value, step.X[i]);
-                    let energy = (u - step.X[i]) / step.rows[i].inverse;
-                    (low, high) = (energy.select_lt(low, energy, low), high.select_lt(energy, energy, high));
+                let (u, mut low, mut high) = (speed.squared() * 0.5, infinity, -infinity);
+                for step in &self.steps {
+                    for (row, &X) in step.rows.iter().zip(&step.X) {
+                        let energy = (u - X) / row.inverse;
+                        (low, high) = (low.min(energy), high.max(energy));
+                    }
                 }
+                take(low, high);
             }
-            take(low, high);
-        }
-        levels
+            for kink in machine.plan.speed_kinks() {
+                let (mut low, mut high) = (infinity, -infinity);
+                for (k, step) in self.steps.iter().enumerate() {
+                    let geometry = self.geometry_of(machine, k);
+                    for i in 0..S {
+                        let known = machine.geometry_at(geometry, i);
+                        let value = |u: R| {
+                            let at = [(u * 2.0).sqrt(), R::splat(f64::NAN)];
+                            machine.plan.speed_kink_value(machine.q, kink, known, at)
+                        };
+                        let u = level_of(value, step.X[i]);
+                        let energy = (u - step.X[i]) / step.rows[i].inverse;
+                        (low, high) =
+                            (energy.select_lt(low, energy, low), high.select_lt(energy, energy, high));
+                    }
+                }
+                take(low, high);
+            }
+            levels
+        })
     }
 
     /// The minimum of some quantities over the revolution.

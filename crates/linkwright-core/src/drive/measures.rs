@@ -123,13 +123,15 @@ impl<R: Real> Turn<R> {
     /// Integrals over the revolution.
     #[inline(always)]
     pub fn totals(&self, machine: &Machine<'_, R>) -> Totals<R> {
-        let mut sums = [R::splat(0.0); INTEGRALS];
-        for (k, step) in self.steps.iter().enumerate() {
-            let parts = machine.integrals(step, self.geometry_of(machine, k));
-            for i in 0..INTEGRALS {
-                sums[i] = sums[i] + parts[i];
+        out_of_line!(R, {
+            let mut sums = [R::splat(0.0); INTEGRALS];
+            for (k, step) in self.steps.iter().enumerate() {
+                let parts = machine.integrals(step, self.geometry_of(machine, k));
+                for i in 0..INTEGRALS {
+                    sums[i] = sums[i] + parts[i];
+                }
             }
-        }
-        Totals::new(self.layout, sums)
+            Totals::new(self.layout, sums)
+        })
     }
 }

@@ -7,7 +7,7 @@ use crate::drive::batch::Rows;
 use crate::drive::structure::Plan;
 use crate::kernel::call::{in_threads, poll};
 use crate::kernel::jet::Jet;
-use crate::kernel::lanes::{Job, in_lanes, in_single_lanes};
+use crate::kernel::lanes::{Job, in_common_lanes, in_lanes};
 use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
 use crate::kernel::real::Real;
@@ -286,7 +286,7 @@ pub(super) fn store<R: Real>(
 /// Third transfer functions of one machine: x‴, y‴ of a point, ψ‴ of a link, s‴ of a slide, in the order of
 /// the channels. `out` is (numbers, angles). They come from positions alone, in jets of the crank angle.
 pub fn third(plan: &Plan, q: &[f64], phi: &[f64], channels: &[Channel], out: &mut [f64]) {
-    in_single_lanes(ThirdJob { plan, q, phi, channels, out });
+    in_common_lanes(ThirdJob { plan, q, phi, channels, out });
 }
 
 struct ThirdJob<'a> {

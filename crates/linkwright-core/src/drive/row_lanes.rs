@@ -106,18 +106,20 @@ impl<'a, R: Real> RowLanes<'a, R> {
         to: &mut Results<'_>,
         next: &mut Vec<RowMesh>,
     ) -> u64 {
-        self.load(meshes.iter().map(|mesh| mesh.row), to.first);
-        self.tabulate(&meshes);
-        let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
-        turn.start_from_balance(&machine);
-        rough.start(turn, &machine);
-        if out_of_line!(R, self.place_rough_kinks(&mut meshes)) {
-            next.append(&mut meshes);
-            return 0;
-        }
-        let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
-        turn.solve(&machine);
-        self.take(meshes, R::splat(0.0), to, next)
+        out_of_line!(R, {
+            self.load(meshes.iter().map(|mesh| mesh.row), to.first);
+            self.tabulate(&meshes);
+            let (machine, turn, rough) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.rough);
+            turn.start_from_balance(&machine);
+            rough.start(turn, &machine);
+            if out_of_line!(R, self.place_rough_kinks(&mut meshes)) {
+                next.append(&mut meshes);
+                return 0;
+            }
+            let (machine, turn) = (Machine::new(self.plan, &self.q), &mut self.turn);
+            turn.solve(&machine);
+            self.take(meshes, R::splat(0.0), to, next)
+        })
     }
 
     /// Makes ends of steps where the rough motion of a row clearly passes kinks of the drive; whether any does. All rows then
@@ -153,23 +155,25 @@ impl<'a, R: Real> RowLanes<'a, R> {
         to: &mut Results<'_>,
         next: &mut Vec<RowMesh>,
     ) -> u64 {
-        self.load(meshes.iter().map(|mesh| mesh.row), to.first);
-        self.tabulate(&meshes);
-        let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
-        turn.start_from_samples(&meshes);
-        turn.limit = PLACING;
-        let mut lost = turn.solve_lanes(&machine, R::splat(0.0));
-        turn.limit = CONVERGED;
-        let mut displaced = R::splat(0.0);
-        for placement in 0..=PLACEMENTS {
-            displaced = turn.move_to_kinks(&machine, &mut meshes, m);
-            if placement > 0 && displaced.max_lane() <= 0.0 {
-                break;
+        out_of_line!(R, {
+            self.load(meshes.iter().map(|mesh| mesh.row), to.first);
+            self.tabulate(&meshes);
+            let (machine, turn, m) = (Machine::new(self.plan, &self.q), &mut self.turn, &mut self.m);
+            turn.start_from_samples(&meshes);
+            turn.limit = PLACING;
+            let mut lost = turn.solve_lanes(&machine, R::splat(0.0));
+            turn.limit = CONVERGED;
+            let mut displaced = R::splat(0.0);
+            for placement in 0..=PLACEMENTS {
+                displaced = turn.move_to_kinks(&machine, &mut meshes, m);
+                if placement > 0 && displaced.max_lane() <= 0.0 {
+                    break;
+                }
+                lost = turn.solve_lanes(&machine, lost);
             }
-            lost = turn.solve_lanes(&machine, lost);
-        }
-        turn.correction = R::splat(0.0).select_lt(lost, lost, turn.correction);
-        self.take(meshes, displaced, to, next)
+            turn.correction = R::splat(0.0).select_lt(lost, lost, turn.correction);
+            self.take(meshes, displaced, to, next)
+        })
     }
 
     #[inline(always)]
@@ -196,49 +200,51 @@ impl<'a, R: Real> RowLanes<'a, R> {
         to: &mut Results<'_>,
         next: &mut Vec<RowMesh>,
     ) -> u64 {
-        let n = meshes.len() as u64;
-        let kinks = self.kinks_passed(meshes.len());
-        let is_solved = unbundle(&[self.turn.correction]);
-        let mut verdicts = vec![Verdict::Good; meshes.len()];
-        let passes = kinks.iter().any(|kinks| !kinks.is_empty());
-        if passes {
-            let turn = &self.turn;
-            turn.give_samples(&mut meshes);
-        }
-        for (lane, verdict) in verdicts.iter_mut().enumerate() {
-            if is_solved[lane].partial_cmp(&CONVERGED) != Some(Ordering::Less) {
-                *verdict = Verdict::Refused;
-            } else if !kinks[lane].iter().all(|&speed| meshes[lane].resolves(speed)) {
-                *verdict = Verdict::Kinks;
+        out_of_line!(R, {
+            let n = meshes.len() as u64;
+            let kinks = self.kinks_passed(meshes.len());
+            let is_solved = unbundle(&[self.turn.correction]);
+            let mut verdicts = vec![Verdict::Good; meshes.len()];
+            let passes = kinks.iter().any(|kinks| !kinks.is_empty());
+            if passes {
+                let turn = &self.turn;
+                turn.give_samples(&mut meshes);
             }
-        }
-        let errors = self.judge(&meshes, displaced, &mut verdicts, to);
-        if !passes && verdicts.contains(&Verdict::Coarse) {
-            let turn = &self.turn;
-            turn.give_samples(&mut meshes);
-        }
-        self.refuse_pulses(&meshes, &mut verdicts, to.first);
-        for (lane, mut mesh) in meshes.into_iter().enumerate() {
-            let goes_on = mesh.rounds < MESHES_MAX
-                && match verdicts[lane] {
-                    Verdict::Good => continue,
-                    Verdict::Refused => false,
-                    Verdict::Kinks => {
-                        mesh.place_kinks(&kinks[lane]);
-                        true
-                    }
-                    Verdict::Coarse => {
-                        let of_lane = errors.iter().skip(lane).step_by(R::LANES);
-                        mesh.refine(&of_lane.copied().collect::<Vec<_>>(), PROMISED)
-                    }
-                };
-            if goes_on {
-                next.push(mesh);
-            } else {
-                to.status[mesh.row] = Status::Inaccurate;
+            for (lane, verdict) in verdicts.iter_mut().enumerate() {
+                if is_solved[lane].partial_cmp(&CONVERGED) != Some(Ordering::Less) {
+                    *verdict = Verdict::Refused;
+                } else if !kinks[lane].iter().all(|&speed| meshes[lane].resolves(speed)) {
+                    *verdict = Verdict::Kinks;
+                }
             }
-        }
-        u64::from(self.turn.sweeps) * n
+            let errors = self.judge(&meshes, displaced, &mut verdicts, to);
+            if !passes && verdicts.contains(&Verdict::Coarse) {
+                let turn = &self.turn;
+                turn.give_samples(&mut meshes);
+            }
+            self.refuse_pulses(&meshes, &mut verdicts, to.first);
+            for (lane, mut mesh) in meshes.into_iter().enumerate() {
+                let goes_on = mesh.rounds < MESHES_MAX
+                    && match verdicts[lane] {
+                        Verdict::Good => continue,
+                        Verdict::Refused => false,
+                        Verdict::Kinks => {
+                            mesh.place_kinks(&kinks[lane]);
+                            true
+                        }
+                        Verdict::Coarse => {
+                            let of_lane = errors.iter().skip(lane).step_by(R::LANES);
+                            mesh.refine(&of_lane.copied().collect::<Vec<_>>(), PROMISED)
+                        }
+                    };
+                if goes_on {
+                    next.push(mesh);
+                } else {
+                    to.status[mesh.row] = Status::Inaccurate;
+                }
+            }
+            u64::from(self.turn.sweeps) * n
+        })
     }
 
     /// Refuses rows whose steps do not see where a formula that knows a speed is steep along their solution.
@@ -309,52 +315,55 @@ impl<'a, R: Real> RowLanes<'a, R> {
         verdicts: &mut [Verdict],
         to: &mut Results<'_>,
     ) -> Vec<f64> {
-        if !verdicts.contains(&Verdict::Good) {
-            return Vec::new();
-        }
-        let machine = Machine::new(self.plan, &self.q);
-        let (turn, nested, m) = (&mut self.turn, &mut self.nested, &mut self.m);
-        let totals = nested.correct(turn, &machine, &kinks_at_ends(meshes, turn.steps.len()), PROMISED, m);
-        for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[nested.worst])) {
-            if *verdict == Verdict::Good && worst > PROMISED {
-                *verdict = Verdict::Coarse;
+        out_of_line!(R, {
+            if !verdicts.contains(&Verdict::Good) {
+                return Vec::new();
             }
-        }
-        let errors = unbundle(&nested.errors);
-        if !verdicts.contains(&Verdict::Good) {
-            return errors;
-        }
-        let extremes = turn.extremes(&machine, Some(&nested.between), &nested.starts, m);
-        let may_have_faster = turn.may_have_faster(&machine);
-        let may_be_neutral = turn.may_be_neutral(&machine);
-        let may_have_faster = may_have_faster.max(may_be_neutral);
-        // A motion that the machine departs from, or that may not be the fastest, is no answer.
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let is_stable = turn.multiplier.select_lt(one, one, zero);
-        let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, zero);
-        let is_answer = displaced.select_lt(R::splat(PLACED), is_fastest, zero);
-        let is_answer = nested.noise.select_lt(R::splat(PEAKS_PROMISED), is_answer, zero);
-        let is_answer = zero.select_lt(extremes.speed_min.value, is_answer, zero);
-        let is_answer = unbundle(&[is_answer]);
-        let numbers = unbundle(&row_of(turn.multiplier, &extremes, &totals));
-        let kinks = self.plan.drive.kinks_of_lanes(&self.plan.tables, &self.q);
-        let kinks: Vec<Vec<f64>> = kinks.iter().map(|kink| unbundle(&[*kink])).collect();
-        for (lane, mesh) in meshes.iter().enumerate() {
-            if verdicts[lane] != Verdict::Good {
-                continue;
+            let machine = Machine::new(self.plan, &self.q);
+            let (turn, nested, m) = (&mut self.turn, &mut self.nested, &mut self.m);
+            let totals =
+                nested.correct(turn, &machine, &kinks_at_ends(meshes, turn.steps.len()), PROMISED, m);
+            for (verdict, worst) in verdicts.iter_mut().zip(unbundle(&[nested.worst])) {
+                if *verdict == Verdict::Good && worst > PROMISED {
+                    *verdict = Verdict::Coarse;
+                }
             }
-            let result = &mut to.out[mesh.row * QUANTITIES..(mesh.row + 1) * QUANTITIES];
-            for (k, number) in result.iter_mut().enumerate() {
-                *number = numbers[k * R::LANES + lane];
+            let errors = unbundle(&nested.errors);
+            if !verdicts.contains(&Verdict::Good) {
+                return errors;
             }
-            // Extremes may lie beyond a kink that no stage does.
-            let is_unseen = |speed: f64| result[0] < speed && speed < result[1] && !mesh.has(speed);
-            let passes_unseen = kinks.iter().any(|kink| is_unseen(kink[lane]));
-            if passes_unseen || is_answer[lane] < 0.5 || !result.iter().all(|x| x.is_finite()) {
-                verdicts[lane] = Verdict::Refused;
+            let extremes = turn.extremes(&machine, Some(&nested.between), &nested.starts, m);
+            let may_have_faster = turn.may_have_faster(&machine);
+            let may_be_neutral = turn.may_be_neutral(&machine);
+            let may_have_faster = may_have_faster.max(may_be_neutral);
+            // A motion that the machine departs from, or that may not be the fastest, is no answer.
+            let (zero, one) = (R::splat(0.0), R::splat(1.0));
+            let is_stable = turn.multiplier.select_lt(one, one, zero);
+            let is_fastest = may_have_faster.select_lt(R::splat(0.5), is_stable, zero);
+            let is_answer = displaced.select_lt(R::splat(PLACED), is_fastest, zero);
+            let is_answer = nested.noise.select_lt(R::splat(PEAKS_PROMISED), is_answer, zero);
+            let is_answer = zero.select_lt(extremes.speed_min.value, is_answer, zero);
+            let is_answer = unbundle(&[is_answer]);
+            let numbers = unbundle(&row_of(turn.multiplier, &extremes, &totals));
+            let kinks = self.plan.drive.kinks_of_lanes(&self.plan.tables, &self.q);
+            let kinks: Vec<Vec<f64>> = kinks.iter().map(|kink| unbundle(&[*kink])).collect();
+            for (lane, mesh) in meshes.iter().enumerate() {
+                if verdicts[lane] != Verdict::Good {
+                    continue;
+                }
+                let result = &mut to.out[mesh.row * QUANTITIES..(mesh.row + 1) * QUANTITIES];
+                for (k, number) in result.iter_mut().enumerate() {
+                    *number = numbers[k * R::LANES + lane];
+                }
+                // Extremes may lie beyond a kink that no stage does.
+                let is_unseen = |speed: f64| result[0] < speed && speed < result[1] && !mesh.has(speed);
+                let passes_unseen = kinks.iter().any(|kink| is_unseen(kink[lane]));
+                if passes_unseen || is_answer[lane] < 0.5 || !result.iter().all(|x| x.is_finite()) {
+                    verdicts[lane] = Verdict::Refused;
+                }
             }
-        }
-        errors
+            errors
+        })
     }
 }
 

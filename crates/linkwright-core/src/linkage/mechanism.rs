@@ -129,33 +129,32 @@ impl Mechanism {
                     let place = on_link::<R, ORDER>(&m.points[origin], &m.links[link], q[along], q[across]);
                     m.points[point].set(place.p, place.d1, place.d2);
                 }
-                // A function of their own keeps the loop over the common elements small.
-                _ => out_of_line!(R, element.place_rarer::<R, ORDER>(q, angle, m)),
+                _ => element.place_rarer::<R, ORDER>(q, angle, m),
             }
         }
     }
 }
 
 impl Element {
-    /// Places an element of the rarer kinds.
+    /// Places an element of the rarer kinds, each by a function of its own: the loop over the common elements stays small.
     #[inline(always)]
     fn place_rarer<R: Real, const ORDER: u8>(&self, q: &[R], angle: Angle<R>, m: &mut Motion<R>) {
         match self {
-            Element::GuidedRod(e) => guided::guided_rod::<R, ORDER>(e, q, m),
-            Element::SlottedLever(e) => guided::slotted_lever::<R, ORDER>(e, q, m),
-            Element::Crossing(e) => guided::crossing::<R, ORDER>(e, q, m),
-            Element::Turn(e) => coupled::turn(e, q, angle, m),
-            Element::Runner(e) => coupled::runner::<R, ORDER>(e, q, angle, m),
-            Element::AngleOf(e) => coupled::angle_of(e, q, angle, m),
-            Element::Folding(e) => folding::folding(e, q, angle, m),
-            Element::FoldingRod(e) => folding::folding_rod::<R, ORDER>(e, q, angle, m),
-            Element::Group(e) => e.place::<R, ORDER>(q, angle, m),
+            Element::GuidedRod(e) => out_of_line!(R, guided::guided_rod::<R, ORDER>(e, q, m)),
+            Element::SlottedLever(e) => out_of_line!(R, guided::slotted_lever::<R, ORDER>(e, q, m)),
+            Element::Crossing(e) => out_of_line!(R, guided::crossing::<R, ORDER>(e, q, m)),
+            Element::Turn(e) => out_of_line!(R, coupled::turn(e, q, angle, m)),
+            Element::Runner(e) => out_of_line!(R, coupled::runner::<R, ORDER>(e, q, angle, m)),
+            Element::AngleOf(e) => out_of_line!(R, coupled::angle_of(e, q, angle, m)),
+            Element::Folding(e) => out_of_line!(R, folding::folding(e, q, angle, m)),
+            Element::FoldingRod(e) => out_of_line!(R, folding::folding_rod::<R, ORDER>(e, q, angle, m)),
+            Element::Group(e) => out_of_line!(R, e.place::<R, ORDER>(q, angle, m)),
             Element::Bar(e) => {
                 let (from, to) = (m.points[e.from], m.points[e.to]);
                 guided::bar(m, e.link, &from, &to, q[e.inverse_length]);
             }
-            Element::Law(e) => coupled::law(e, q, angle, m),
-            Element::Programme(e) => coupled::programme(e, q, angle, m),
+            Element::Law(e) => out_of_line!(R, coupled::law(e, q, angle, m)),
+            Element::Programme(e) => out_of_line!(R, coupled::programme(e, q, angle, m)),
             Element::Crank { .. }
             | Element::SliderRod(_)
             | Element::Rocker(_)

@@ -21,7 +21,7 @@ use crate::drive::structure::Plan;
 use crate::drive::transient::equation::Y;
 use crate::kernel::call::poll;
 use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_single_lanes};
+use crate::kernel::lanes::{Job, in_common_lanes};
 use crate::kernel::matrix::LuFactors;
 use crate::kernel::out_of_line;
 use crate::kernel::plane::Angle;
@@ -110,7 +110,7 @@ impl Variation<'_> {
     /// The derivatives. Not inlined: every crate that called it would compile its own kernel.
     #[inline(never)]
     pub fn derivatives(self) -> Variations {
-        in_single_lanes(self)
+        in_common_lanes(self)
     }
 }
 
@@ -315,34 +315,40 @@ impl<'a, R: Real> Rates<'a, R> {
     /// Those of the acceleration.
     #[inline(always)]
     fn acceleration(&mut self, y: Y) -> Vec<f64> {
-        self.derivatives(
-            #[inline(always)]
-            |plan, lanes| {
-                let [phi, omega] = lanes.state(y);
-                acceleration(plan, &lanes.q, phi, omega, &mut lanes.m).d
-            },
-        )
+        out_of_line!(R, {
+            self.derivatives(
+                #[inline(always)]
+                |plan, lanes| {
+                    let [phi, omega] = lanes.state(y);
+                    acceleration(plan, &lanes.q, phi, omega, &mut lanes.m).d
+                },
+            )
+        })
     }
 
     /// Those of the quantity whose zero an event is.
     #[inline(always)]
     fn event(&mut self, event: EventPlace, y: Y) -> Vec<f64> {
-        self.derivatives(
-            #[inline(always)]
-            |plan, lanes| {
-                let [phi, omega] = lanes.state(y);
-                let machine = Machine::new(plan, &lanes.q);
-                match event {
-                    EventPlace::Angle(at) => phi.d - machine.moving(&[at], &mut lanes.m)[0].d,
-                    EventPlace::Speed(nth) => omega.d - plan.drive.speed_kinks(&plan.tables, &lanes.q)[nth].d,
-                    EventPlace::Rest => omega.d,
-                    EventPlace::Law(kink) => {
-                        let u = omega.squared() * 0.5;
-                        Events::new(machine).value(Event::Law(kink), phi, u, &mut lanes.m).d
+        out_of_line!(R, {
+            self.derivatives(
+                #[inline(always)]
+                |plan, lanes| {
+                    let [phi, omega] = lanes.state(y);
+                    let machine = Machine::new(plan, &lanes.q);
+                    match event {
+                        EventPlace::Angle(at) => phi.d - machine.moving(&[at], &mut lanes.m)[0].d,
+                        EventPlace::Speed(nth) => {
+                            omega.d - plan.drive.speed_kinks(&plan.tables, &lanes.q)[nth].d
+                        }
+                        EventPlace::Rest => omega.d,
+                        EventPlace::Law(kink) => {
+                            let u = omega.squared() * 0.5;
+                            Events::new(machine).value(Event::Law(kink), phi, u, &mut lanes.m).d
+                        }
                     }
-                }
-            },
-        )
+                },
+            )
+        })
     }
 }
 
@@ -392,7 +398,6 @@ impl<R: Real> Along<'_, R> {
     }
 
     /// From one share of a step to another.
-    #[inline(always)]
     fn advance(&mut self, k: usize, from: f64, to: f64) {
         if to <= from {
             return;
@@ -442,7 +447,6 @@ impl<R: Real> Along<'_, R> {
     }
 
     /// Past an event at the end of a step, if there is one. Of several ends beside it the nearest counts.
-    #[inline(always)]
     fn pass_end(&mut self, k: usize) {
         if k + 2 >= self.motion.t.len() {
             return;
@@ -457,7 +461,6 @@ impl<R: Real> Along<'_, R> {
     }
 
     /// Past a kink of a law, if the motion is on its other side a while later; steps that close in on a jump may go back and forth.
-    #[inline(always)]
     fn pass_law(&mut self, k: usize, t: f64, law: SpeedKink) {
         let aside = self.aside(k);
         let [before, behind] = [-aside, aside].map(|by| {
@@ -471,7 +474,6 @@ impl<R: Real> Along<'_, R> {
     }
 
     /// Past an event at an instant of a step.
-    #[inline(always)]
     fn pass(&mut self, k: usize, t: f64, event: EventPlace) {
         let aside = self.aside_of(k, event);
         let [before, behind] = [-1.0, 1.0].map(|way| self.beside(t, way * aside));
