@@ -19,10 +19,7 @@
 // Fields of enum variants and of plain records are named as in the equations beside them.
 #![allow(missing_docs)]
 
-pub use linkwright_cam as cam;
 pub use linkwright_kernel as kernel;
-pub use linkwright_topper as topper;
-pub use linkwright_torsion as torsion;
 
 pub mod drive;
 pub mod linkage;

@@ -1,6 +1,6 @@
-//! SIMD lanes: the only file that knows pulp, and the only one with `unsafe`.
+//! SIMD lanes.
 //!
-//! [`V`] is one register of the instruction set found at run time, [`Pair`] two of them side by side,
+//! [`V`] is one register ([`crate::registers`]) of the instruction set found at run time, [`Pair`] two of them side by side,
 //! which hides the latency of square root and division. A [`Job`] is a piece of work generic over
 //! [`Real`]; [`in_lanes`] runs it on the widest registers this processor has, [`in_common_lanes`] on those that all have,
 //! [`scalar`] on `f64`.
@@ -8,7 +8,11 @@
 
 use crate::out_of_line;
 use crate::real::{COEFFICIENTS, Real};
-use pulp::{Simd, WithSimd};
+#[cfg(not(target_arch = "x86_64"))]
+use crate::registers::Plain as Common;
+use crate::registers::Register;
+#[cfg(target_arch = "x86_64")]
+use crate::registers::{Avx2 as Common, Avx512};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -40,53 +44,39 @@ pub fn in_common_lanes<J: Job>(job: J) -> J::Output {
 #[inline(always)]
 fn in_widest<J: Job, B: Bundle>(job: J) -> J::Output {
     #[cfg(target_arch = "x86_64")]
-    if pulp::x86::V4::try_new().is_some() {
-        return out_of_line!(V<pulp::x86::V4>, job.run::<B::Of<pulp::x86::V4>>());
+    if Avx512::is_here() {
+        return out_of_line!(V<Avx512>, job.run::<B::Of<Avx512>>());
     }
     in_common::<J, B>(job)
 }
 
 #[inline(always)]
 fn in_common<J: Job, B: Bundle>(job: J) -> J::Output {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    {
-        assert!(Common::try_new().is_some(), "{NEEDS}");
-        out_of_line!(V<Common>, job.run::<B::Of<Common>>())
-    }
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    scalar(job)
+    assert!(is_supported(), "{NEEDS}");
+    out_of_line!(V<Common>, job.run::<B::Of<Common>>())
 }
 
-/// Registers of the one kind.
-#[cfg(target_arch = "x86_64")]
-type Common = pulp::x86::V3;
-#[cfg(target_arch = "aarch64")]
-type Common = pulp::aarch64::Neon;
-
-/// What a processor needs: kernels for one without would be a third of all code, and nobody has one.
+/// What a processor needs: kernels for one without would be a third of all code.
 pub const NEEDS: &str = "Linkwright needs a processor with AVX2 and FMA: Intel since 2013, AMD since 2015";
 
 /// Whether this processor has it.
 pub fn is_supported() -> bool {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    return Common::try_new().is_some();
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    true
+    Common::is_here()
 }
 
 /// How many registers are one number.
 trait Bundle {
-    type Of<S: Simd>: Real;
+    type Of<S: Register>: Real;
 }
 
 struct One;
 impl Bundle for One {
-    type Of<S: Simd> = V<S>;
+    type Of<S: Register> = V<S>;
 }
 
 struct Two;
 impl Bundle for Two {
-    type Of<S: Simd> = Pair<V<S>>;
+    type Of<S: Register> = Pair<V<S>>;
 }
 
 /// Runs the job on plain `f64`: the truth that lanes are measured against.
@@ -94,45 +84,37 @@ pub fn scalar<J: Job>(job: J) -> J::Output {
     job.run::<f64>()
 }
 
-/// One register of instruction set `S`.
+/// One register.
 #[derive(Clone, Copy)]
-pub struct V<S: Simd>(S::f64s);
-
-#[inline(always)]
-fn token<S: Simd>() -> S {
-    const { assert!(size_of::<S>() == 0) };
-    // SAFETY: `S` has no bytes, so there is nothing to initialise; a `V<S>` is only ever made inside
-    // `with_simd`, where pulp has already proved that the instruction set is there.
-    unsafe { std::mem::zeroed() }
-}
+pub struct V<S>(S);
 
 macro_rules! lane_operator {
-    ($op:ident, $method:ident, $simd:ident) => {
-        impl<S: Simd> $op for V<S> {
+    ($op:ident, $method:ident) => {
+        impl<S: Register> $op for V<S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                V(token::<S>().$simd(self.0, other.0))
+                V(self.0.$method(other.0))
             }
         }
     };
 }
-lane_operator!(Add, add, add_f64s);
-lane_operator!(Sub, sub, sub_f64s);
-lane_operator!(Mul, mul, mul_f64s);
-lane_operator!(Div, div, div_f64s);
+lane_operator!(Add, add);
+lane_operator!(Sub, sub);
+lane_operator!(Mul, mul);
+lane_operator!(Div, div);
 
-impl<S: Simd> Neg for V<S> {
+impl<S: Register> Neg for V<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        V(token::<S>().neg_f64s(self.0))
+        V(self.0.neg())
     }
 }
 
 macro_rules! with_plain_number {
     ($op:ident, $method:ident) => {
-        impl<S: Simd> $op<f64> for V<S> {
+        impl<S: Register> $op<f64> for V<S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
@@ -152,33 +134,33 @@ with_plain_number!(Add, add);
 with_plain_number!(Sub, sub);
 with_plain_number!(Mul, mul);
 
-impl<S: Simd> Real for V<S> {
-    const LANES: usize = S::F64_LANES;
+impl<S: Register> Real for V<S> {
+    const LANES: usize = S::LANES;
     const IS_PLAIN: bool = true;
 
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        V(token::<S>().splat_f64s(x))
+        V(S::splat(x))
     }
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
-        V(S::as_simd_f64s(&from[..S::F64_LANES]).0[0])
+        V(S::load(from))
     }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
-        S::as_mut_simd_f64s(&mut to[..S::F64_LANES]).0[0] = self.0;
+        self.0.store(to);
     }
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
-        V(token::<S>().mul_add_e_f64s(self.0, b.0, c.0))
+        V(self.0.mul_add(b.0, c.0))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        V(token::<S>().sqrt_f64s(self.0))
+        V(self.0.sqrt())
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        V(token::<S>().abs_f64s(self.0))
+        V(self.0.abs())
     }
 
     /// Cody–Waite reduction to [−π/4, π/4] (three parts of π/2, exact for |x| < 1e5), then the minimax
@@ -187,24 +169,17 @@ impl<S: Simd> Real for V<S> {
     fn sin_cos(self) -> (Self, Self) {
         // 1.5 · 2⁵²: adding it rounds to the nearest whole number, which then sits in the low bits.
         const ROUND: f64 = 6_755_399_441_055_744.0;
-        let simd = token::<S>();
         let shifted = self.mul_add(Self::splat(core::f64::consts::FRAC_2_PI), Self::splat(ROUND));
         let quarter = shifted - ROUND;
         let x = quarter.mul_add(Self::splat(-1.570_796_326_734_125_6), self);
         let x = quarter.mul_add(Self::splat(-6.077_100_506_303_966e-11), x);
         let x = quarter.mul_add(Self::splat(-2.022_266_248_795_950_6e-21), x);
         let (s, c) = sin_cos_near_zero(x);
-        let bits = simd.transmute_u64s_f64s(shifted.0);
-        let (one, two) = (simd.splat_u64s(1), simd.splat_u64s(2));
-        let is_odd = simd.equal_u64s(simd.and_u64s(bits, one), one);
-        let sin_negative = simd.equal_u64s(simd.and_u64s(bits, two), two);
-        let cos_negative = simd.equal_u64s(simd.and_u64s(simd.add_u64s(bits, one), two), two);
-        let sin = simd.select_f64s(is_odd, c.0, s.0);
-        let cos = simd.select_f64s(is_odd, s.0, c.0);
-        (
-            V(simd.select_f64s(sin_negative, simd.neg_f64s(sin), sin)),
-            V(simd.select_f64s(cos_negative, simd.neg_f64s(cos), cos)),
-        )
+        let (quadrant, [s, c]) = (shifted.0, [s.0, c.0]);
+        let is_odd = quadrant.has_bit(0, 1);
+        let (sin, cos) = (S::select(is_odd, c, s), S::select(is_odd, s, c));
+        let sin = S::select(quadrant.has_bit(0, 2), sin.neg(), sin);
+        (V(sin), V(S::select(quadrant.has_bit(1, 2), cos.neg(), cos)))
     }
     /// Reduction to |x| ≤ 0.66 by arctan x = π/4 + arctan (x − 1)/(x + 1) and π/2 − arctan 1/x, then the rational
     /// approximation of Cephes (Moshier, *Methods and Programs for Mathematical Functions*, 1989, `atan.c`).
@@ -249,12 +224,11 @@ impl<S: Simd> Real for V<S> {
     }
     #[inline(always)]
     fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
-        let simd = token::<S>();
-        V(simd.select_f64s(simd.less_than_f64s(self.0, limit.0), below.0, other.0))
+        V(S::select(self.0.less_than(limit.0), below.0, other.0))
     }
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
-        // 8 lanes are the widest register pulp knows.
+        // The widest register has eight lanes.
         let mut lanes = [0.0; 8];
         self.store(&mut lanes);
         for x in &mut lanes[..Self::LANES] {
@@ -286,28 +260,11 @@ impl<S: Simd> Real for V<S> {
     }
     #[inline(always)]
     fn any_below(self, limit: Self) -> bool {
-        let simd = token::<S>();
-        simd.first_true_m64s(simd.less_than_f64s(self.0, limit.0)) < S::F64_LANES
+        S::any(self.0.less_than(limit.0))
     }
     #[inline(always)]
     fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
-        call::<S, T, _>(f)
-    }
-}
-
-/// Work with registers of a kind as a function of its own. Not inlined: every unit of the compiler that calls it would have its own.
-#[inline(never)]
-fn call<S: Simd, T, F: FnOnce() -> T>(f: F) -> T {
-    token::<S>().vectorize(Work(f))
-}
-
-/// A closure as pulp takes it.
-struct Work<F>(F);
-impl<T, F: FnOnce() -> T> WithSimd for Work<F> {
-    type Output = T;
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> T {
-        (self.0)()
+        S::call(f)
     }
 }
 

@@ -3,6 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`real`], [`lanes`], [`dual`], [`jet`] | what a number is: scalar, SIMD lanes, with a derivative, with many |
+//! | [`registers`] | registers that hold several numbers |
 //! | [`interval`], [`bounds`] | all that a quantity can be over a piece; with its slope |
 //! | [`branch`] | numbers that stay on one branch of a function in pieces |
 //! | [`slot`] | where a number of a machine is found |
@@ -38,6 +39,7 @@ pub mod nested;
 pub mod plane;
 pub mod radau;
 pub mod real;
+pub mod registers;
 pub mod rk;
 pub mod series;
 pub mod slot;

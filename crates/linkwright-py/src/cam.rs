@@ -1,11 +1,11 @@
 //! Cams at the border.
 
-use linkwright_core::cam::along::CamAlong;
-use linkwright_core::cam::crossing::{Crossing, crossings};
-use linkwright_core::cam::search::{Cams, RESULTS, search};
-use linkwright_core::cam::shape::{self, NAMES, Quantity, ROWS};
-use linkwright_core::cam::{Cam as CoreCam, Dimensions, Kind};
-use linkwright_core::kernel::motion_law::MotionLaw;
+use linkwright_cam::along::CamAlong;
+use linkwright_cam::crossing::{Crossing, crossings};
+use linkwright_cam::search::{Cams, RESULTS, search};
+use linkwright_cam::shape::{self, NAMES, Quantity, ROWS};
+use linkwright_cam::{Cam as CoreCam, Dimensions, Kind};
+use linkwright_kernel::motion_law::MotionLaw;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

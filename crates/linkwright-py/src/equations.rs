@@ -1,6 +1,6 @@
 //! Systems of equations at the border.
 
-use linkwright_core::kernel::systems::Systems;
+use linkwright_kernel::systems::Systems;
 use numpy::{PyReadonlyArray3, PyReadwriteArray3};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;

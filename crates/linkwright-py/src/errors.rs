@@ -1,6 +1,6 @@
 //! The core's errors as Python's.
 
-use linkwright_core::kernel::error::PlanError;
+use linkwright_kernel::error::PlanError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 

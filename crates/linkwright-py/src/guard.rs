@@ -1,6 +1,6 @@
 //! How every call goes to the core: without the interpreter lock, stopped by a signal, and with an error for what goes wrong.
 
-use linkwright_core::kernel::call::{Failure, Reason, keep_panic, run};
+use linkwright_kernel::call::{Failure, Reason, keep_panic, run};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;

@@ -1,6 +1,6 @@
 //! Why a machine has no answer.
 
-use linkwright_core::kernel::status::Status as CoreStatus;
+use linkwright_kernel::status::Status as CoreStatus;
 use pyo3::prelude::*;
 
 /// Outcome for one machine.

@@ -1,7 +1,7 @@
 //! Knives of toppers at the border.
 
-use linkwright_core::topper::heads::{Heads, RESULTS, cover};
-use linkwright_core::topper::knife::{Knife, Law};
+use linkwright_topper::heads::{Heads, RESULTS, cover};
+use linkwright_topper::knife::{Knife, Law};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

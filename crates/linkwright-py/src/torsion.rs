@@ -1,7 +1,7 @@
 //! Torsional trains at the border.
 
-use linkwright_core::torsion::forest::Forest;
-use linkwright_core::torsion::{Train, forced, modes, waves};
+use linkwright_torsion::forest::Forest;
+use linkwright_torsion::{Train, forced, modes, waves};
 use numpy::{
     Complex64, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods,
 };

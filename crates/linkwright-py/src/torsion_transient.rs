@@ -1,9 +1,9 @@
 //! Trains in motion at the border.
 
-use linkwright_core::torsion::transient::course::{self, End, Method, Request};
-use linkwright_core::torsion::transient::extremes::Extreme;
-use linkwright_core::torsion::transient::rates::Rates;
-use linkwright_core::torsion::transient::system::System;
+use linkwright_torsion::transient::course::{self, End, Method, Request};
+use linkwright_torsion::transient::extremes::Extreme;
+use linkwright_torsion::transient::rates::Rates;
+use linkwright_torsion::transient::system::System;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -1,13 +1,13 @@
 //! Elements of the mechanism: `linkage::mechanism::Element` of the core, with the same names. A dyad with change points is
 //! the dyad with a list of them; `Element::Bar` is a link by itself.
 
-use linkwright_core::kernel::table::Table;
 use linkwright_core::linkage::coupled::{AngleOf, Law, Programme, Runner, Turn};
 use linkwright_core::linkage::dyads::{Rocker, SliderRod};
 use linkwright_core::linkage::folding::{Folding, FoldingRod};
 use linkwright_core::linkage::group::Group;
 use linkwright_core::linkage::guided::{Crossing, GuidedRod, SlottedLever};
 use linkwright_core::linkage::mechanism::{self, Element as CoreElement};
+use linkwright_kernel::table::Table;
 use pyo3::prelude::*;
 
 use super::numbers::{Formula, Knots, MotionLaw};

@@ -1,8 +1,8 @@
 //! Bodies and loads: `drive::loads` of the core, with the same names.
 
 use linkwright_core::drive::loads::{Body as CoreBody, Carrier, ForceElement, FormulaLoad, Load as CoreLoad};
-use linkwright_core::kernel::error::PlanError;
 use linkwright_core::plan::builder::Builder;
+use linkwright_kernel::error::PlanError;
 use pyo3::prelude::*;
 
 use super::numbers::{Formula, Knots};

@@ -1,9 +1,9 @@
 //! What is known of a function beforehand: tables, formulas, motion laws.
 
-use linkwright_core::kernel::error::PlanError;
-use linkwright_core::kernel::formula::{Formula as CoreFormula, Op, Variable};
-use linkwright_core::kernel::motion_law::{MotionLaw as CoreLaw, Piece as CorePiece};
-use linkwright_core::kernel::table::Table as CoreTable;
+use linkwright_kernel::error::PlanError;
+use linkwright_kernel::formula::{Formula as CoreFormula, Op, Variable};
+use linkwright_kernel::motion_law::{MotionLaw as CoreLaw, Piece as CorePiece};
+use linkwright_kernel::table::Table as CoreTable;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -1,9 +1,9 @@
 //! A train in motion: `torsion::transient::system` of the core, with the same names.
 
-use linkwright_core::torsion::transient::curve::Curve as CoreCurve;
-use linkwright_core::torsion::transient::periodic::Periodic as CorePeriodic;
-use linkwright_core::torsion::transient::system::{self, System};
-use linkwright_core::torsion::transient::torque;
+use linkwright_torsion::transient::curve::Curve as CoreCurve;
+use linkwright_torsion::transient::periodic::Periodic as CorePeriodic;
+use linkwright_torsion::transient::system::{self, System};
+use linkwright_torsion::transient::torque;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
