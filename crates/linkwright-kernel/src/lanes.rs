@@ -42,18 +42,18 @@ pub fn in_common_lanes<J: Job>(job: J) -> J::Output {
 }
 
 #[inline(always)]
-fn in_widest<J: Job, B: Bundle>(job: J) -> J::Output {
+fn in_widest<J: Job, B: Widest>(job: J) -> J::Output {
     #[cfg(target_arch = "x86_64")]
     if Avx512::is_here() {
-        return out_of_line!(V<Avx512>, job.run::<B::Of<Avx512>>());
+        return out_of_line!(V<Avx512>, job.run::<<B as Bundle<Avx512>>::Of>());
     }
     in_common::<J, B>(job)
 }
 
 #[inline(always)]
-fn in_common<J: Job, B: Bundle>(job: J) -> J::Output {
+fn in_common<J: Job, B: Bundle<Common>>(job: J) -> J::Output {
     assert!(is_supported(), "{NEEDS}");
-    out_of_line!(V<Common>, job.run::<B::Of<Common>>())
+    out_of_line!(V<Common>, job.run::<<B as Bundle<Common>>::Of>())
 }
 
 /// What a processor needs: kernels for one without would be a third of all code.
@@ -64,19 +64,35 @@ pub fn is_supported() -> bool {
     Common::is_here()
 }
 
+/// A bundle of whichever registers.
+#[cfg(target_arch = "x86_64")]
+trait Widest: Bundle<Avx512> + Bundle<Common> {}
+#[cfg(target_arch = "x86_64")]
+impl<B: Bundle<Avx512> + Bundle<Common>> Widest for B {}
+#[cfg(not(target_arch = "x86_64"))]
+trait Widest: Bundle<Common> {}
+#[cfg(not(target_arch = "x86_64"))]
+impl<B: Bundle<Common>> Widest for B {}
+
 /// How many registers are one number.
-trait Bundle {
-    type Of<S: Register>: Real;
+trait Bundle<S> {
+    type Of: Real;
 }
 
 struct One;
-impl Bundle for One {
-    type Of<S: Register> = V<S>;
+impl<S> Bundle<S> for One
+where
+    V<S>: Real,
+{
+    type Of = V<S>;
 }
 
 struct Two;
-impl Bundle for Two {
-    type Of<S: Register> = Pair<V<S>>;
+impl<S> Bundle<S> for Two
+where
+    Pair<V<S>>: Real,
+{
+    type Of = Pair<V<S>>;
 }
 
 /// Runs the job on plain `f64`: the truth that lanes are measured against.
@@ -88,186 +104,284 @@ pub fn scalar<J: Job>(job: J) -> J::Output {
 #[derive(Clone, Copy)]
 pub struct V<S>(S);
 
-macro_rules! lane_operator {
-    ($op:ident, $method:ident) => {
-        impl<S: Register> $op for V<S> {
+/// Two bundles side by side.
+#[derive(Clone, Copy)]
+pub struct Pair<R>(R, R);
+
+macro_rules! operator {
+    ($S:ty, $op:ident, $method:ident) => {
+        impl $op for V<$S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
                 V(self.0.$method(other.0))
             }
         }
+        impl $op for Pair<V<$S>> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Pair(V(self.0.0.$method(other.0.0)), V(self.1.0.$method(other.1.0)))
+            }
+        }
     };
-}
-lane_operator!(Add, add);
-lane_operator!(Sub, sub);
-lane_operator!(Mul, mul);
-lane_operator!(Div, div);
-
-impl<S: Register> Neg for V<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        V(self.0.neg())
-    }
 }
 
 macro_rules! with_plain_number {
-    ($op:ident, $method:ident) => {
-        impl<S: Register> $op<f64> for V<S> {
+    ($S:ty, $op:ident, $method:ident) => {
+        impl $op<f64> for V<$S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
-                $op::$method(self, Self::splat(other))
+                V(self.0.$method(<$S>::splat(other)))
             }
         }
-        impl<R: Real> $op<f64> for Pair<R> {
+        impl $op<f64> for Pair<V<$S>> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
-                Pair($op::$method(self.0, other), $op::$method(self.1, other))
+                let other = <$S>::splat(other);
+                Pair(V(self.0.0.$method(other)), V(self.1.0.$method(other)))
             }
         }
     };
 }
-with_plain_number!(Add, add);
-with_plain_number!(Sub, sub);
-with_plain_number!(Mul, mul);
 
-impl<S: Register> Real for V<S> {
-    const LANES: usize = S::LANES;
-    const IS_PLAIN: bool = true;
+// Written out for each register, not once for any: what is known when a crate is compiled is inlined there, once.
+macro_rules! numbers {
+    ($S:ty) => {
+        operator!($S, Add, add);
+        operator!($S, Sub, sub);
+        operator!($S, Mul, mul);
+        operator!($S, Div, div);
+        with_plain_number!($S, Add, add);
+        with_plain_number!($S, Sub, sub);
+        with_plain_number!($S, Mul, mul);
 
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        V(S::splat(x))
-    }
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        V(S::load(from))
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        self.0.store(to);
-    }
-    #[inline(always)]
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        V(self.0.mul_add(b.0, c.0))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        V(self.0.sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        V(self.0.abs())
-    }
-
-    /// Cody–Waite reduction to [−π/4, π/4] (three parts of π/2, exact for |x| < 1e5), then the minimax
-    /// polynomials of fdlibm (`k_sin.c`, `k_cos.c`), then the quadrant put right without a branch.
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        // 1.5 · 2⁵²: adding it rounds to the nearest whole number, which then sits in the low bits.
-        const ROUND: f64 = 6_755_399_441_055_744.0;
-        let shifted = self.mul_add(Self::splat(core::f64::consts::FRAC_2_PI), Self::splat(ROUND));
-        let quarter = shifted - ROUND;
-        let x = quarter.mul_add(Self::splat(-1.570_796_326_734_125_6), self);
-        let x = quarter.mul_add(Self::splat(-6.077_100_506_303_966e-11), x);
-        let x = quarter.mul_add(Self::splat(-2.022_266_248_795_950_6e-21), x);
-        let (s, c) = sin_cos_near_zero(x);
-        let (quadrant, [s, c]) = (shifted.0, [s.0, c.0]);
-        let is_odd = quadrant.has_bit(0, 1);
-        let (sin, cos) = (S::select(is_odd, c, s), S::select(is_odd, s, c));
-        let sin = S::select(quadrant.has_bit(0, 2), sin.neg(), sin);
-        (V(sin), V(S::select(quadrant.has_bit(1, 2), cos.neg(), cos)))
-    }
-    /// Reduction to |x| ≤ 0.66 by arctan x = π/4 + arctan (x − 1)/(x + 1) and π/2 − arctan 1/x, then the rational
-    /// approximation of Cephes (Moshier, *Methods and Programs for Mathematical Functions*, 1989, `atan.c`).
-    #[inline(always)]
-    fn atan(self) -> Self {
-        const P: [f64; 5] = [
-            -8.750_608_600_031_904e-1,
-            -1.615_753_718_733_365e1,
-            -7.500_855_792_314_705e1,
-            -1.228_866_684_490_136_2e2,
-            -6.485_021_904_942_025e1,
-        ];
-        const Q: [f64; 6] = [
-            1.0,
-            2.485_846_490_142_306_3e1,
-            1.650_270_098_316_988_5e2,
-            4.328_810_604_912_903e2,
-            4.853_903_996_359_137e2,
-            1.945_506_571_482_614e2,
-        ];
-        // What π/2 has beyond its double.
-        const BEYOND: f64 = 6.123_233_995_736_766e-17;
-        let (zero, one, size) = (Self::splat(0.0), Self::splat(1.0), self.abs());
-        let (middle, far) = (Self::splat(0.66), Self::splat(2.414_213_562_373_095));
-        let pick = |near: Self, between: Self, beyond: Self| {
-            size.select_lt(middle, near, size.select_lt(far, between, beyond))
-        };
-        let x = pick(size, size - one, -one) / pick(one, size + one, size);
-        let start = pick(zero, Self::splat(FRAC_PI_4), Self::splat(FRAC_PI_2));
-        let rest = pick(zero, Self::splat(0.5 * BEYOND), Self::splat(BEYOND));
-        let z = x * x;
-        let horner = |c: &[f64]| {
-            let mut sum = Self::splat(c[0]);
-            for &next in &c[1..] {
-                sum = sum.mul_add(z, Self::splat(next));
-            }
-            sum
-        };
-        let tail = (x * (z * horner(&P) / horner(&Q)) + rest) + x;
-        let found = start + tail;
-        self.select_lt(zero, -found, found)
-    }
-    #[inline(always)]
-    fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
-        V(S::select(self.0.less_than(limit.0), below.0, other.0))
-    }
-    #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
-        // The widest register has eight lanes.
-        let mut lanes = [0.0; 8];
-        self.store(&mut lanes);
-        for x in &mut lanes[..Self::LANES] {
-            *x = f(*x).0;
-        }
-        Self::load(&lanes)
-    }
-    #[inline(always)]
-    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
-        let mut lanes = [0.0; 8];
-        self.store(&mut lanes);
-        let mut rows = [[0.0; 8]; COEFFICIENTS];
-        let mut one = [0.0; COEFFICIENTS];
-        for (lane, &x) in lanes[..Self::LANES].iter().enumerate() {
-            f(x, &mut one[..to.len()]);
-            for (row, &c) in rows.iter_mut().zip(&one[..to.len()]) {
-                row[lane] = c;
+        impl Neg for V<$S> {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                V(self.0.neg())
             }
         }
-        for (to, row) in to.iter_mut().zip(&rows) {
-            *to = Self::load(row);
+
+        impl Real for V<$S> {
+            const LANES: usize = <$S>::LANES;
+            const IS_PLAIN: bool = true;
+
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                V(<$S>::splat(x))
+            }
+            #[inline(always)]
+            fn load(from: &[f64]) -> Self {
+                V(<$S>::load(from))
+            }
+            #[inline(always)]
+            fn store(self, to: &mut [f64]) {
+                self.0.store(to);
+            }
+            #[inline(always)]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                V(self.0.mul_add(b.0, c.0))
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                V(self.0.sqrt())
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                V(self.0.abs())
+            }
+
+            /// Cody–Waite reduction to [−π/4, π/4] (three parts of π/2, exact for |x| < 1e5), then the minimax
+            /// polynomials of fdlibm (`k_sin.c`, `k_cos.c`), then the quadrant put right without a branch.
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                // 1.5 · 2⁵²: adding it rounds to the nearest whole number, which then sits in the low bits.
+                const ROUND: f64 = 6_755_399_441_055_744.0;
+                let shifted = self.mul_add(Self::splat(core::f64::consts::FRAC_2_PI), Self::splat(ROUND));
+                let quarter = shifted - ROUND;
+                let x = quarter.mul_add(Self::splat(-1.570_796_326_734_125_6), self);
+                let x = quarter.mul_add(Self::splat(-6.077_100_506_303_966e-11), x);
+                let x = quarter.mul_add(Self::splat(-2.022_266_248_795_950_6e-21), x);
+                let (s, c) = sin_cos_near_zero(x);
+                let (quadrant, [s, c]) = (shifted.0, [s.0, c.0]);
+                let is_odd = quadrant.has_bit(0, 1);
+                let (sin, cos) = (<$S>::select(is_odd, c, s), <$S>::select(is_odd, s, c));
+                let sin = <$S>::select(quadrant.has_bit(0, 2), sin.neg(), sin);
+                (V(sin), V(<$S>::select(quadrant.has_bit(1, 2), cos.neg(), cos)))
+            }
+            /// Reduction to |x| ≤ 0.66 by arctan x = π/4 + arctan (x − 1)/(x + 1) and π/2 − arctan 1/x, then the rational
+            /// approximation of Cephes (Moshier, *Methods and Programs for Mathematical Functions*, 1989, `atan.c`).
+            #[inline(always)]
+            fn atan(self) -> Self {
+                const P: [f64; 5] = [
+                    -8.750_608_600_031_904e-1,
+                    -1.615_753_718_733_365e1,
+                    -7.500_855_792_314_705e1,
+                    -1.228_866_684_490_136_2e2,
+                    -6.485_021_904_942_025e1,
+                ];
+                const Q: [f64; 6] = [
+                    1.0,
+                    2.485_846_490_142_306_3e1,
+                    1.650_270_098_316_988_5e2,
+                    4.328_810_604_912_903e2,
+                    4.853_903_996_359_137e2,
+                    1.945_506_571_482_614e2,
+                ];
+                // What π/2 has beyond its double.
+                const BEYOND: f64 = 6.123_233_995_736_766e-17;
+                let (zero, one, size) = (Self::splat(0.0), Self::splat(1.0), self.abs());
+                let (middle, far) = (Self::splat(0.66), Self::splat(2.414_213_562_373_095));
+                let pick = |near: Self, between: Self, beyond: Self| {
+                    size.select_lt(middle, near, size.select_lt(far, between, beyond))
+                };
+                let x = pick(size, size - one, -one) / pick(one, size + one, size);
+                let start = pick(zero, Self::splat(FRAC_PI_4), Self::splat(FRAC_PI_2));
+                let rest = pick(zero, Self::splat(0.5 * BEYOND), Self::splat(BEYOND));
+                let z = x * x;
+                let horner = |c: &[f64]| {
+                    let mut sum = Self::splat(c[0]);
+                    for &next in &c[1..] {
+                        sum = sum.mul_add(z, Self::splat(next));
+                    }
+                    sum
+                };
+                let tail = (x * (z * horner(&P) / horner(&Q)) + rest) + x;
+                let found = start + tail;
+                self.select_lt(zero, -found, found)
+            }
+            #[inline(always)]
+            fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
+                V(<$S>::select(self.0.less_than(limit.0), below.0, other.0))
+            }
+            #[inline(always)]
+            fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
+                // The widest register has eight lanes.
+                let mut lanes = [0.0; 8];
+                self.store(&mut lanes);
+                for x in &mut lanes[..Self::LANES] {
+                    *x = f(*x).0;
+                }
+                Self::load(&lanes)
+            }
+            #[inline(always)]
+            fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+                let mut lanes = [0.0; 8];
+                self.store(&mut lanes);
+                let mut rows = [[0.0; 8]; COEFFICIENTS];
+                let mut one = [0.0; COEFFICIENTS];
+                for (lane, &x) in lanes[..Self::LANES].iter().enumerate() {
+                    f(x, &mut one[..to.len()]);
+                    for (row, &c) in rows.iter_mut().zip(&one[..to.len()]) {
+                        row[lane] = c;
+                    }
+                }
+                for (to, row) in to.iter_mut().zip(&rows) {
+                    *to = Self::load(row);
+                }
+            }
+            #[inline(always)]
+            fn max_lane(self) -> f64 {
+                let mut lanes = [0.0; 8];
+                self.store(&mut lanes);
+                lanes[..Self::LANES].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            }
+            #[inline(always)]
+            fn any_below(self, limit: Self) -> bool {
+                <$S>::any(self.0.less_than(limit.0))
+            }
+            #[inline(always)]
+            fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+                <$S>::call(f)
+            }
         }
-    }
-    #[inline(always)]
-    fn max_lane(self) -> f64 {
-        let mut lanes = [0.0; 8];
-        self.store(&mut lanes);
-        lanes[..Self::LANES].iter().copied().fold(f64::NEG_INFINITY, f64::max)
-    }
-    #[inline(always)]
-    fn any_below(self, limit: Self) -> bool {
-        S::any(self.0.less_than(limit.0))
-    }
-    #[inline(always)]
-    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
-        S::call(f)
-    }
+
+        impl Neg for Pair<V<$S>> {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Pair(-self.0, -self.1)
+            }
+        }
+
+        impl Real for Pair<V<$S>> {
+            const LANES: usize = 2 * <V<$S>>::LANES;
+            const IS_PLAIN: bool = <V<$S>>::IS_PLAIN;
+
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                Pair(<V<$S>>::splat(x), <V<$S>>::splat(x))
+            }
+            #[inline(always)]
+            fn load(from: &[f64]) -> Self {
+                Pair(<V<$S>>::load(from), <V<$S>>::load(&from[<V<$S>>::LANES..]))
+            }
+            #[inline(always)]
+            fn store(self, to: &mut [f64]) {
+                self.0.store(to);
+                self.1.store(&mut to[<V<$S>>::LANES..]);
+            }
+            #[inline(always)]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                Pair(self.0.mul_add(b.0, c.0), self.1.mul_add(b.1, c.1))
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Pair(self.0.sqrt(), self.1.sqrt())
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Pair(self.0.abs(), self.1.abs())
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let ((s0, c0), (s1, c1)) = (self.0.sin_cos(), self.1.sin_cos());
+                (Pair(s0, s1), Pair(c0, c1))
+            }
+            #[inline(always)]
+            fn atan(self) -> Self {
+                Pair(self.0.atan(), self.1.atan())
+            }
+            #[inline(always)]
+            fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
+                Pair(self.0.select_lt(limit.0, below.0, other.0), self.1.select_lt(limit.1, below.1, other.1))
+            }
+            #[inline(always)]
+            fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
+                Pair(self.0.map(&f), self.1.map(&f))
+            }
+            #[inline(always)]
+            fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
+                let (mut first, mut second) =
+                    ([<V<$S>>::splat(0.0); COEFFICIENTS], [<V<$S>>::splat(0.0); COEFFICIENTS]);
+                self.0.taylor(f, &mut first[..to.len()]);
+                self.1.taylor(f, &mut second[..to.len()]);
+                for (to, (a, b)) in to.iter_mut().zip(first.into_iter().zip(second)) {
+                    *to = Pair(a, b);
+                }
+            }
+            #[inline(always)]
+            fn max_lane(self) -> f64 {
+                self.0.max_lane().max(self.1.max_lane())
+            }
+            #[inline(always)]
+            fn any_below(self, limit: Self) -> bool {
+                self.0.any_below(limit.0) || self.1.any_below(limit.1)
+            }
+            #[inline(always)]
+            fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
+                <V<$S>>::out_of_line(f)
+            }
+        }
+    };
 }
-
+#[cfg(target_arch = "x86_64")]
+numbers!(Avx512);
+numbers!(Common);
 /// sin and cos on [−π/4, π/4]; coefficients of fdlibm's `k_sin.c` and `k_cos.c`.
 #[inline(always)]
 fn sin_cos_near_zero<R: Real>(x: R) -> (R, R) {
@@ -298,103 +412,6 @@ fn sin_cos_near_zero<R: Real>(x: R) -> (R, R) {
     let sin = (x * z).mul_add(horner(&SIN), x);
     let cos = (z * z).mul_add(horner(&COS), z.mul_add(R::splat(-0.5), R::splat(1.0)));
     (sin, cos)
-}
-
-/// Two bundles side by side.
-#[derive(Clone, Copy)]
-pub struct Pair<R>(R, R);
-
-macro_rules! pair_operator {
-    ($op:ident, $method:ident) => {
-        impl<R: Real> $op for Pair<R> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Pair($op::$method(self.0, other.0), $op::$method(self.1, other.1))
-            }
-        }
-    };
-}
-pair_operator!(Add, add);
-pair_operator!(Sub, sub);
-pair_operator!(Mul, mul);
-pair_operator!(Div, div);
-
-impl<R: Real> Neg for Pair<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Pair(-self.0, -self.1)
-    }
-}
-
-impl<R: Real> Real for Pair<R> {
-    const LANES: usize = 2 * R::LANES;
-    const IS_PLAIN: bool = R::IS_PLAIN;
-
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Pair(R::splat(x), R::splat(x))
-    }
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        Pair(R::load(from), R::load(&from[R::LANES..]))
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        self.0.store(to);
-        self.1.store(&mut to[R::LANES..]);
-    }
-    #[inline(always)]
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        Pair(self.0.mul_add(b.0, c.0), self.1.mul_add(b.1, c.1))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Pair(self.0.sqrt(), self.1.sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Pair(self.0.abs(), self.1.abs())
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        let ((s0, c0), (s1, c1)) = (self.0.sin_cos(), self.1.sin_cos());
-        (Pair(s0, s1), Pair(c0, c1))
-    }
-    #[inline(always)]
-    fn atan(self) -> Self {
-        Pair(self.0.atan(), self.1.atan())
-    }
-    #[inline(always)]
-    fn select_lt(self, limit: Self, below: Self, other: Self) -> Self {
-        Pair(self.0.select_lt(limit.0, below.0, other.0), self.1.select_lt(limit.1, below.1, other.1))
-    }
-    #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> (f64, f64)) -> Self {
-        Pair(self.0.map(&f), self.1.map(&f))
-    }
-    #[inline(always)]
-    fn taylor(self, f: &impl Fn(f64, &mut [f64]), to: &mut [Self]) {
-        let (mut first, mut second) = ([R::splat(0.0); COEFFICIENTS], [R::splat(0.0); COEFFICIENTS]);
-        self.0.taylor(f, &mut first[..to.len()]);
-        self.1.taylor(f, &mut second[..to.len()]);
-        for (to, (a, b)) in to.iter_mut().zip(first.into_iter().zip(second)) {
-            *to = Pair(a, b);
-        }
-    }
-    #[inline(always)]
-    fn max_lane(self) -> f64 {
-        self.0.max_lane().max(self.1.max_lane())
-    }
-    #[inline(always)]
-    fn any_below(self, limit: Self) -> bool {
-        self.0.any_below(limit.0) || self.1.any_below(limit.1)
-    }
-    #[inline(always)]
-    fn out_of_line<T>(f: impl FnOnce() -> T) -> T {
-        R::out_of_line(f)
-    }
 }
 
 #[cfg(test)]
