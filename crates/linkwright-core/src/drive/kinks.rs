@@ -28,7 +28,7 @@ use std::f64::consts::TAU;
 
 /// A quantity whose zeros over the revolution are kinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Watch {
+pub enum Watch {
     /// The slide turns back.
     SlideTurns(usize),
     /// The link turns back.
@@ -51,7 +51,7 @@ pub(super) enum Watch {
 
 /// An axis of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Axis {
+pub enum Axis {
     X,
     Y,
 }
@@ -104,7 +104,7 @@ struct Dip {
 const SHIFT: f64 = 0.37;
 
 /// A crank angle this near to a zero \[rad\] is on the kink.
-pub(super) const ON_KINK: f64 = 1e-9;
+pub const ON_KINK: f64 = 1e-9;
 
 /// Zeros closer than this \[rad\] to the end of the revolution count as its start: rounding must not decide.
 const WRAP: f64 = 1e-7;
@@ -137,7 +137,7 @@ impl Plan {
     }
 
     /// The same as often as loads ask for them: each with what moves it.
-    pub(super) fn all_watches(&self) -> Vec<Watch> {
+    pub fn all_watches(&self) -> Vec<Watch> {
         let mut watches = Vec::new();
         let switches = self.still_switches().into_iter();
         watches.extend(switches.map(|(load, at)| Watch::Switch(load, at)));
@@ -211,7 +211,7 @@ impl Plan {
     }
 
     /// Tables over the crank angle, with the revolutions after which each repeats.
-    pub(super) fn angle_tables(&self) -> impl Iterator<Item = (&Table, u32)> {
+    pub fn angle_tables(&self) -> impl Iterator<Item = (&Table, u32)> {
         self.loads.iter().filter_map(|load| match *load {
             Load::TorqueAngle { table, turns } | Load::ForceAngle { table, turns, .. } => {
                 Some((&self.tables[table], turns))
@@ -250,7 +250,7 @@ fn stretch_turns<R: Real>(from: usize, to: usize, m: &Motion<R>) -> (R, R) {
 impl<R: Real> Machine<'_, R> {
     /// The watched quantity and its derivative by φ.
     #[inline(always)]
-    pub(super) fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
+    pub fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
         match watch {
             Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
             Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
@@ -562,7 +562,7 @@ impl<R: Real> Machine<'_, R> {
 
     /// Positive where a zero of the watched quantity is a kink.
     #[inline(always)]
-    pub(super) fn room(&self, watch: Watch, m: &Motion<R>) -> R {
+    pub fn room(&self, watch: Watch, m: &Motion<R>) -> R {
         match watch {
             // Where the spring stays long its extremes are smooth.
             Watch::Anchor(from, to, free_length) => self.q[free_length] * SHORT - stretch(m, from, to).0,

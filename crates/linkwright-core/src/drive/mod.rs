@@ -10,7 +10,6 @@
 //! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
-//! | `moving_kinks` | how those places move with the numbers of the machine |
 //! | `steep` | where along a motion a formula is steep |
 //! | `pulses` | ends of steps there |
 //! | [`layout`] | what the lanes of a revolution hold: machines or steps |
@@ -24,10 +23,7 @@
 //! | [`levels`] | whether a machine may have other periodic motions than one that is known |
 //! | [`march`] | all motions over one revolution, from the fastest down: which repeat, and whether any does |
 //! | [`steady`] | steady motion of one machine to a wanted accuracy |
-//! | [`gradient`] | derivatives of steady motion by the numbers of the machine |
-//! | `layers` | steps in which derivatives are as exact as the motion |
 //! | [`transient`] | motion in time from given angle and speed, with its events |
-//! | [`along`] | derivatives of motions and kinks at given angles |
 //! | `rows` | parameters and results of the rows of a batch |
 //! | `row_mesh` | the mesh of each row of a batch, with ends of steps at kinks of the drive |
 //! | `rough` | a rough motion of each row to start from |
@@ -35,7 +31,6 @@
 //! | [`batch`] | steady motions of many machines: lanes and threads |
 //! | [`motions`] | motions of many machines over the crank angle |
 
-pub mod along;
 pub mod batch;
 mod beside;
 pub mod between;
@@ -46,10 +41,8 @@ pub mod equation;
 pub mod events;
 pub mod extremes;
 pub mod force_elements;
-pub mod gradient;
 pub mod kinks;
 pub mod law;
-mod layers;
 pub mod layout;
 pub mod levels;
 pub mod loads;
@@ -59,9 +52,7 @@ pub mod mesh;
 pub mod motions;
 pub mod motor;
 pub mod motor_extremes;
-mod moving_kinks;
 mod nested;
-mod peaks;
 mod pulses;
 pub mod reading;
 pub mod reduce;

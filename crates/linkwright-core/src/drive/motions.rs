@@ -241,7 +241,7 @@ fn is_without<R: Real>(flaw: R) -> bool {
 
 /// Writes all channels at one angle (or one a lane) by `write`, a number to each list.
 #[inline(always)]
-pub(super) fn store<R: Real>(
+pub fn store<R: Real>(
     m: &Motion<R>,
     channels: &[Channel],
     at: usize,

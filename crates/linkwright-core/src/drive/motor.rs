@@ -135,7 +135,7 @@ impl Drive {
 
     /// The same of machines in lanes, in any order; not a number, or not above zero, in a lane without the kink.
     #[inline(always)]
-    pub(super) fn kinks_of_lanes<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
+    pub fn kinks_of_lanes<R: Real>(&self, tables: &[Table], q: &[R]) -> Vec<R> {
         let mut kinks = self.motor_kinks(tables, q);
         kinks.extend(self.load_kinks(tables, q));
         kinks

@@ -283,7 +283,7 @@ impl<R: Real> Step<R> {
 
     /// A step whose stages are not known, as the machine there is not.
     #[inline(always)]
-    pub(super) fn unsolved(phi: R, h: R, u: R) -> Self {
+    pub fn unsolved(phi: R, h: R, u: R) -> Self {
         let zero = R::splat(0.0);
         let row = Row { inverse: zero, drift: zero, load: zero, viscous: zero };
         Self::at_rest(phi, h, [row; S], u)

@@ -18,14 +18,12 @@
 //! | [`stiff`] | the same by the implicit one |
 //! | `reduced` | inertia and loads as polynomials over the angle |
 //! | `unseen` | pulses of formulas between the stages of a step |
-//! | [`variation`] | derivatives of a motion by the numbers of the machine |
 
 pub mod attempt;
 pub mod equation;
 mod reduced;
 pub mod stiff;
 mod unseen;
-pub mod variation;
 
 use self::attempt::{Attempts, ExplicitAttempt, Piece, aside_of, state};
 pub use self::equation::Turning;

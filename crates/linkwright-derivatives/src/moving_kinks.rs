@@ -3,13 +3,13 @@
 //! A kink at the zero of a watched quantity w moves by φ′ = −w_p/w′; one whose angle is a number, as the joint of a motion
 //! law or the knot of a table over the crank angle, by the derivative of that number.
 
-use crate::drive::equation::Machine;
-use crate::drive::kinks::{ON_KINK, Watch};
-use crate::kernel::dual::Dual;
-use crate::kernel::plane::Angle;
-use crate::kernel::real::Real;
-use crate::linkage::mechanism::Element;
-use crate::linkage::motion::Motion;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::kinks::{ON_KINK, Watch};
+use linkwright_core::linkage::mechanism::Element;
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::dual::Dual;
+use linkwright_kernel::plane::Angle;
+use linkwright_kernel::real::Real;
 use std::f64::consts::TAU;
 
 /// A zero is simple where the slope is more than this share \[rad\] of its own change with the angle, which is
@@ -37,20 +37,23 @@ impl<R> Joint<R> {
     }
 }
 
-impl<R: Real> Machine<'_, Dual<R>> {
+/// A machine whose kinks move.
+pub(crate) struct MovingKinks<'a, R>(pub(crate) Machine<'a, Dual<R>>);
+
+impl<R: Real> MovingKinks<'_, R> {
     /// Crank angles with their derivatives: one on a kink moves with it, others stay. Of several kinks at one angle the joint of
     /// a motion law counts before others, and the knot of a table, where the motion only bends, behind them: as small as
     /// changes are, the motion does not depend on the place of a bend. It is no number where jumps at one angle move apart.
     #[inline(always)]
-    pub fn moving(&self, angles: &[f64], m: &mut Motion<Dual<R>>) -> Vec<Dual<R>> {
-        let (watches, joints, knots) = (self.plan.all_watches(), self.joints(), self.angle_knots());
+    pub(crate) fn moving(&self, angles: &[f64], m: &mut Motion<Dual<R>>) -> Vec<Dual<R>> {
+        let (watches, joints, knots) = (self.0.plan.all_watches(), self.joints(), self.angle_knots());
         let mut moving = Vec::with_capacity(angles.len());
         for &angle in angles {
             let zeros = self.zeros_at(&watches, angle, m);
-            let of_slides = zeros.iter().filter(|(watch, _)| watch.is_knot()).map(|(_, d)| *d);
+            let of_slides = zeros.iter().filter(|(watch, _)| is_knot(*watch)).map(|(_, d)| *d);
             let knot =
                 farthest(knots.iter().filter(|knot| knot.is_at(angle)).map(|knot| knot.d).chain(of_slides));
-            let zero = zeros.iter().rfind(|(watch, _)| !watch.is_knot()).map(|(_, d)| *d);
+            let zero = zeros.iter().rfind(|(watch, _)| !is_knot(*watch)).map(|(_, d)| *d);
             let d = joint_at(&joints, angle).or(zero).or(knot).unwrap_or(R::splat(0.0));
             moving.push(Dual { value: R::splat(angle), d });
         }
@@ -81,11 +84,11 @@ impl<R: Real> Machine<'_, Dual<R>> {
     #[inline(always)]
     fn watched_at(&self, watches: &[Watch], angle: f64, m: &mut Motion<Dual<R>>) -> Vec<[Dual<R>; 3]> {
         let phi = Dual::splat(angle);
-        self.plan.mechanism.place::<Dual<R>, 2>(self.q, Angle::new(phi), m);
+        self.0.plan.mechanism.place::<Dual<R>, 2>(self.0.q, Angle::new(phi), m);
         let mut values = Vec::with_capacity(watches.len());
         for &watch in watches {
-            let (value, slope) = self.watched(watch, phi, m);
-            values.push([value, slope, self.room(watch, m)]);
+            let (value, slope) = self.0.watched(watch, phi, m);
+            values.push([value, slope, self.0.room(watch, m)]);
         }
         values
     }
@@ -94,10 +97,10 @@ impl<R: Real> Machine<'_, Dual<R>> {
     #[inline(always)]
     fn joints(&self) -> Vec<Joint<R>> {
         let mut joints = Vec::new();
-        for element in &self.plan.mechanism.elements {
+        for element in &self.0.plan.mechanism.elements {
             let Element::Programme(programme) = element else { continue };
             for (nth, jumps) in programme.law.jumps().into_iter().enumerate() {
-                let joint = self.q[programme.phase] + programme.law.start(nth, self.q);
+                let joint = self.0.q[programme.phase] + programme.law.start(nth, self.0.q);
                 joints.push(Joint { angle: joint.value.max_lane(), period: TAU, d: joint.d, jumps });
             }
         }
@@ -108,9 +111,9 @@ impl<R: Real> Machine<'_, Dual<R>> {
     #[inline(always)]
     fn angle_knots(&self) -> Vec<Joint<R>> {
         let mut knots = Vec::new();
-        for (table, turns) in self.plan.angle_tables() {
+        for (table, turns) in self.0.plan.angle_tables() {
             for knot in table.moving_knots() {
-                let (d, period) = (knot.number(self.q).d, TAU * f64::from(turns));
+                let (d, period) = (knot.number(self.0.q).d, TAU * f64::from(turns));
                 knots.push(Joint { angle: knot.x, period, d, jumps: false });
             }
         }
@@ -139,9 +142,7 @@ fn farthest<R: Real>(moves: impl Iterator<Item = R>) -> Option<R> {
     )
 }
 
-impl Watch {
-    /// Whether it is a knot of a table, where the motion bends and does not jump.
-    fn is_knot(self) -> bool {
-        matches!(self, Watch::SlideAt(..) | Watch::StretchAt(..))
-    }
+/// Whether a watched quantity is a knot of a table, where the motion bends and does not jump.
+fn is_knot(watch: Watch) -> bool {
+    matches!(watch, Watch::SlideAt(..) | Watch::StretchAt(..))
 }

@@ -5,30 +5,31 @@
 //! ```
 //!
 //! It is linear. The rates are the equation of motion in dual numbers, a direction in every lane, at the stages of Radau IIA
-//! ([`crate::kernel::radau`]) in the steps of the motion; the stages of a step are one system of equations, factored once for all
+//! ([`linkwright_kernel::radau`]) in the steps of the motion; the stages of a step are one system of equations, factored once for all
 //! directions.
 //!
 //! Where the acceleration jumps, at g(φ, ω, p) = 0, the motion passes by δt = −δg/g˙ later, and the acceleration before lasts
 //! longer by that: δω behind is δω + (ε before − ε behind) δt (Aizerman, Gantmacher, *PMM* 22, 1958). Such places are kinks over
 //! the angle, speeds at which the drive has a kink, standstill, and kinks of laws, at which the steps are divided.
 
-use crate::drive::along::{Directions, put};
-use crate::drive::equation::Machine;
-use crate::drive::events::{Event, Events};
-use crate::drive::law::SpeedKink;
-use crate::drive::mesh::crossing;
-use crate::drive::structure::Plan;
-use crate::drive::transient::equation::Y;
-use crate::kernel::call::poll;
-use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_common_lanes};
-use crate::kernel::matrix::LuFactors;
-use crate::kernel::out_of_line;
-use crate::kernel::plane::Angle;
-use crate::kernel::radau::{A, B, C, S};
-use crate::kernel::real::{LANES_MAX, Real};
-use crate::kernel::rk::rise;
-use crate::linkage::motion::Motion;
+use crate::along::{Directions, put};
+use crate::moving_kinks::MovingKinks;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::events::{Event, Events};
+use linkwright_core::drive::law::SpeedKink;
+use linkwright_core::drive::mesh::crossing;
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::drive::transient::equation::Y;
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::call::poll;
+use linkwright_kernel::dual::Dual;
+use linkwright_kernel::lanes::{Job, in_common_lanes};
+use linkwright_kernel::matrix::LuFactors;
+use linkwright_kernel::out_of_line;
+use linkwright_kernel::plane::Angle;
+use linkwright_kernel::radau::{A, B, C, S};
+use linkwright_kernel::real::{LANES_MAX, Real};
+use linkwright_kernel::rk::rise;
 
 /// Share of a step by which what lies at its end is read inside it, on its side of a kink there, and carried on to the end.
 const INSIDE: f64 = 1e-6;
@@ -58,7 +59,9 @@ const LOOKS: usize = 8;
 pub struct SolvedMotion<'a> {
     /// Times \[s\], angles \[rad\] and speeds \[rad/s\], counter-clockwise, (steps + 1).
     pub t: &'a [f64],
+    /// Crank angle there \[rad\].
     pub phi: &'a [f64],
+    /// Speed there \[rad/s\].
     pub omega: &'a [f64],
     /// Factors of the polynomials of angle and speed, (steps, 2, 7).
     pub between: &'a [f64],
@@ -90,6 +93,7 @@ pub struct Variation<'a> {
     pub of: Directions<'a>,
     /// Derivatives of angle and speed at the start, (2, directions).
     pub start: &'a [f64],
+    /// The motion.
     pub motion: SolvedMotion<'a>,
     /// Instants, increasing \[s\].
     pub at: &'a [f64],
@@ -336,7 +340,9 @@ impl<'a, R: Real> Rates<'a, R> {
                     let [phi, omega] = lanes.state(y);
                     let machine = Machine::new(plan, &lanes.q);
                     match event {
-                        EventPlace::Angle(at) => phi.d - machine.moving(&[at], &mut lanes.m)[0].d,
+                        EventPlace::Angle(at) => {
+                            phi.d - MovingKinks(machine).moving(&[at], &mut lanes.m)[0].d
+                        }
                         EventPlace::Speed(nth) => {
                             omega.d - plan.drive.speed_kinks(&plan.tables, &lanes.q)[nth].d
                         }

@@ -2,15 +2,16 @@
 //!
 //! The kernels themselves in dual numbers, with a direction of the parameters in every lane.
 
-use crate::drive::equation::Machine;
-use crate::drive::motions::store;
-use crate::drive::structure::Plan;
-use crate::kernel::call::poll;
-use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_common_lanes};
-use crate::kernel::plane::Angle;
-use crate::kernel::real::{LANES_MAX, Real};
-use crate::linkage::motion::{Channel, Motion};
+use crate::moving_kinks::MovingKinks;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::motions::store;
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::{Channel, Motion};
+use linkwright_kernel::call::poll;
+use linkwright_kernel::dual::Dual;
+use linkwright_kernel::lanes::{Job, in_common_lanes};
+use linkwright_kernel::plane::Angle;
+use linkwright_kernel::real::{LANES_MAX, Real};
 
 /// The numbers of a machine, and directions of them.
 #[derive(Clone, Copy)]
@@ -27,7 +28,7 @@ pub struct Directions<'a> {
 
 impl Directions<'_> {
     /// Those that move a number of the machine; along the others nothing changes.
-    pub(super) fn moving(&self) -> Vec<usize> {
+    pub(crate) fn moving(&self) -> Vec<usize> {
         let moves = |&way: &usize| self.values.iter().skip(way).step_by(self.n).any(|&by| by != 0.0);
         (0..self.n).filter(moves).collect()
     }
@@ -35,7 +36,7 @@ impl Directions<'_> {
     /// The numbers with some of the directions, one a lane; those beyond the last, and of directions that are none of the
     /// parameters, are constant.
     #[inline(always)]
-    pub(super) fn numbers<R: Real>(&self, some: &[usize]) -> Vec<Dual<R>> {
+    pub(crate) fn numbers<R: Real>(&self, some: &[usize]) -> Vec<Dual<R>> {
         let mut numbers = Vec::with_capacity(self.q.len());
         for (i, &value) in self.q.iter().enumerate() {
             let (row, mut lanes) = (&self.values[i * self.n..][..self.n], [0.0; LANES_MAX]);
@@ -50,7 +51,7 @@ impl Directions<'_> {
 
 /// Writes lanes to the places of some directions in a row.
 #[inline(always)]
-pub(super) fn put<R: Real>(x: R, some: &[usize], row: &mut [f64]) {
+pub(crate) fn put<R: Real>(x: R, some: &[usize], row: &mut [f64]) {
     let mut lanes = [0.0; LANES_MAX];
     x.store(&mut lanes);
     for (&lane, &way) in lanes.iter().zip(some) {
@@ -148,7 +149,9 @@ impl Job for KinksAlong<'_> {
         for some in of.moving().chunks(R::LANES) {
             let q = of.numbers::<R>(some);
             let mut m = Motion::new(&of.plan.mechanism, &q);
-            for (i, kink) in Machine::new(of.plan, &q).moving(phi, &mut m).into_iter().enumerate() {
+            for (i, kink) in
+                MovingKinks(Machine::new(of.plan, &q)).moving(phi, &mut m).into_iter().enumerate()
+            {
                 put(kink.d, some, &mut out[i * of.n..][..of.n]);
             }
         }

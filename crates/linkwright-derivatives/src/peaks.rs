@@ -5,19 +5,19 @@
 //! its start by dφ, the speed there by ε dφ. What rounding takes from that ε dies out along the step, as it does of the
 //! speed, and ε at its end has the slope, with no differences.
 
-use crate::drive::equation::Machine;
-use crate::drive::extremes::Extreme;
-use crate::drive::law::LawGeometry;
-use crate::drive::reading::Mark;
-use crate::drive::steady::Steady;
-use crate::drive::step::{Step, stages_of_part};
-use crate::drive::structure::Plan;
-use crate::kernel::dual::Dual;
-use crate::kernel::radau::S;
-use crate::linkage::motion::Motion;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::extremes::Extreme;
+use linkwright_core::drive::law::LawGeometry;
+use linkwright_core::drive::reading::Mark;
+use linkwright_core::drive::steady::Steady;
+use linkwright_core::drive::step::{Step, stages_of_part};
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::dual::Dual;
+use linkwright_kernel::radau::S;
 
 /// An angle this near to the end of a step \[rad\] is that end.
-pub(super) const AT_END: f64 = 1e-12;
+pub(crate) const AT_END: f64 = 1e-12;
 
 /// Share of a step within which a peak at its end is a corner.
 const AT_CORNER: f64 = 4e-6;
@@ -27,7 +27,7 @@ const JUST_BEHIND: f64 = 1e-8;
 
 /// Two sides of an end of a step that differ by more than this share of the acceleration have a jump between them: the two are
 /// read from one solution, to its rounding.
-pub(super) const SIDES: f64 = 1e-7;
+pub(crate) const SIDES: f64 = 1e-7;
 
 /// Share of a step by which the first secant is long. So many secants lead to where the slope of the acceleration is zero,
 /// unless that lies farther off than so many times the share.
@@ -37,7 +37,7 @@ const FAR: f64 = 4.0;
 
 /// Where an extreme of the acceleration is.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Peak {
+pub(crate) enum Peak {
     /// At an end of a step, with its number and the acceleration there.
     Corner(usize, f64),
     /// Within a step, at a crank angle \[rad\].
@@ -54,7 +54,7 @@ struct MarkedMotion<'a> {
 type StepOfLaws = (Step<Dual<f64>>, Vec<LawGeometry<Dual<f64>>>);
 
 /// Where the smallest and the largest acceleration are.
-pub(super) fn peaks_of_acceleration(
+pub(crate) fn peaks_of_acceleration(
     plan: &Plan,
     q: &[f64],
     steady: &Steady,
@@ -76,7 +76,7 @@ pub(super) fn peaks_of_acceleration(
 }
 
 /// Number of the steps before the one that a crank angle lies in.
-pub(super) fn steps_before(marks: &[Mark], phi: f64) -> usize {
+pub(crate) fn steps_before(marks: &[Mark], phi: f64) -> usize {
     marks.partition_point(|mark| mark.phi < phi - AT_END).max(1) - 1
 }
 

@@ -1,7 +1,7 @@
 //! Derivatives of steady motion by the numbers of the machine.
 //!
 //! At a solution of F(x, p) = 0 one step of Newton's method in dual numbers leaves x where it is and gives
-//! dx/dp = −F_x⁻¹ F_p: the solver of [`crate::drive::cycle`] itself, run once more on the mesh and from the
+//! dx/dp = −F_x⁻¹ F_p: the solver of [`linkwright_core::drive::cycle`] itself, run once more on the mesh and from the
 //! solution that it found, with a direction of the parameters in every lane. There is no second description
 //! of any formula, and the iteration is not differentiated.
 //!
@@ -9,28 +9,29 @@
 //! that a torque may jump there. An extreme stays an extreme: its derivative is that of the curve at its
 //! angle (envelope theorem), or along the kink that it sits on.
 
-use crate::drive::along::{Directions, put};
-use crate::drive::cycle::Turn;
-use crate::drive::equation::Machine;
-use crate::drive::events::{Events, Passage};
-use crate::drive::extremes::Extreme;
-use crate::drive::kinks::kinks;
-use crate::drive::law::LawGeometry;
-use crate::drive::layers::resolved;
-use crate::drive::layout::{Layout, bundle, unbundle};
-use crate::drive::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
-use crate::drive::reading::{Mark, State};
-use crate::drive::steady::Steady;
-use crate::drive::step::{Step, stages_of_part};
-use crate::drive::structure::Plan;
-use crate::kernel::call::poll;
-use crate::kernel::dual::Dual;
-use crate::kernel::lanes::{Job, in_common_lanes};
-use crate::kernel::matrix::LuFactors;
-use crate::kernel::out_of_line;
-use crate::kernel::radau::S;
-use crate::kernel::real::{LANES_MAX, Real};
-use crate::linkage::motion::Motion;
+use crate::along::{Directions, put};
+use crate::layers::resolved;
+use crate::moving_kinks::MovingKinks;
+use crate::peaks::{AT_END, Peak, SIDES, peaks_of_acceleration, steps_before};
+use linkwright_core::drive::cycle::Turn;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::events::{Events, Passage};
+use linkwright_core::drive::extremes::Extreme;
+use linkwright_core::drive::kinks::kinks;
+use linkwright_core::drive::law::LawGeometry;
+use linkwright_core::drive::layout::{Layout, bundle, unbundle};
+use linkwright_core::drive::reading::{Mark, State};
+use linkwright_core::drive::steady::Steady;
+use linkwright_core::drive::step::{Step, stages_of_part};
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::call::poll;
+use linkwright_kernel::dual::Dual;
+use linkwright_kernel::lanes::{Job, in_common_lanes};
+use linkwright_kernel::matrix::LuFactors;
+use linkwright_kernel::out_of_line;
+use linkwright_kernel::radau::S;
+use linkwright_kernel::real::{LANES_MAX, Real};
 
 /// Numbers of the revolution that are differentiated: the four extremes, the period, the multiplier, the works of
 /// motor, drive and loads, mean and root mean square of the motor's torque.
@@ -261,7 +262,8 @@ impl<'a, R: Real> DualRevolution<'a, R> {
         out_of_line!(R, {
             let (plan, steady) = (of.plan, of.steady);
             let machine = Machine::new(plan, q).keeping_sides_of_bends().keeping_branch(plan.may_jump());
-            let mut moved = out_of_line!(R, machine.moving(&solved.on_kinks, m)).into_iter().peekable();
+            let mut moved =
+                out_of_line!(R, MovingKinks(machine).moving(&solved.on_kinks, m)).into_iter().peekable();
             let ends = solved.marks.iter().map(|mark| mark.phi).chain([plan.cycle()]);
             let mut edges = Vec::with_capacity(solved.marks.len() + 1);
             for phi in ends {

@@ -1,14 +1,14 @@
 //! The machine reduced to its crank, and its motion: calls and results.
 
-use linkwright_core::drive::along;
 use linkwright_core::drive::batch::{self, Outcome, QUANTITIES, Rows};
-use linkwright_core::drive::gradient::{CURVES, CurvesAlong, Gradient, NUMBERS, SolutionAlong};
 use linkwright_core::drive::kinks as core_kinks;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::reduce::{self, Reduction};
 use linkwright_core::drive::steady::{Failure, Steady, steady_with_others};
-use linkwright_core::drive::transient::variation::{SolvedMotion, Variation};
 use linkwright_core::drive::transient::{End, Start, Turning, follow};
+use linkwright_derivatives::along;
+use linkwright_derivatives::gradient::{CURVES, CurvesAlong, Gradient, NUMBERS, SolutionAlong};
+use linkwright_derivatives::variation::{SolvedMotion, Variation};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;

@@ -1,10 +1,10 @@
 //! Motions of points, links and slides, and what has to be known of a mechanism beforehand: calls and results.
 
-use linkwright_core::drive::along::{Directions, motions_along as core_motions_along};
 use linkwright_core::drive::batch::{self, Rows};
 use linkwright_core::drive::motions as over_angles;
 use linkwright_core::linkage::motion;
 use linkwright_core::linkage::trace;
+use linkwright_derivatives::along::{Directions, motions_along as core_motions_along};
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods,
 };

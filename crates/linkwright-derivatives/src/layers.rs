@@ -5,13 +5,13 @@
 //! change so little there that its steps need not be short. Those in which the derivatives change fast are cut, into
 //! parts that double from the start on.
 
-use crate::drive::equation::Machine;
-use crate::drive::peaks::AT_END;
-use crate::drive::reading::Mark;
-use crate::drive::steady::Steady;
-use crate::drive::step::{Step, stages_of_part};
-use crate::drive::structure::Plan;
-use crate::linkage::motion::Motion;
+use crate::peaks::AT_END;
+use linkwright_core::drive::equation::Machine;
+use linkwright_core::drive::reading::Mark;
+use linkwright_core::drive::steady::Steady;
+use linkwright_core::drive::step::{Step, stages_of_part};
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::Motion;
 
 /// Longest step over which derivatives change fast, as h |∂ε/∂u|: the method of order 9 errs by some 1e-9 of them there.
 const SHORT: f64 = 1.0;
@@ -20,7 +20,7 @@ const SHORT: f64 = 1.0;
 const GONE: f64 = 37.0;
 
 /// The solution at the starts of steps that resolve its derivatives.
-pub(super) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
+pub(crate) fn resolved(plan: &Plan, q: &[f64], steady: &Steady) -> Vec<Mark> {
     if steady.crossings.is_empty() {
         return steady.marks.clone();
     }
