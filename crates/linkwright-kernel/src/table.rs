@@ -1,5 +1,6 @@
 //! Tables: values at knots, straight lines between, end values held outside or repeated every period.
 
+use crate::out_of_line;
 use crate::real::{Lift, Real};
 
 /// A table of `y` over increasing `x`.
@@ -106,24 +107,28 @@ impl Table {
 
     /// A value with what its points' derivatives add to it, by the share that each has in it. A point that goes ahead by
     /// itself takes its line along: there it lowers the value by the slope, as going down by that much would.
+    #[inline(always)]
     fn with_points<R: Real, N: Lift<R>>(&self, value: N, x: N, q: &[R], period: Option<f64>) -> N {
-        let read = |of: fn(&Self, Line) -> f64| x.map(|x| (of(self, self.line(x, period)), 0.0));
-        let [from, to] = [read(|_, line| line.from as f64), read(|_, line| line.to as f64)];
-        let slope = read(|table, line| table.value(line).1);
-        let together = |ends: N| -(-ends).max_lane() == ends.max_lane();
-        let moved = |sum: N, i: usize| {
-            let share = x.map(|x| Self::share(i, &self.line(x, period)));
-            let [place, height] = self.point(i, q).map(N::lift);
-            // Zero but for its derivatives.
-            let rise = (height - self.y[i]) - (place - self.x[i]) * slope;
-            rise.mul_add(share, sum)
-        };
-        if !(together(from) && together(to)) {
-            return (0..self.x.len()).fold(value, moved);
-        }
-        let ends = [from, to].map(|ends| ends.max_lane() as usize);
-        let count = if ends[0] == ends[1] { 1 } else { 2 };
-        ends[..count].iter().copied().fold(value, moved)
+        out_of_line!(N, {
+            let from = x.map(|x| (self.line(x, period).from as f64, 0.0));
+            let to = x.map(|x| (self.line(x, period).to as f64, 0.0));
+            let slope = x.map(|x| (self.value(self.line(x, period)).1, 0.0));
+            let (first, last) = (from.max_lane() as usize, to.max_lane() as usize);
+            let is_shared = -(-from).max_lane() == from.max_lane() && -(-to).max_lane() == to.max_lane();
+            let points = if is_shared { vec![first, last] } else { (0..self.x.len()).collect() };
+            let mut sum = value;
+            for (nth, &i) in points.iter().enumerate() {
+                if nth > 0 && points[nth - 1] == i {
+                    continue;
+                }
+                let share = x.map(|x| Self::share(i, &self.line(x, period)));
+                let [place, height] = self.point(i, q);
+                // Zero but for its derivatives.
+                let rise = (N::lift(height) - self.y[i]) - (N::lift(place) - self.x[i]) * slope;
+                sum = rise.mul_add(share, sum);
+            }
+            sum
+        })
     }
 
     /// Share of the value of a knot in that on a line, and its slope.

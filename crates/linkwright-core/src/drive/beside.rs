@@ -67,17 +67,20 @@ impl<'a, R: Real> Part<'a, R> {
     /// Its halves, solved one after the other.
     #[inline(always)]
     fn halves(&self, machine: &Machine<'_, R>, m: &mut Motion<R>) -> [Part<'a, R>; 2] {
+        let first = self.half(machine, (self.step.phi, self.step.u), self.from, m);
+        let middle = (self.step.phi + first.step.h, first.step.end());
+        let second = self.half(machine, middle, self.from + first.length, m);
+        [first, second]
+    }
+
+    /// Half of it from (φ, u) on.
+    #[inline(always)]
+    fn half(&self, machine: &Machine<'_, R>, (phi, u): (R, R), from: f64, m: &mut Motion<R>) -> Part<'a, R> {
         out_of_line!(R, {
-            let Part { step, from, length, quintic, .. } = *self;
-            let (x, length) = (step.h * 0.5, 0.5 * length);
-            let mut half = |phi: R, u: R, from: f64| {
-                let X = stages_of_part(quintic, R::splat(from), R::splat(length));
-                let (step, geometry) = machine.advance_within(CONVERGED, phi, u, x, X, m);
-                Part { step, geometry, from, length, quintic }
-            };
-            let first = half(step.phi, step.u, from);
-            let second = half(step.phi + x, first.step.end(), from + length);
-            [first, second]
+            let (quintic, length) = (self.quintic, 0.5 * self.length);
+            let X = stages_of_part(quintic, R::splat(from), R::splat(length));
+            let (step, geometry) = machine.advance_within(CONVERGED, phi, u, self.step.h * 0.5, X, m);
+            Part { step, geometry, from, length, quintic }
         })
     }
 

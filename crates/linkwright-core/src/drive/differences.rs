@@ -132,12 +132,12 @@ impl<R: Real> Differences<R> {
         let (u, zero) = (whole.u, R::splat(0.0));
         // Parts at the start count where a disturbance dies out within them; shorter ones are those of other lanes.
         let counts = if level == 0 { R::splat(f64::INFINITY) } else { steepness * whole.h };
-        let of_part = |difference: R| R::splat(1.0).select_lt(counts, size(difference), zero);
-        let du = of_part(halves.end() - whole.end());
-        let de = of_part(halves.K[S - 1] - whole.K[S - 1]);
+        let one = R::splat(1.0);
+        let du = one.select_lt(counts, size(halves.end() - whole.end()), zero);
+        let de = one.select_lt(counts, size(halves.K[S - 1] - whole.K[S - 1]), zero);
         let of_speed = u * (2.0 * limits.accuracy).max(4.0 * ROUNDING);
         let error = (du / of_speed).max(de / limits.of_acceleration(u, steepness));
-        self.halvings = R::splat(1.0).select_lt(error, R::splat(level as f64), self.halvings);
+        self.halvings = one.select_lt(error, R::splat(level as f64), self.halvings);
         self.error = self.error.max(error);
         self.relative = self.relative.max((du / u * 0.5).max(de * (1.0 / limits.epsilon)));
     }

@@ -212,10 +212,17 @@ impl MotionJob<'_, '_> {
                 let angle =
                     Angle { phi: R::load(&phi[at..]), sin: R::load(&sin[at..]), cos: R::load(&cos[at..]) };
                 plan.mechanism.place::<R, 2>(&q, angle, &mut m);
-                store(&m, channels, at, &mut out, |x: R, to| {
-                    flaw = x.mul_add(R::splat(0.0), flaw);
-                    x.store(to);
-                });
+                store(
+                    &m,
+                    channels,
+                    at,
+                    &mut out,
+                    #[inline(always)]
+                    |x: R, to| {
+                        flaw = x.mul_add(R::splat(0.0), flaw);
+                        x.store(to);
+                    },
+                );
             }
             // The angles that do not fill all lanes.
             for at in whole..n {
@@ -248,37 +255,26 @@ pub fn store<R: Real>(
     out: &mut [&mut [f64]],
     mut write: impl FnMut(R, &mut [f64]),
 ) {
+    let zero = R::splat(0.0);
     let mut lists = out.iter_mut();
-    // There are as many lists as the channels have numbers.
-    let mut put = |value: R| {
-        if let Some(list) = lists.next() {
-            write(value, &mut list[at..]);
-        }
-    };
     for channel in channels {
-        match *channel {
+        let numbers = match *channel {
             Channel::Point(i) => {
                 let place = &m.points[i];
-                put(place.p.x);
-                put(place.p.y);
-                put(place.d1.x);
-                put(place.d1.y);
-                put(place.d2.x);
-                put(place.d2.y);
+                [place.p.x, place.p.y, place.d1.x, place.d1.y, place.d2.x, place.d2.y]
             }
             Channel::Link(i) => {
                 let link = &m.links[i];
-                put(link.e.x);
-                put(link.e.y);
-                put(link.d1);
-                put(link.d2);
+                [link.e.x, link.e.y, link.d1, link.d2, zero, zero]
             }
             Channel::Slide(i) => {
                 let slide = &m.slides[i];
-                put(slide.s);
-                put(slide.d1);
-                put(slide.d2);
+                [slide.s, slide.d1, slide.d2, zero, zero, zero]
             }
+        };
+        // There are as many lists as the channels have numbers.
+        for (number, list) in numbers[..channel.width()].iter().zip(&mut lists) {
+            write(*number, &mut list[at..]);
         }
     }
 }
