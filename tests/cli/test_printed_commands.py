@@ -1,5 +1,7 @@
 """The commands that README and documentation print work as printed, in an empty folder.
 
+Those of README run with the extras that it tells to install, and no package of development.
+
 `make test` runs them with the wheel, installed in an environment of its own (`make wheel-test`); the package
 is then not that of the clone.
 """
@@ -10,9 +12,12 @@ import json
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
+from http.cookiejar import CookieJar
 from pathlib import Path
+from urllib.request import HTTPCookieProcessor, ProxyHandler, build_opener
 
 import numpy as np
 import pytest
@@ -22,7 +27,8 @@ import linkwright as lw
 from linkwright.app.application import COMMANDS, GROUPS, application
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+README = ROOT / "README.md"
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 # Of a clone, or of what a reader has at hand.
@@ -76,6 +82,65 @@ def test_commands_work_as_printed(page: Path, tmp_path: Path, monkeypatch: pytes
         assert code == wrong, f"{line}\n{output}"
 
 
+def in_the_demo(*lines: str) -> list[str]:
+    """The program that runs commands with what README tells to install."""
+    (extras,) = set(re.findall(r"'linkwright\[(.*?)\]'", README.read_text(encoding="utf-8")))
+    return [sys.executable, str(ROOT / "tests" / "samples" / "demo_environment.py"), extras, *lines]
+
+
+def test_readme_from_top_to_bottom(tmp_path: Path) -> None:
+    prepared(README, tmp_path)
+    lines = commands(README)
+    done = subprocess.run(in_the_demo(*lines), cwd=tmp_path, capture_output=True, text=True, check=False)
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [(line, code) for line, code, _ in answers] == [(line, 0) for line in lines], (
+        answers[-1:],
+        done.stderr,
+    )
+    assert (tmp_path / "out" / "roller_two_carts" / "report.html").is_file()
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs signals of Unix")
+def test_studio_of_the_readme_answers(tmp_path: Path) -> None:
+    prepared(README, tmp_path)
+    (line,) = re.findall(rf"^{_ENDLESS} [\w.]+", README.read_text(encoding="utf-8"), re.MULTILINE)
+    # Who started the tests may have let them ignore interrupts.
+    server = subprocess.Popen(
+        in_the_demo(f"{line} --no-browser"),
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    try:
+        assert server.stdout is not None
+        address = server.stdout.readline().removeprefix("Linkwright studio: ").strip()
+        assert address.startswith("http://127.0.0.1:")
+        visitor = build_opener(ProxyHandler({}), HTTPCookieProcessor(CookieJar()))
+        with visitor.open(address.partition("#")[0], timeout=60) as page:
+            assert page.status == 200
+            assert "<title>" in page.read().decode()
+    finally:
+        server.send_signal(signal.SIGINT)
+        _, told = server.communicate(timeout=60)
+    assert "Traceback" not in told
+    assert server.returncode == 130
+
+
+def test_packages_of_development_are_hidden(tmp_path: Path) -> None:
+    script = (
+        "import demo_environment as d; d.hide(['report']); import typst\ntry: import pytest, linkwright\n"
+    )
+    script += "except ModuleNotFoundError as error: print(error.name)"
+    here = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT / "tests" / "samples"), *sys.path])}
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=here, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "pytest"
+
+
 def outputs(page: Path) -> list[tuple[str, list[str]]]:
     """Commands of a page and the lines printed below each; without those of a record that the reader has."""
     found = []
@@ -92,7 +157,9 @@ def _spaced(line: str) -> str:
     return " ".join(line.replace("─", " ").split())
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if outputs(page)], ids=lambda page: page.stem)
+@pytest.mark.parametrize(
+    "page", [page for page in [README, *PAGES] if outputs(page)], ids=lambda page: page.stem
+)
 def test_output_is_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     # Wide enough for no cell to be broken.
