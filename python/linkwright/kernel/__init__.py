@@ -16,5 +16,6 @@
 | `public/` | What public functions have in common |
 | `quantities` | Words, symbols and units of results, declared at their attributes |
 | `result` | Scalars, curves and tables of a result |
+| `system` | What Windows does in another way than Unix |
 | `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
 """
