@@ -7,6 +7,7 @@
 | `core/` | What crosses the border to the compiled core |
 | `description/` | What all descriptions share: faults in the words of the file, addresses, formulas, curves |
 | `errors` | What can go wrong, in two families: the input is wrong, or the machine cannot do it |
+| `extras` | Packages that only some functions need, and the command that installs them |
 | `figure/` | What all figures share: style, SVG and PNG, captions |
 | `files/` | Files in and out: text, tables, points, whole files or none, the library, templates |
 | `findings` | What a study has to say |
