@@ -11,8 +11,12 @@
 
 SHELL := /bin/bash
 VENV := .venv
-BIN := $(VENV)/bin
+# Windows, with make and bash of MSYS2, has programs of a virtual environment elsewhere.
+SCRIPTS := $(if $(filter Windows_NT,$(OS)),Scripts,bin)
+BIN := $(VENV)/$(SCRIPTS)
 PYTHON ?= python3
+# macOS has no nproc.
+CORES := $(shell nproc 2> /dev/null || sysctl -n hw.ncpu)
 # The compiled module lands in the package's folder; this file says when it was built.
 BUILT := $(VENV)/built
 TOOLS := $(VENV)/tools
@@ -34,12 +38,12 @@ demo: build
 
 build: $(BUILT)
 
-$(VENV)/bin/python:
+$(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed")'
 	$(PYTHON) -m venv $(VENV)
 
 # What the package needs to run and to be built, at pinned versions.
-$(VENV)/needs: constraints.txt pyproject.toml | $(VENV)/bin/python
+$(VENV)/needs: constraints.txt pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt 'maturin>=1.9,<2'
 	touch $@
 
@@ -52,15 +56,20 @@ $(TOOLS): $(BUILT)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[dev]' --no-build-isolation
 	touch $@
 
-# Two at a time: one waits for a compiler or for the network while the other computes.
+# Two at a time: one waits for a compiler or for the network while the other computes. The make of macOS, 3.81, mixes
+# what they print.
+SYNC := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
+
 test:
-	$(MAKE) --no-print-directory -j2 --output-sync=target lint rust-test python-test studio-test wheel-test
+	$(MAKE) --no-print-directory -j2 $(SYNC) lint rust-test python-test studio-test wheel-test
 
 lint: $(TOOLS)
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	# Without a name an encoding is that of the system, on Windows a code page.
+	$(BIN)/ruff check -q --preview --select PLW1514 python
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest linkwright._core --ignore-disjoint-bases
 
@@ -69,7 +78,7 @@ rust-test: $(BUILT)
 	cargo test --release --workspace --features pyo3/extension-module --locked
 
 python-test: $(TOOLS)
-	$(BIN)/python -m pytest -n $(shell nproc) --dist worksteal --ignore=$(PRINTED)
+	$(BIN)/python -m pytest -n $(CORES) --dist worksteal --ignore=$(PRINTED)
 
 # The module is built already, so that the wheel is only packed. Its environment borrows the dependencies alone.
 WHEEL := $(CURDIR)/$(VENV)/wheel
@@ -77,28 +86,28 @@ wheel-test: $(TOOLS)
 	rm -rf $(WHEEL)
 	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin build --release --locked -q -o $(WHEEL)/dist
 	$(PYTHON) -m venv --without-pip $(WHEEL)/env
-	$(BIN)/python -m pip --python $(WHEEL)/env/bin/python install -q --disable-pip-version-check --no-deps $(WHEEL)/dist/*.whl
-	$(BIN)/python -c 'import site; print(site.getsitepackages()[0])' > \
-	  $$($(WHEEL)/env/bin/python -c 'import site; print(site.getsitepackages()[0])')/borrowed.pth
-	cd $(WHEEL) && LINKWRIGHT_WHEEL=1 env/bin/python -m pytest -n 2 -p no:cacheprovider $(CURDIR)/$(PRINTED)
+	$(BIN)/python -m pip --python $(WHEEL)/env/$(SCRIPTS)/python install -q --disable-pip-version-check --no-deps $(WHEEL)/dist/*.whl
+	$(WHEEL)/env/$(SCRIPTS)/python -c 'import sys, sysconfig; print(sys.argv[1], file=open(sysconfig.get_path("purelib") + "/borrowed.pth", "w"))' \
+	  "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')"
+	cd $(WHEEL) && LINKWRIGHT_WHEEL=1 env/$(SCRIPTS)/python -m pytest -n 2 -p no:cacheprovider $(CURDIR)/$(PRINTED)
 
 # The studio's page: types, pieces, and the whole of it in a browser. Node serves these tests alone; the page needs none.
 CHROMIUM ?= $(or $(shell command -v chromium),/usr/bin/chromium)
 
 studio-test: $(TOOLS)
 	@command -v node npm > /dev/null || { echo "The tests of the studio need Node.js 20 or newer with npm (https://nodejs.org); the studio itself needs none."; exit 1; }
-	@test -x $(CHROMIUM) || { apt-get update -qq && apt-get install -qq -y chromium; } > /dev/null || { echo "The tests of the studio need Chromium: apt-get install chromium, or make test CHROMIUM=/path/to/it."; exit 1; }
+	@test -x "$(CHROMIUM)" || { apt-get update -qq && apt-get install -qq -y chromium; } > /dev/null || { echo "The tests of the studio need Chromium: apt-get install chromium, or make test CHROMIUM=/path/to/it."; exit 1; }
 	npm ci --silent --no-audit --no-fund
 	node tests/studio/vendor.mjs --check
 	node_modules/.bin/tsc -p tests/studio/tsconfig.json
 	node --test tests/studio/client/
-	CHROMIUM=$(CHROMIUM) node --test tests/studio/browser/
+	CHROMIUM="$(CHROMIUM)" node --test tests/studio/browser/
 
 MINUTES ?= 60
 
 test-deep: $(TOOLS)
-	LINKWRIGHT_DEEP=1 $(BIN)/python -m pytest -n $(shell nproc) --dist worksteal -m "deep or hypothesis"
-	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(shell nproc)
+	LINKWRIGHT_DEEP=1 $(BIN)/python -m pytest -n $(CORES) --dist worksteal -m "deep or hypothesis"
+	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(CORES)
 
 bench: $(TOOLS)
 	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[bench]' --no-build-isolation
@@ -110,4 +119,4 @@ docs: $(TOOLS)
 	cargo doc --no-deps --workspace --exclude linkwright-py --locked
 
 clean:
-	rm -rf $(VENV) target out site python/linkwright/*.so
+	rm -rf $(VENV) target out site python/linkwright/*.so python/linkwright/*.pyd

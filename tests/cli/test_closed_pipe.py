@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -24,6 +25,7 @@ def test_ends_without_a_word(words: tuple[str, ...]) -> None:
     assert told == b""
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
 @pytest.mark.parametrize(("words", "code"), [("run roller_one_cart >&-", 0), ("run no_such_file 2>&-", 2)])
 def test_a_stream_that_was_closed_before_is_no_error(words: str, code: int) -> None:
     """The exit code tells what nobody hears."""

@@ -81,6 +81,7 @@ def _encoder(folder: Path, lines: str) -> Path:
     return place
 
 
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs the processes of Linux")
 def test_an_interrupted_mp4_says_nothing_and_leaves_nothing(tmp_path: Path) -> None:
     # It takes nothing for a while, so that Ctrl-C comes in the midst of a picture.
     encoder = _encoder(tmp_path, "sleep 3; cat > /dev/null; echo corrupt input packet >&2")
@@ -106,6 +107,7 @@ def test_an_interrupted_mp4_says_nothing_and_leaves_nothing(tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == [encoder]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of Unix")
 def test_what_an_encoder_says_is_read_when_it_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     encoder = _encoder(tmp_path, "echo no such codec >&2; exit 3")
     monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", str(encoder))

@@ -183,7 +183,8 @@ def test_a_message_is_cut_at_a_screen() -> None:
 def test_files_beyond_a_limit(tmp_path: Path) -> None:
     file = tmp_path / "x.toml"
     file.write_bytes(b"#" * (FILE_BYTES.most + 1))
-    for path in (file, Path("/dev/zero")):
+    endless = Path("/dev/zero")
+    for path in (file, endless) if endless.exists() else (file,):
         with pytest.raises(MachineFileError, match=r"at most 1 000 000 bytes"):
             read(path)
     text = (Path(__file__).parent / "broken" / "topper_field_cell.toml").read_text(encoding="utf-8")
@@ -198,6 +199,8 @@ def test_files_beyond_a_limit(tmp_path: Path) -> None:
     points.write_text(head + "1" * 200_000 + ",1,1\n", encoding="utf-8")
     with pytest.raises(MachineFileError, match=r"points.csv:2"):
         read(file)
+    if not endless.exists():
+        return
     file.write_text(text.replace("topper_field_cell.csv", "/dev/zero"), encoding="utf-8")
     with pytest.raises(MachineFileError, match="at most 20 000 000 bytes"):
         read(file, allow_outside=True)

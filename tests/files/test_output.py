@@ -41,7 +41,7 @@ def test_one_module_writes() -> None:
             # open() with another mode than reading
             modes = [each.value for each in node.args if isinstance(each, ast.Constant)]
             if name in calls or (name == "open" and any(str(mode)[:1] in "wax" for mode in modes if mode)):
-                found.add(str(path.relative_to(PACKAGE)))
+                found.add(path.relative_to(PACKAGE).as_posix())
     # Figures are written into the memory; a folder for a drawing is made beside the module. A sweep puts its
     # parts into its folder one by one, the log of a search grows line by line, and completion goes into the
     # files of the user's shell.
@@ -96,6 +96,7 @@ def test_links_are_not_followed(tmp_path: Path, force: bool) -> None:
     assert mine.read_text() == "mine"
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes of Unix")
 def test_what_is_no_file_is_not_replaced(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "folder").mkdir()
@@ -157,6 +158,7 @@ OutputFolder(Path(sys.argv[1])).write({name: "new" * 100_000 for name in "abc"})
 """
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs signals of Unix")
 @pytest.mark.parametrize("nth", [3, 6, 8, 9])
 def test_a_killed_run_tears_no_file(tmp_path: Path, nth: int) -> None:
     folder = OutputFolder(tmp_path / "out")
@@ -211,6 +213,7 @@ def test_an_interrupt_while_writing_leaves_nothing_behind(
     assert leftovers(tmp_path) == []
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs signals of Unix")
 def test_a_killed_first_run_leaves_a_folder_of_ours(tmp_path: Path) -> None:
     for nth in (1, 6):
         place = tmp_path / str(nth)

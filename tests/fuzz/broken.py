@@ -68,8 +68,11 @@ def watched(inputs: Mapping[str, str | bytes], seconds: float = SECONDS) -> Iter
 
 @contextmanager
 def deadline(seconds: float) -> Iterator[None]:
-    """Raise `Hang` in a body that has taken that much processor time; only the main thread is interrupted."""
-    if threading.current_thread() is not threading.main_thread():
+    """Raise `Hang` in a body that has taken that much processor time.
+
+    Only the main thread is interrupted, and only where there are timers, which Windows has not.
+    """
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
         yield
         return
     limits = (

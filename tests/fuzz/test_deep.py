@@ -8,13 +8,15 @@ from functools import partial
 from typing import Any
 
 import broken
-import deep
 import kinds
 import pytest
 from broken import PromiseError, watched
 from numpy.random import Generator
 
 from linkwright.kernel.errors import AssemblyError
+
+pytest.importorskip("resource", reason="limits of Unix")
+import deep
 
 
 class Pipe:

@@ -33,7 +33,7 @@ ROOT = Path(__file__).parents[2]
 def machine_files() -> dict[str, str]:
     """Machine files to start from: shipped machines, examples and templates, by name."""
     paths = [*sorted((ROOT / "machines").glob("*.toml")), *sorted((ROOT / "examples").glob("*/machine.toml"))]
-    texts = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
+    texts = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in paths}
     return texts | {f"template {name}": template(name) for name in templates()}
 
 

@@ -346,6 +346,17 @@ def test_a_search_that_was_stopped_goes_on_from_its_log(
     assert log.read_bytes() == text
 
 
+def test_a_log_with_the_ends_of_lines_of_windows_loses_nothing(tmp_path: Path) -> None:
+    """The place where it goes on is counted in bytes as they are in the file."""
+    (tmp_path / "study.toml").write_text(TEXT)
+    plan, log = lw.read_study(tmp_path / "study.toml"), tmp_path / "search.log"
+    whole = lw.optimise(plan, 100, log=log).to_dict()
+    text = log.read_bytes()
+    log.write_bytes(text[: len(text) // 2].replace(b"\n", b"\r\n"))
+    assert lw.optimise(plan, 100, log=log).to_dict() == whole
+    assert log.read_bytes().replace(b"\r\n", b"\n") == text
+
+
 @pytest.mark.parametrize("method", ["both", "global"])
 @pytest.mark.parametrize("evaluations", [10, 11, 40, 100])
 def test_no_more_machines_than_are_allowed(evaluations: int, method: str, tmp_path: Path) -> None:

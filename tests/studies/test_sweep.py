@@ -304,6 +304,10 @@ def run(study: Path, out: Path, **options: object) -> subprocess.Popen[str]:
     return subprocess.Popen(command, text=True, **pipes, **options)  # type: ignore[call-overload, no-any-return]
 
 
+needs_signals = pytest.mark.skipif(os.name == "nt", reason="needs signals and limits of Unix")
+
+
+@needs_signals
 def test_killed_at_any_moment(study_file: Files, tmp_path: Path) -> None:
     """kill -9, then again: complete, no row twice, the same bytes as uninterrupted."""
     study = study_file(("steps = 5", "steps = 120"), ("chunk = 4", "chunk = 3"))
@@ -350,6 +354,7 @@ def test_a_damaged_description_loses_no_row(study_file: Files, tmp_path: Path) -
     assert written == {name: (rows / name).stat().st_mtime_ns for name in written}
 
 
+@needs_signals
 def test_a_full_disk(study_file: Files, tmp_path: Path) -> None:
     """The limit on a file's size stands for a disk without room: a write fails in its middle."""
     import resource
@@ -366,6 +371,7 @@ def test_a_full_disk(study_file: Files, tmp_path: Path) -> None:
     assert lw.sweep(lw.read_study(study), tmp_path / "rows").is_complete
 
 
+@needs_signals
 def test_processes_that_are_lost_are_replaced(study_file: Files, tmp_path: Path) -> None:
     """The folder is that of one process, though one of two is killed as soon as a file is there."""
     import multiprocessing
@@ -389,6 +395,7 @@ def test_processes_that_are_lost_are_replaced(study_file: Files, tmp_path: Path)
         lw.sweep(plan, tmp_path / "none", workers=0)
 
 
+@needs_signals
 # What the cluster itself warns of as it ends.
 @pytest.mark.filterwarnings("ignore")
 def test_a_cluster_with_a_worker_killed(

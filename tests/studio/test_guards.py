@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mimetypes
 import re
 import socket
 import struct
@@ -10,7 +11,10 @@ from pathlib import Path
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from linkwright.kernel import system
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import template
+from linkwright.studio.files import Folder
 from linkwright.studio.server import Studio
 
 from .conftest import Served, Tab
@@ -224,3 +228,38 @@ def test_a_folder_keeps_its_port(tmp_path: Path) -> None:
     again = Studio(tmp_path)
     assert again.port == first.port
     again.socket.close()
+
+
+def test_types_of_modules_are_ours_whatever_the_registry_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Browsers refuse a module that is sent as text, as some programs set it on Windows."""
+    from .conftest import begun
+
+    mimetypes.init()
+    for ending in (".js", ".mjs", ".css"):
+        monkeypatch.setitem(mimetypes.types_map, ending, "text/plain")
+    served, server = begun(tmp_path)
+    for name, kind in (("wire.js", "text/javascript"), ("studio.css", "text/css")):
+        status, headers, _ = served.get(f"/{name}", Cookie=served.cookie)
+        assert status == 200
+        assert headers["content-type"].startswith(kind)
+    server.should_exit = True
+
+
+def test_no_other_program_takes_the_port_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Windows has an option for it; another one stands in, and that for reuse stays unset."""
+    monkeypatch.setattr(socket, "SO_EXCLUSIVEADDRUSE", socket.SO_KEEPALIVE, raising=False)
+    own = Studio(tmp_path).socket
+    assert own.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE)
+    assert not own.getsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR)
+    own.close()
+
+
+@pytest.mark.parametrize("name", ["C:secret.toml", "bar.toml:hidden.toml"])
+def test_colons_of_windows_are_refused(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another drive, and a hidden stream of a file."""
+    Folder(tmp_path).inside(name)
+    monkeypatch.setattr(system, "WINDOWS", True)
+    with pytest.raises(InputError, match=r"expected the name of a \.toml file below the folder"):
+        Folder(tmp_path).inside(name)

@@ -11,7 +11,7 @@ PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 def _in_commands() -> dict[str, ast.Module]:
     """Modules of the command line: of the kernel, of the application, of every room."""
     return {
-        str(path.relative_to(PACKAGE)): ast.parse(path.read_text(encoding="utf-8"))
+        path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
         for path in PACKAGE.rglob("*.py")
         if {"command", "commands"} & {*path.relative_to(PACKAGE).parts, path.stem}
     }

@@ -22,7 +22,7 @@ def test_one_module_makes_consoles() -> None:
             if isinstance(node, ast.Call):
                 name = getattr(node.func, "attr", getattr(node.func, "id", ""))
                 if name in calls:
-                    makers.add(str(path.relative_to(PACKAGE)))
+                    makers.add(path.relative_to(PACKAGE).as_posix())
     assert makers == {"kernel/command/console.py"}
 
 

@@ -57,6 +57,17 @@ def _without_plugins() -> ModuleType:
     return module
 
 
+def _take_all_letters() -> None:
+    """Let standard output and standard error take letters that the terminal or the code page has not."""
+    from linkwright.kernel.system import WINDOWS
+
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            # Pipes and files have the code page of Windows; JSON is UTF-8 (RFC 8259, 8.1).
+            is_coded = WINDOWS and not stream.isatty() and "PYTHONIOENCODING" not in os.environ
+            stream.reconfigure(encoding="utf-8" if is_coded else None, errors="backslashreplace")
+
+
 def main() -> None:
     """Run the command line, for the console script."""
     with Interrupts() as interrupts:
@@ -65,9 +76,7 @@ def main() -> None:
         for name in ("stdout", "stderr"):
             if getattr(sys, name) is None:
                 setattr(sys, name, StringIO())
-        # Names may hold letters that the terminal has not; they are no reason to fail.
-        if isinstance(sys.stdout, TextIOWrapper):
-            sys.stdout.reconfigure(errors="backslashreplace")
+        _take_all_letters()
         # A start makes some 100 000 objects that all stay; looking among them for rubbish takes time.
         gc.set_threshold(200_000)
         commands = application()

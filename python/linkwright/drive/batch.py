@@ -15,6 +15,7 @@ from linkwright.drive.sound_loads import require_same_turns
 from linkwright.drive.steady_state import START_WORDS, known_start_limits
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.extras import require
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.quantities import About, Label
@@ -129,7 +130,8 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
         return batch_html(self)
 
     def to_frame(self) -> pd.DataFrame:
-        """Entries and results as a table, a row for each machine (needs pandas)."""
+        """Entries and results as a table, a row for each machine; an `InputError` without pandas."""
+        require("pandas", "frame", "to_frame needs pandas")
         import pandas as pd
 
         names = [*COLUMNS, "unevenness", "dynamism", "motion_coefficient"]

@@ -7,6 +7,7 @@
 | `core/` | What crosses the border to the compiled core |
 | `description/` | What all descriptions share: faults in the words of the file, addresses, formulas, curves |
 | `errors` | What can go wrong, in two families: the input is wrong, or the machine cannot do it |
+| `extras` | Packages that only some functions need, and the command that installs them |
 | `figure/` | What all figures share: style, SVG and PNG, captions |
 | `files/` | Files in and out: text, tables, points, whole files or none, the library, templates |
 | `findings` | What a study has to say |
@@ -16,5 +17,6 @@
 | `public/` | What public functions have in common |
 | `quantities` | Words, symbols and units of results, declared at their attributes |
 | `result` | Scalars, curves and tables of a result |
+| `system` | What Windows does in another way than Unix |
 | `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |
 """

@@ -166,9 +166,12 @@ class Result(Record):
 
         Raises
         ------
-        ImportError
-            pandas is not installed (``pip install linkwright[frame]``).
+        InputError
+            pandas is not installed, an extra; the message has the command that installs it.
         """
+        from linkwright.kernel.extras import require
+
+        require("pandas", "frame", "to_frame needs pandas")
         import pandas as pd
 
         return pd.DataFrame(self.curves())

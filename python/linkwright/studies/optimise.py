@@ -18,6 +18,7 @@ from typing import Annotated, Any, get_args
 import numpy as np
 
 from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.extras import require
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -244,7 +245,4 @@ def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:
     if n_free and evaluations < population(n_free):
         expected = f"at least {population(n_free)}, the first population of {n_free} variables"
         raise InputError(f"evaluations {evaluations}: expected {expected}")
-    try:
-        import cmaes  # noqa: F401
-    except ImportError:
-        raise InputError("the search needs cmaes: pip install 'linkwright[studies]'") from None
+    require("cmaes", "studies", "the search needs cmaes")

@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, show
+from linkwright.kernel.extras import require
 from linkwright.kernel.files.points import one_of, place_of
 from linkwright.kernel.files.text_file import TextError, require_no_pipe
 from linkwright.studies.rows import Rows
@@ -28,12 +29,7 @@ ONE_BY_ONE = b"linkwright_one_by_one"
 
 def require_pyarrow() -> None:
     """Refuse to begin what ends in a Parquet file, by an `InputError`, without pyarrow."""
-    try:
-        import pyarrow.parquet  # noqa: F401
-    except ImportError:
-        raise InputError(
-            "Parquet files need pyarrow, which is not installed: pip install 'linkwright[studies]'"
-        ) from None
+    require("pyarrow.parquet", "studies", "Parquet files need pyarrow")
 
 
 def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> bytes:

@@ -55,14 +55,16 @@ class SearchLog:
     def _open(self, path: Path, study: str) -> None:
         """Read what is there, and go on behind it."""
         try:
-            lines = path.read_text("utf-8").splitlines(keepends=True) if path.exists() else []
+            # As bytes: the place where it goes on is counted in them, with ends of lines as they are.
+            data = path.read_bytes() if path.exists() else b""
+            lines = data.decode("utf-8").splitlines(keepends=True)
             complete = [line for line in lines if line.endswith("\n")]
             if complete and complete[0].strip() != study:
                 raise InputError(
                     f"{path}: found the log of another search, or none; nothing was changed; name another"
                 )
             self.known = dict(json.loads(line) for line in complete[1:])
-            self.file = path.open("a", encoding="utf-8")
+            self.file = path.open("a", encoding="utf-8", newline="\n")
             self.file.truncate(sum(len(line.encode()) for line in complete))
             self.file.write("" if complete else f"{study}\n")
             self.file.flush()

@@ -17,11 +17,9 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from functools import lru_cache
 from multiprocessing import active_children, get_context, parent_process
 from pathlib import Path
@@ -31,6 +29,8 @@ from typing import TYPE_CHECKING, Any
 from linkwright import __version__
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.extras import require
+from linkwright.kernel.system import deaf
 from linkwright.studies.engine import evaluate
 from linkwright.studies.folder import SweepFolder, plan_of
 from linkwright.studies.parquet import encoded
@@ -73,7 +73,8 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
     # Started afresh: a copy of a process with threads may hang.
     with ProcessPoolExecutor(workers, get_context("spawn"), initializer=_begin, initargs=given) as pool:
         try:
-            with _deaf():
+            # An interrupt ends this process, and it them: told themselves, they would end in a traceback.
+            with deaf():
                 waiting = {pool.submit(_compute, number): number for number in numbers}
             for done in as_completed(waiting):
                 done.result()
@@ -85,19 +86,6 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
                     process.terminate()
             pool.shutdown(cancel_futures=True)
             raise
-
-
-@contextmanager
-def _deaf() -> Iterator[None]:
-    """Processes that are started within it are not told of an interrupt, which ends this one, and it them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin(path: Path, manifest: dict[str, Any], listed: Floats | None, workers: int) -> None:
@@ -162,12 +150,9 @@ def computed_on(ready: StudyPlan, folder: SweepFolder, numbers: list[int], addre
 
 def _client(address: str) -> Client:
     """A connection to the scheduler."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError(
-            "a cluster needs distributed, which is not installed: pip install 'linkwright[cluster]'"
-        ) from None
+    require("distributed", "cluster", "a cluster needs distributed")
+    from distributed import Client
+
     try:
         return Client(address, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:

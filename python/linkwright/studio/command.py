@@ -10,6 +10,7 @@ import click
 
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.extras import require
 
 File = Annotated[
     str | None,
@@ -30,12 +31,10 @@ def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> 
     The page is served on this computer alone, and its address opens once. Files are opened and saved below
     the present folder. The studio ends with Ctrl+C.
     """
-    try:
-        from linkwright.studio.server import Studio
-    except ImportError as error:
-        raise InputError(
-            f"the studio needs {error.name}; install it with: pip install 'linkwright[studio]'"
-        ) from None
+    for package in ("starlette", "uvicorn", "websockets"):
+        require(package, "studio", f"the studio needs {package}")
+    from linkwright.studio.server import Studio
+
     try:
         opened = Studio(Path.cwd(), port)
     except (OSError, OverflowError) as error:
@@ -58,8 +57,9 @@ def _fragment(file: str) -> str:
     if file in library() and not Path(file).exists():
         return f"open=library/{quote(file)}"
     folder = Folder.of(Path.cwd())
-    name = Path(file).resolve()
-    if not name.is_relative_to(folder.root):
+    path = Path(file).resolve()
+    if not path.is_relative_to(folder.root):
         raise InputError(f"{file} lies outside the present folder; change to its folder first")
-    folder.read(str(name.relative_to(folder.root)))
-    return f"open=folder/{quote(str(name.relative_to(folder.root)))}"
+    name = path.relative_to(folder.root).as_posix()
+    folder.read(name)
+    return f"open=folder/{quote(name)}"

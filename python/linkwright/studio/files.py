@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from linkwright.kernel import system
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library, library_path, template, templates
 from linkwright.kernel.files.text_file import TextError, text_of
@@ -38,7 +39,9 @@ class Folder:
 
         `name`: relative to the folder, with strokes between its parts.
         """
-        if not name.isprintable() or not name.endswith(".toml") or Path(name).is_absolute():
+        # On Windows a colon leads to another drive, or into a hidden stream of a file.
+        is_elsewhere = Path(name).is_absolute() or (system.WINDOWS and ":" in name)
+        if not name.isprintable() or not name.endswith(".toml") or is_elsewhere:
             raise InputError(f"{name!r}: expected the name of a .toml file below the folder of the studio")
         try:
             path = (self.root / name).resolve()
@@ -76,9 +79,10 @@ class Folder:
         try:
             with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
                 file.write(text)
-            mode = path.stat().st_mode if path.exists() else 0o644
+            # Windows knows one permission, to write, and replaces no file without it.
+            mode = path.stat().st_mode if path.exists() and not system.WINDOWS else 0o644
             Path(made).chmod(stat.S_IMODE(mode))
-            Path(made).replace(path)
+            system.rename(Path(made), path)
         except OSError as error:
             Path(made).unlink(missing_ok=True)
             raise InputError(f"{name}: {error.strerror}") from None
@@ -88,7 +92,7 @@ class Folder:
         for n, path in enumerate(self._files()):
             if n >= _FILES:
                 return
-            name = str(path.relative_to(self.root))
+            name = path.relative_to(self.root).as_posix()
             if title := _title(path):
                 yield {"place": "folder", "name": name, "title": title}
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import hmac
+import mimetypes
 import secrets
 import socket
 from collections.abc import Awaitable, Callable, MutableMapping
@@ -217,6 +218,7 @@ class Studio:
     """
 
     def __init__(self, folder: Path, port: int = 0) -> None:
+        _name_types()
         self.folder = Folder.of(folder)
         self.socket = _bound(port) if port else _bound_for(self.folder.root)
         self.port: int = self.socket.getsockname()[1]
@@ -266,6 +268,16 @@ class Studio:
             self.tabs -= 1
 
 
+# What a browser must be told of modules and sheets, which it refuses otherwise.
+_TYPES = {".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css"}
+
+
+def _name_types() -> None:
+    """Set types of files: on Windows they stand in the registry, where any program may have changed them."""
+    for ending, kind in _TYPES.items():
+        mimetypes.add_type(kind, ending)
+
+
 # Ports that no service is given (RFC 6335, 6).
 _FIRST, _PORTS = 49152, 16384
 
@@ -283,7 +295,9 @@ def _bound_for(root: Path) -> socket.socket:
 def _bound(port: int) -> socket.socket:
     """A socket of this computer alone."""
     own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    # Windows would by SO_REUSEADDR let another program take the port over, or a second studio share it.
+    exclusive = getattr(socket, "SO_EXCLUSIVEADDRUSE", None)
+    own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR if exclusive is None else exclusive, 1)
     try:
         own.bind(("127.0.0.1", port))
         own.listen()

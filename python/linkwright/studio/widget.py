@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.extras import require
 from linkwright.kernel.public import public
 from linkwright.machine.machine import Machine
 from linkwright.studio.analyses import fast
@@ -94,11 +95,9 @@ def widget(
 @cache
 def _widget_class() -> Any:
     """The class of the widget: anywidget is loaded when one is asked for."""
-    try:
-        from anywidget import AnyWidget
-        from traitlets import Bool, Bytes, Dict, Float, Int, List, Unicode
-    except ImportError:
-        raise InputError("a widget needs anywidget: pip install 'linkwright[notebook]'") from None
+    require("anywidget", "notebook", "a widget needs anywidget")
+    from anywidget import AnyWidget
+    from traitlets import Bool, Bytes, Dict, Float, Int, List, Unicode
 
     class MachineWidget(AnyWidget):
         """A machine in motion."""

@@ -19,6 +19,8 @@ from functools import lru_cache, partial
 from queue import SimpleQueue
 from typing import Any
 
+from linkwright.kernel.system import is_unread
+
 # Length of a body, and whether it is the last of its job.
 _HEAD = struct.Struct("<I?")
 
@@ -45,7 +47,9 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         _answer_jobs()
-    except BrokenPipeError:
+    except OSError as error:
+        if not is_unread(error):
+            raise
         # At once: what is still to be written would be tried again at an ordinary end.
         os._exit(0)
 

@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from linkwright.app.report.sketch import Pose, paint
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.extras import require
 from linkwright.kernel.figure.style import WIDTH, styled
+from linkwright.kernel.system import apart, is_unread
 
 if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
@@ -45,14 +47,10 @@ def gif(scene: Scene, seconds: float) -> bytes:
 
 def mp4(scene: Scene, seconds: float) -> bytes:
     """The motion as MP4 (H.264); ``seconds`` for all of it. An `InputError` without the encoder."""
-    try:
-        from imageio_ffmpeg import get_ffmpeg_exe
-    except ImportError:
-        raise InputError("an MP4 needs an encoder: pip install 'linkwright[video]'") from None
-
+    encoder = require("imageio_ffmpeg", "video", "an MP4 needs an encoder, imageio-ffmpeg")
     with TemporaryDirectory() as folder:
         place = Path(folder) / "motion.mp4"
-        _encode(get_ffmpeg_exe(), _frames(scene, seconds), place)
+        _encode(encoder.get_ffmpeg_exe(), _frames(scene, seconds), place)
         return place.read_bytes()
 
 
@@ -67,16 +65,16 @@ def _encode(encoder: str, frames: Iterator[Bytes], place: Path) -> None:
     words = (encoder, *taken, *made)
     with TemporaryFile("w+", encoding="utf-8") as log:
         # Ctrl-C is for this process alone, which ends the encoder in the midst of a picture.
-        with Popen(words, stdin=PIPE, stderr=log, start_new_session=True, bufsize=0) as process:
+        with Popen(words, stdin=PIPE, stderr=log, bufsize=0, **apart()) as process:
             try:
                 for frame in chain((first,), even):
                     _write(process.stdin, frame.tobytes())
-            except BrokenPipeError:
+            except BaseException as error:
+                if not (isinstance(error, OSError) and is_unread(error)):
+                    process.kill()
+                    raise
                 # It has ended by itself, and its words say why.
                 process.wait()
-            except BaseException:
-                process.kill()
-                raise
         if process.returncode:
             log.seek(0)
             reason = log.read().strip() or f"it ended with code {process.returncode}"

@@ -1,6 +1,6 @@
 """The cam as a solid in a STEP file (AP214, millimetres): its profile extruded by its width, by Open CASCADE.
 
-The kernel is an extra, ``pip install "linkwright[step]"``. The profile is a spline there: arcs as flat as
+The kernel is the extra ``step``. The profile is a spline there: arcs as flat as
 those beside an inflection are known to the kernel by angles of 1e-9 rad only, which is too coarse.
 
 Source: ISO 10303-214; Open CASCADE Technology, *STEP Translator*.
@@ -9,7 +9,6 @@ Source: ISO 10303-214; Open CASCADE Technology, *STEP Translator*.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib import import_module
 from itertools import pairwise
 from pathlib import Path as File
 from typing import Any
@@ -19,7 +18,8 @@ import numpy as np
 from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import ExchangeError, InputError
+from linkwright.kernel.errors import ExchangeError
+from linkwright.kernel.extras import require
 
 # How far above its plane the kernel may put the lower face [mm].
 _PLANE = 1e-6
@@ -27,13 +27,8 @@ _PLANE = 1e-6
 
 def _kernel(module: str) -> Any:
     """A module of Open CASCADE; the error says how to install it."""
-    try:
-        kernel = import_module(f"OCP.{module}")
-        message = import_module("OCP.Message")
-    except ImportError as error:
-        raise InputError(
-            f'STEP files need the Open CASCADE kernel ({error}): pip install "linkwright[step]"'
-        ) from None
+    need = "STEP files need the Open CASCADE kernel"
+    kernel, message = (require(f"OCP.{name}", "step", need) for name in (module, "Message"))
     # It would print what it does, into the output of whoever called.
     printers = message.Message_PrinterOStream.get_type_descriptor_s()
     message.Message.DefaultMessenger_s().RemovePrinters(printers)

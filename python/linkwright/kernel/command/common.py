@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
 import click
 from click.core import ParameterSource
 
+from linkwright.kernel import system
 from linkwright.kernel.command.answer import Answer, is_taken, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
 from linkwright.kernel.command.parameter import Argument, Option
@@ -88,9 +89,9 @@ def reports_errors(
                     click.echo(json_text(stopped), nl=False)
             click.echo(printable(_by_options(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
-        except BrokenPipeError:
-            raise _unread() from None
         except OSError as error:
+            if system.is_unread(error):
+                raise _unread() from None
             click.echo(printable(f"cannot read or write: {error}"), err=True)
             raise click.exceptions.Exit(InputError.exit_code) from None
         except KeyboardInterrupt:

@@ -189,7 +189,8 @@ def _install(shell: str) -> None:
     place, words = _PLACES[shell]
     path = Path.home() / place
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(_script(shell), encoding="utf-8")
+    # Shells read no other ends of lines, on Windows neither.
+    path.write_text(_script(shell), encoding="utf-8", newline="\n")
     click.echo(f"Written:\n  {path}\n{words}")
 
 

@@ -103,8 +103,9 @@ def put(text: str, out: Path | None, *, force: bool = False) -> None:
 
 def command_line() -> str:
     """The command line as it was given, to be repeated."""
-    import shlex
     import sys
 
+    from linkwright.kernel.system import quoted
+
     # A name of a file may be bytes that are no UTF-8; a report is.
-    return shlex.join(["linkwright", *sys.argv[1:]]).encode("utf-8", "backslashreplace").decode()
+    return quoted(["linkwright", *sys.argv[1:]]).encode("utf-8", "backslashreplace").decode()

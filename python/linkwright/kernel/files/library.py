@@ -28,14 +28,20 @@ def library_path(name: str) -> Path:
 @cache
 def _files() -> dict[str, Path]:
     """Files by name. They lie beside the modules, in a checkout by links to the folders of the clone."""
-    machines = {path.stem: path for path in (_PACKAGE / "library").glob("*.toml")}
-    examples = {path.parent.name: path for path in (_PACKAGE / "examples").glob("*/machine.toml")}
+    machines = {path.stem: path for path in _folder("library").glob("*.toml")}
+    examples = {path.parent.name: path for path in _folder("examples").glob("*/machine.toml")}
     return machines | examples
+
+
+def _folder(name: str) -> Path:
+    """A folder beside the modules; Git on Windows may write the link of a clone as a file with its target."""
+    place = _PACKAGE / name
+    return _PACKAGE / place.read_text(encoding="utf-8").strip() if place.is_file() else place
 
 
 def studies() -> dict[str, Path]:
     """Files of the studies of the examples, by the name of the example."""
-    return {path.parent.name: path for path in sorted((_PACKAGE / "examples").glob("*/study.toml"))}
+    return {path.parent.name: path for path in sorted(_folder("examples").glob("*/study.toml"))}
 
 
 _MACHINES = Path(__file__).with_name("templates")

@@ -20,6 +20,7 @@ from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 from zlib import crc32
 
+from linkwright.kernel import system
 from linkwright.kernel.errors import InputError
 
 # Lists the files of a folder that are ours.
@@ -100,7 +101,7 @@ def trial(path: Path) -> Iterator[Path]:
         yield part
         with part.open("rb+") as file:
             os.fsync(file.fileno())
-        part.replace(path)
+        system.rename(part, path)
     finally:
         _remove([part])
 
@@ -218,7 +219,7 @@ def _write_all(contents: Mapping[Path, str | bytes]) -> None:
             parts[place] = _part(place)
             _write_part(parts[place], place, _bytes(content))
         for place, part in parts.items():
-            part.replace(place)
+            system.rename(part, place)
     finally:
         _remove(list(parts.values()))
 
@@ -239,26 +240,17 @@ def _remove_stale(folder: Path) -> None:
     here = _computer()
     for place in folder.glob(f"{_PART}*"):
         name = _PART_NAME.match(place.name)
-        if name is not None and name[1] == here and not _is_alive(int(name[2])) and _is_ours(place):
-            place.unlink(missing_ok=True)
+        if name is not None and name[1] == here and not system.is_alive(int(name[2])) and _is_ours(place):
+            try:
+                place.unlink(missing_ok=True)
+            except PermissionError:
+                # On Windows it may be held open, or be of another user; a later run removes it.
+                continue
 
 
 def _is_ours(place: Path) -> bool:
     """Whether a file is of this user: in a folder of all, such as /tmp, others' files cannot be removed."""
-    return os.name == "nt" or (place.exists() and place.lstat().st_uid == os.getuid())
-
-
-def _is_alive(process: int) -> bool:
-    """Whether a process runs on this computer; where none can be asked without harm, all are taken to."""
-    if os.name == "nt":
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, OverflowError):
-        return True
-    return True
+    return system.WINDOWS or (place.exists() and place.lstat().st_uid == os.getuid())
 
 
 def _computer() -> str:
@@ -282,7 +274,8 @@ def _write_part(part: Path, place: Path, data: bytes) -> None:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())
-    if place.exists():
+    # Windows knows one permission, to write, and removes no file without it.
+    if place.exists() and not system.WINDOWS:
         part.chmod(stat.S_IMODE(place.stat().st_mode))
 
 
@@ -302,4 +295,6 @@ def unwritable(place: Path, error: OSError) -> InputError:
         return InputError(
             f"{place}: the disk is full; nothing was replaced; free some space or write elsewhere"
         )
-    return InputError(f"{place}: cannot be written ({error.strerror or error})")
+    is_held = system.WINDOWS and isinstance(error, PermissionError)
+    remedy = "; close it in other programs, or name another" if is_held else ""
+    return InputError(f"{place}: cannot be written ({error.strerror or error}){remedy}")

@@ -53,7 +53,8 @@ def data_of(path: Path, limit: Limit) -> bytes:
     except FileNotFoundError:
         raise TextError("no such file") from None
     except PermissionError:
-        raise TextError("a file without permission to read it") from None
+        # Windows refuses to open a directory by the same error.
+        raise TextError("a directory" if path.is_dir() else "a file without permission to read it") from None
     except (OSError, ValueError) as error:
         raise TextError(f"a file that cannot be read ({error})") from None
     if len(data) > limit.most:

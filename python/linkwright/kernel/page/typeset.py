@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.extras import require
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.page.content import Content, Heading
@@ -40,11 +41,7 @@ def pdf(content: Content) -> bytes:
 
 def _compiler() -> Any:
     """Typst, whose types do not tell of files in memory."""
-    try:
-        import typst as compiler
-    except ImportError:
-        raise InputError("a PDF needs Typst: pip install 'linkwright[report]'") from None
-    return compiler
+    return require("typst", "report", "a PDF needs Typst")
 
 
 def _compiled(compiler: Any, files: dict[str, bytes], failure: str) -> bytes:
