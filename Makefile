@@ -1,6 +1,6 @@
 # Everything that is done with this repository. `make test` is what CI runs.
 #
-#   make demo    virtual environment, build, run the main example, say where the report lies
+#   make demo    virtual environment, build, run the main example, say where the report lies: one to three minutes
 #   make test    lint and all tests
 #   make test-deep   the random tests with many more cases; then random cases for MINUTES (60): machine files,
 #                formulas, tables, plans, machines and their laws
@@ -19,6 +19,8 @@ PYTHON ?= python3
 CORES := $(shell nproc 2> /dev/null || sysctl -n hw.ncpu)
 # The compiled module lands in the package's folder; this file says when it was built.
 BUILT := $(VENV)/built
+INSTALLED := $(VENV)/installed
+PIP := $(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt
 TOOLS := $(VENV)/tools
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 
@@ -31,29 +33,48 @@ PRINTED := tests/cli/test_printed_commands.py
 
 .PHONY: demo build test test-deep lint rust-test python-test studio-test wheel-test bench docs clean
 
+# What README's commands need besides the package.
+EXTRAS := studio studies report
+
 demo: build
 	$(BIN)/linkwright run machines/roller_two_carts.toml --out out/roller_two_carts
 	@echo
 	@echo "The report: $(CURDIR)/out/roller_two_carts/report.html"
+	@echo "For the commands of README: source $(BIN)/activate"
 
-build: $(BUILT)
+# Compiling waits for the processor and pip for the network: side by side.
+build:
+	@$(MAKE) --no-print-directory -j2 $(INSTALLED)
 
 $(BIN)/python:
-	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed")'
-	$(PYTHON) -m venv $(VENV)
+	@echo "Creating a virtual environment in $(VENV)."
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed")'
+	@$(PYTHON) -m venv $(VENV)
 
-# What the package needs to run and to be built, at pinned versions.
-$(VENV)/needs: constraints.txt pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt 'maturin>=1.9,<2'
-	touch $@
+# What builds the package, at a pinned version.
+$(VENV)/needs: constraints.txt | $(BIN)/python
+	@$(PIP) 'maturin>=1.9,<2'
+	@touch $@
 
 $(BUILT): $(VENV)/needs $(RUST)
-	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin develop --release --locked -q
-	touch $@
+	@echo "Compiling the core: about a minute on two fast cores, two or three on slow ones."
+	@PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin develop --release --locked --skip-install
+	@touch $@
+
+# What the package and the extras need.
+$(VENV)/packages: constraints.txt pyproject.toml | $(VENV)/needs
+	@echo "Installing what the package needs, with its extras $(EXTRAS)."
+	@$(BIN)/python -c 'import sys, tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *(each for extra in sys.argv[1:] for each in p["optional-dependencies"][extra]), sep="\n")' $(EXTRAS) > $@.txt
+	@$(PIP) -r $@.txt
+	@touch $@
+
+$(INSTALLED): $(BUILT) $(VENV)/packages
+	@$(PIP) --no-deps --no-build-isolation -e .
+	@touch $@
 
 # What tests and lint need besides.
-$(TOOLS): $(BUILT)
-	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[dev]' --no-build-isolation
+$(TOOLS): $(INSTALLED)
+	$(PIP) -e '.[dev]' --no-build-isolation
 	touch $@
 
 # Two at a time: one waits for a compiler or for the network while the other computes. The make of macOS, 3.81, mixes
@@ -76,6 +97,7 @@ lint: $(TOOLS)
 # With both packages named, the kernels are those that the module was built from: nothing long is compiled twice.
 rust-test: $(BUILT)
 	cargo test --release --workspace --features pyo3/extension-module --locked
+	@test "$$(uname)" != Linux || $(BIN)/python benches/code_size.py
 
 python-test: $(TOOLS)
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal --ignore=$(PRINTED)
@@ -110,11 +132,11 @@ test-deep: $(TOOLS)
 	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(CORES)
 
 bench: $(TOOLS)
-	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[bench]' --no-build-isolation
+	$(PIP) -e '.[bench]' --no-build-isolation
 	$(BIN)/python benches/run.py
 
 docs: $(TOOLS)
-	$(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt -e '.[docs]' --no-build-isolation
+	$(PIP) -e '.[docs]' --no-build-isolation
 	$(BIN)/mkdocs build --strict
 	cargo doc --no-deps --workspace --exclude linkwright-py --locked
 
