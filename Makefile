@@ -20,7 +20,8 @@ CORES := $(shell nproc 2> /dev/null || sysctl -n hw.ncpu)
 # The compiled module lands in the package's folder; this file says when it was built.
 BUILT := $(VENV)/built
 INSTALLED := $(VENV)/installed
-PIP := $(BIN)/python -m pip install -q --disable-pip-version-check -c constraints.txt
+# Modules are compiled when they are first imported: most of them never are.
+PIP := $(BIN)/python -m pip install -q --no-compile --disable-pip-version-check -c constraints.txt
 TOOLS := $(VENV)/tools
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 
