@@ -107,26 +107,111 @@ impl Chain {
         cos: &[f64],
         out: &mut [&mut [f64]],
     ) -> R {
+        let Some((last, lead)) = numbers.split_last() else { return R::splat(0.0) };
+        if let [crank] = lead
+            && self.lead[0].part == Part::CrankPin
+            && let Some(flaw) = from_crank(self.end.part, crank, last, (sin, cos), out)
+        {
+            return flaw;
+        }
         let mut flaw = R::splat(0.0);
-        let Some((last, lead)) = numbers.split_last() else { return flaw };
-        let mut at = 0;
-        while at < sin.len() {
-            let sine = R::load(&sin[at..]);
-            let angle = Angle { phi: sine, sin: sine, cos: R::load(&cos[at..]) };
+        for at in (0..sin.len()).step_by(R::LANES) {
+            let angle = angle_at::<R>(sin, cos, at);
             let mut pin = Place::fixed(Vec2::zero());
             for k in 0..lead.len() {
                 pin = point(self.lead[k].part, &lead[k], angle, &pin);
             }
             let sum = match end(self.end.part, last, angle, &pin) {
-                EndMotion::Point(Place { p, d1, d2 }) => put([p.x, p.y, d1.x, d1.y, d2.x, d2.y], at, out),
-                EndMotion::Link(Heading { e, d1, d2 }) => put([e.x, e.y, d1, d2], at, out),
-                EndMotion::Slide(Slide { s, d1, d2 }) => put([s, d1, d2], at, out),
+                EndMotion::Point(place) => put(of_point(place), at, out),
+                EndMotion::Link(heading) => put(of_link(heading), at, out),
+                EndMotion::Slide(slide) => put(of_slide(slide), at, out),
             };
             flaw = sum.mul_add(R::splat(0.0), flaw);
-            at += R::LANES;
         }
         flaw
     }
+}
+
+/// One dyad on a crank: a loop for each thing that is asked for, in which the pin stays in registers. The numbers of the machine
+/// are taken beforehand: behind every result that is written the compiler would read them again. None where it is no dyad's.
+#[inline(always)]
+fn from_crank<R: Real>(
+    part: Part,
+    crank: &Numbers,
+    q: &Numbers,
+    angles: (&[f64], &[f64]),
+    out: &mut [&mut [f64]],
+) -> Option<R> {
+    let (centre, radius, phase) =
+        (ground(crank).p, R::splat(crank[2]), [R::splat(crank[3]), R::splat(crank[4])]);
+    let (pivot, bars, rod, at) = (ground(q), bars_of(q), rod_of(q), [R::splat(q[8]), R::splat(q[9])]);
+    macro_rules! each {
+        ($pin:ident => $values:expr) => {
+            at_all(
+                angles,
+                out,
+                #[inline(always)]
+                |angle| {
+                    let $pin = &super::mechanism::crank(centre, radius, phase, angle).0;
+                    $values
+                },
+            )
+        };
+    }
+    let flaw = match part {
+        Part::Joint => each!(pin => of_point(rocking::<R, 2>(pin, &pivot, &bars).joint)),
+        Part::OnCoupler => each!(pin => of_point(on(pin, &rocking::<R, 2>(pin, &pivot, &bars).coupler, at))),
+        Part::OnRocker => each!(pin => of_point(on(&pivot, &rocking::<R, 2>(pin, &pivot, &bars).rocker, at))),
+        Part::Coupler => each!(pin => of_link(rocking::<R, 2>(pin, &pivot, &bars).coupler)),
+        Part::Rocker => each!(pin => of_link(rocking::<R, 2>(pin, &pivot, &bars).rocker)),
+        Part::Slider => each!(pin => of_point(sliding::<R, 2>(pin, pivot.p, &rod).point)),
+        Part::OnRod => each!(pin => of_point(on(pin, &sliding::<R, 2>(pin, pivot.p, &rod).link, at))),
+        Part::Rod => each!(pin => of_link(sliding::<R, 2>(pin, pivot.p, &rod).link)),
+        Part::Along => each!(pin => of_slide(sliding::<R, 2>(pin, pivot.p, &rod).slide)),
+        Part::Ground | Part::CrankPin | Part::OnCrank | Part::Crank => return None,
+    };
+    Some(flaw)
+}
+
+/// The numbers at all angles; zero, or NaN where not all are finite.
+#[inline(always)]
+fn at_all<R: Real, const K: usize>(
+    (sin, cos): (&[f64], &[f64]),
+    out: &mut [&mut [f64]],
+    values: impl Fn(Angle<R>) -> [R; K],
+) -> R {
+    let mut flaw = R::splat(0.0);
+    for at in (0..sin.len()).step_by(R::LANES) {
+        flaw = put(values(angle_at(sin, cos, at)), at, out).mul_add(R::splat(0.0), flaw);
+    }
+    flaw
+}
+
+#[inline(always)]
+fn angle_at<R: Real>(sin: &[f64], cos: &[f64], at: usize) -> Angle<R> {
+    let sine = R::load(&sin[at..at + R::LANES]);
+    Angle { phi: sine, sin: sine, cos: R::load(&cos[at..at + R::LANES]) }
+}
+
+#[inline(always)]
+fn of_point<R>(Place { p, d1, d2 }: Place<R>) -> [R; 6] {
+    [p.x, p.y, d1.x, d1.y, d2.x, d2.y]
+}
+
+#[inline(always)]
+fn of_link<R>(Heading { e, d1, d2 }: Heading<R>) -> [R; 4] {
+    [e.x, e.y, d1, d2]
+}
+
+#[inline(always)]
+fn of_slide<R>(Slide { s, d1, d2 }: Slide<R>) -> [R; 3] {
+    [s, d1, d2]
+}
+
+/// The point of a link that is asked for.
+#[inline(always)]
+fn on<R: Real>(origin: &Place<R>, link: &Heading<R>, [along, across]: [R; 2]) -> Place<R> {
+    on_link::<R, 2>(origin, link, along, across)
 }
 
 /// Writes one bundle to each list, and returns their sum.
@@ -135,7 +220,7 @@ fn put<R: Real, const K: usize>(values: [R; K], at: usize, out: &mut [&mut [f64]
     let mut sum = values[0];
     let Some(out) = out.first_chunk_mut::<K>() else { return sum };
     for k in 0..K {
-        values[k].store(&mut out[k][at..]);
+        values[k].store(&mut out[k][at..at + R::LANES]);
         if k > 0 {
             sum = sum + values[k];
         }
@@ -159,15 +244,15 @@ fn end<R: Real>(part: Part, q: &Numbers, angle: Angle<R>, pin: &Place<R>) -> End
 /// A point of the chain from the one before.
 #[inline(always)]
 fn point<R: Real>(part: Part, q: &Numbers, angle: Angle<R>, pin: &Place<R>) -> Place<R> {
-    let [along, across] = [R::splat(q[8]), R::splat(q[9])];
+    let at = [R::splat(q[8]), R::splat(q[9])];
     match part {
         Part::CrankPin => turned(q, angle).0,
-        Part::OnCrank => on_link::<R, 2>(&ground(q), &turned(q, angle).1, along, across),
+        Part::OnCrank => on(&ground(q), &turned(q, angle).1, at),
         Part::Joint => bars(q, pin).joint,
-        Part::OnCoupler => on_link::<R, 2>(pin, &bars(q, pin).coupler, along, across),
-        Part::OnRocker => on_link::<R, 2>(&ground(q), &bars(q, pin).rocker, along, across),
+        Part::OnCoupler => on(pin, &bars(q, pin).coupler, at),
+        Part::OnRocker => on(&ground(q), &bars(q, pin).rocker, at),
         Part::Slider => rod(q, pin).point,
-        Part::OnRod => on_link::<R, 2>(pin, &rod(q, pin).link, along, across),
+        Part::OnRod => on(pin, &rod(q, pin).link, at),
         _ => ground(q),
     }
 }
@@ -185,27 +270,35 @@ fn turned<R: Real>(q: &Numbers, angle: Angle<R>) -> (Place<R>, Heading<R>) {
 
 #[inline(always)]
 fn bars<R: Real>(q: &Numbers, pin: &Place<R>) -> Rocking<R> {
+    rocking::<R, 2>(pin, &ground(q), &bars_of(q))
+}
+
+#[inline(always)]
+fn bars_of<R: Real>(q: &Numbers) -> Bars<R> {
     // Written out: `map` of an array is a call of its own wherever it is not inlined.
-    let bars = Bars {
+    Bars {
         coupler: R::splat(q[2]),
         rocker: R::splat(q[3]),
         inverse_coupler: R::splat(q[4]),
         inverse_rocker: R::splat(q[5]),
         sign: R::splat(q[6]),
-    };
-    rocking::<R, 2>(pin, &ground(q), &bars)
+    }
 }
 
 #[inline(always)]
 fn rod<R: Real>(q: &Numbers, pin: &Place<R>) -> Sliding<R> {
-    let rod = Rod {
+    sliding::<R, 2>(pin, ground(q).p, &rod_of(q))
+}
+
+#[inline(always)]
+fn rod_of<R: Real>(q: &Numbers) -> Rod<R> {
+    Rod {
         rod: R::splat(q[2]),
         inverse_rod: R::splat(q[3]),
         sign: R::splat(q[4]),
         offset: R::splat(q[5]),
         t: Vec2::new(R::splat(q[6]), R::splat(q[7])),
-    };
-    sliding::<R, 2>(pin, ground(q).p, &rod)
+    }
 }
 
 /// The stage that has a target, and the point on which it hangs, if any.
@@ -255,7 +348,7 @@ fn taken(mechanism: &Mechanism, element: &Element, target: Channel) -> Option<(S
                 Channel::Link(index) if index == e.rocker_link => Part::Rocker,
                 _ => return None,
             };
-            Some((Stage { part, slots: bars_of(mechanism, e)? }, Some(e.pin)))
+            Some((Stage { part, slots: slots_of_bars(mechanism, e)? }, Some(e.pin)))
         }
         Element::SliderRod(ref e) => {
             let part = match target {
@@ -264,18 +357,18 @@ fn taken(mechanism: &Mechanism, element: &Element, target: Channel) -> Option<(S
                 Channel::Slide(index) if index == e.slide => Part::Along,
                 _ => return None,
             };
-            Some((Stage { part, slots: rod_of(mechanism, e)? }, Some(e.pin)))
+            Some((Stage { part, slots: slots_of_rod(mechanism, e)? }, Some(e.pin)))
         }
         _ => None,
     }
 }
 
-fn bars_of(mechanism: &Mechanism, e: &Rocker) -> Option<Slots> {
+fn slots_of_bars(mechanism: &Mechanism, e: &Rocker) -> Option<Slots> {
     let own = [e.coupler, e.rocker, e.inverse_coupler, e.inverse_rocker, e.sign];
     Some(row(at_rest(mechanism, e.pivot)?, &own))
 }
 
-fn rod_of(mechanism: &Mechanism, e: &SliderRod) -> Option<Slots> {
+fn slots_of_rod(mechanism: &Mechanism, e: &SliderRod) -> Option<Slots> {
     let own = [e.rod, e.inverse_rod, e.sign, e.offset, e.cos, e.sin];
     Some(row(at_rest(mechanism, e.through)?, &own))
 }
