@@ -139,7 +139,7 @@ bench: $(TOOLS)
 docs: $(TOOLS)
 	$(PIP) -e '.[docs]' --no-build-isolation
 	$(BIN)/mkdocs build --strict
-	cargo doc --no-deps --workspace --exclude linkwright-py --locked
+	cargo doc --no-deps --workspace --exclude linkwright-py --exclude linkwright-border --locked
 
 clean:
 	rm -rf $(VENV) target out site python/linkwright/*.so python/linkwright/*.pyd

@@ -28,7 +28,11 @@ STANDS_ON: dict[str, set[str]] = {
     "torsion": {"kernel"},
     "topper": {"kernel"},
     "plan": {"kernel", "linkage", "drive"},
+    "derivatives": {"kernel", "linkage", "drive"},
 }
+
+# The border has no kernels: it converts what crosses it.
+BORDER = {"border", "py"}
 
 
 def source(room: str) -> Path:
@@ -40,7 +44,7 @@ def source(room: str) -> Path:
 def sources(crates: Path) -> dict[Path, Module]:
     """Folders of sources, and the name under which the core offers each: that of a room, or none."""
     rooms = {path: path.parent.name.removeprefix("linkwright-") for path in crates.glob("linkwright-*/src")}
-    return {path: () if room == "core" else (room,) for path, room in rooms.items() if room != "py"}
+    return {path: () if room == "core" else (room,) for path, room in rooms.items() if room not in BORDER}
 
 
 def modules(crates: Path) -> dict[Module, Path]:
