@@ -203,7 +203,7 @@ def test_derivatives_are_found_where_a_load_jumps_over_speed() -> None:
             refused[_reason(error)] += 1
             continue
         names = [f"steady_state.{name}" for name in _NUMBERS]
-        one, wrong = check(machine, names, _BESIDE_JUMPS, cases(6, 1), _BEHIND_JUMPS)
+        one, wrong = check(machine, names, _BESIDE_JUMPS, cases(12, 1), _BEHIND_JUMPS)
         assert not wrong, (case, wrong)
         compared += one
     assert compared > 50, refused
