@@ -1,5 +1,6 @@
 """What all tests share: random cases are always the same ones, and a busy machine is no failure."""
 
+import gc
 import os
 import re
 from collections import Counter
@@ -23,6 +24,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if getattr(getattr(item, "module", None), "cases", None) is cases:
             item.add_marker(pytest.mark.deep)
+
+
+def pytest_collection_finish() -> None:
+    """What is imported by now stays: the collector of garbage does not go through it again and again."""
+    gc.collect()
+    gc.freeze()
+    # Drawing makes many objects that live shortly; looking for cycles among them took a fifth of its time.
+    gc.set_threshold(50_000, 20, 20)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
