@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from sizes import cases
 
 import linkwright as lw
 from linkwright.kernel.errors import SteadyStateError
@@ -40,7 +41,8 @@ def balanced(phi: float, weight: float, drag: float) -> float:
 
 
 @pytest.mark.parametrize("weight", [0.0, 0.9 * STALL])
-@pytest.mark.parametrize("share", DRAGS)
+# The last one takes many times as long as all others; what is lost to rounding shows at the one before.
+@pytest.mark.parametrize("share", DRAGS[: cases(4, 5)])
 def test_a_drive_that_creeps_has_a_steady_motion(share: float, weight: float) -> None:
     drag = share * STALL
     machine = lw.loads(FILE.format(weight=weight, drag=drag))

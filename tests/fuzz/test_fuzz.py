@@ -11,7 +11,7 @@ CHUNK = 50
 
 CHUNKS = [
     (name, start, min(start + CHUNK, count))
-    for name, count in ((name, cases(kind.few, 4 * kind.few)) for name, kind in kinds.KINDS.items())
+    for name, count in ((name, cases(-(-kind.few // 2), 4 * kind.few)) for name, kind in kinds.KINDS.items())
     for start in range(0, count, CHUNK)
 ]
 

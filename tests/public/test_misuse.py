@@ -43,6 +43,7 @@ def _law() -> MotionLaw:
     return found
 
 
+@cache
 def right_calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
     """A right call of each function, by its name."""
     cart, cam, engine = (_machine(name) for name in ("roller_one_cart", "roller_cam", "v8_diesel"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,7 @@ _NAMES = {
 }
 
 
+@cache
 def _said_by(text: str) -> list[str]:
     """Name and description of a machine file, or the title of a paper, as far as it is one."""
     try:

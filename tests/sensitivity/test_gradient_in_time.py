@@ -147,7 +147,10 @@ def compared_with_differences(
     wrong = []
     for at in np.flatnonzero(found.at)[::every]:
         try:
-            rough = [difference(machine, found.variables[at], measure, step) for step in (1e-4, 2e-5, 4e-6)]
+            rough = [difference(machine, found.variables[at], measure, 1e-4)]
+            if (np.abs(rough[0] - exact[:, at]) <= _TOLERANCE * scales).all():
+                continue
+            rough += [difference(machine, found.variables[at], measure, step) for step in (2e-5, 4e-6)]
         except LinkwrightError:
             # Beside it the machine does not start, or does not close.
             continue

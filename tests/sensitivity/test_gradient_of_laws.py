@@ -120,19 +120,26 @@ def difference(machine: lw.Machine, way: dict[str, float], measure: Measure, ste
 def errors(
     machine: lw.Machine, measure: Measure, ways: Sequence[dict[str, float]]
 ) -> dict[tuple[str, str], float]:
-    """By response and way: how far its derivative is off the difference that is nearest, of two steps."""
+    """By response and way: how far its derivative is off a difference that agrees, or the nearer of two."""
     known = measure(machine)
     analysis = next(iter(known)).partition(".")[0]
     found = lw.gradient(machine, [analysis])
     scales = np.maximum(np.nanmax(np.abs(found.derivatives * found.at), axis=1), np.abs(found.values))
     off: dict[tuple[str, str], float] = {}
+    rows = [
+        (row, name) for row, name in enumerate(found.responses) if name in known and name not in found.ties
+    ]
     for way in ways:
-        differences = [difference(machine, way, measure, step) for step in (1e-3, 1e-4)]
-        for row, name in enumerate(found.responses):
-            if name not in known or name in found.ties:
-                continue
-            exact = sum(found.of(name)[entry] * x for entry, x in way.items())
-            off[name, ", ".join(way)] = min(abs(exact - d[name]) for d in differences) / scales[row]
+        exact = {name: sum(found.of(name)[entry] * x for entry, x in way.items()) for _, name in rows}
+        least = dict.fromkeys(exact, np.inf)
+        for step in (1e-3, 1e-4):
+            rough = difference(machine, way, measure, step)
+            least |= {
+                name: min(least[name], abs(exact[name] - rough[name]) / scales[row]) for row, name in rows
+            }
+            if all(size <= TOLERANCE for size in least.values()):
+                break
+        off |= {(name, ", ".join(way)): size for name, size in least.items()}
     return off
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from differences import sixth_order
 
 import linkwright as lw
 from linkwright.cam.dynamics.loaded import cam_force
@@ -43,10 +44,7 @@ def differences(machine: lw.Machine, entry: str, measure: Measure, step: float =
     """Central differences over h, 2h and 4h, extrapolated to sixth order."""
     value = float(lw.get(machine, entry))
     h = step * (abs(value) or 1.0)
-    near = {n: np.array(measure(exchanged(machine, {entry: value + n * h}))) for n in (-4, -2, -1, 1, 2, 4)}
-    once, twice, four = ((near[n] - near[-n]) / (2 * n * h) for n in (1, 2, 4))
-    found: np.ndarray = (64 * once - 20 * twice + four) / 45
-    return found
+    return sixth_order(lambda by: np.array(measure(exchanged(machine, {entry: value + by}))), h)
 
 
 def errors(
@@ -65,7 +63,11 @@ def errors(
 
 
 def scalars(analyse: Callable[[lw.Machine], object]) -> Callable[[lw.Machine, list[str]], list[float]]:
-    return lambda machine, names: [getattr(analyse(machine), name.rpartition(".")[2]) for name in names]
+    def measure(machine: lw.Machine, names: list[str]) -> list[float]:
+        found = analyse(machine)
+        return [getattr(found, name.rpartition(".")[2]) for name in names]
+
+    return measure
 
 
 # Conventional, by API's example; Mark II and air-balanced with sizes of their kind.

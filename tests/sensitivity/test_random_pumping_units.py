@@ -76,15 +76,17 @@ def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
     scales[torques] += max(abs(derived.tangents[name].value) for name in names if "gear.torque_net" in name)
     wrong, compared = [], 0
     for k in np.flatnonzero(np.abs(exact).max(axis=0))[::every]:
-        errors = [
-            np.abs(_difference(machine, names, derived.variables[k], step) - exact[:, k]) / scales
-            for step in _STEPS
-        ]
+        errors = []
+        for step in _STEPS:
+            rough = _difference(machine, names, derived.variables[k], step)
+            errors.append(np.abs(rough - exact[:, k]) / scales)
+            if (errors[0] <= _TOLERANCE).all():
+                break
         least = np.min(errors, axis=0)
         wrong += [
             f"{name} by {derived.variables[k]}: {least[i]:.1e}"
             for i, name in enumerate(names)
-            if least[i] > _TOLERANCE and not errors[1][i] < 1e-2 * errors[0][i]
+            if least[i] > _TOLERANCE and not errors[-1][i] < 1e-2 * errors[0][i]
         ]
         compared += len(names)
     return compared, wrong

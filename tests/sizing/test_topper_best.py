@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from sizes import cases
 from tests.samples import topper_fields
 
 import linkwright as lw
@@ -139,7 +140,8 @@ def test_the_fastest_has_no_length_to_spare() -> None:
 def test_limits_that_no_knife_keeps(limits: str, limit: str, words: str) -> None:
     missing = limit in ("haulm_max", "complete_min")
     height = {"kind": "normal", "mean": 0.02, "deviation": 0.018} if missing else 0.03
-    found: KnifeSearch = best_knife(machine(limits, field__cut_height=height))
+    topped = machine(limits, field__cut_height=height, field__roots=cases(200, 1000))
+    found: KnifeSearch = best_knife(topped)
     assert found.best is None
     assert found.failing is not None
     assert found.failing.limit == limit

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from sizes import cases
 from tests.samples.topper_fields import TOPPER
 
 import linkwright as lw
 from linkwright.app.application import application
 
-FIELD = '[topper.field]\nkind = "random"\nroots = 400\nrows = 20\n'
+FIELD = f'[topper.field]\nkind = "random"\nroots = {cases(100, 400)}\nrows = 20\n'
 LIMITS = "[topper.limits]\ncomplete_min = 0.9\nslicing_min = 0.4\nhaulm_max = 0.05\n"
 
 
@@ -60,7 +61,7 @@ def test_a_general_search_of_the_study_finds_none_better(tmp_path: Path) -> None
 
 def test_a_knife_on_a_crank_varies_its_speed(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
-    words = ("--set", "topper.field.kind=random", "--set", "topper.field.roots=200")
+    words = ("--set", "topper.field.kind=random", "--set", f"topper.field.roots={cases(100, 200)}")
     done = run("topper", "best", "topper_crank", *words, "--study", str(study), "--json", "--seed", "3")
     assert done.exit_code == 0, done.output
     best, plan = json.loads(done.stdout)["results"]["topper_best"], lw.read_study(study)

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from sizes import cases
 
 import linkwright as lw
 from linkwright.app.application import application
@@ -212,7 +213,8 @@ inertia = "minimise"
     def found(limit: float) -> Optimum:
         (tmp_path / "study.toml").write_text(text.format(limit=limit))
         wheel = {"drive.flywheel": {"inertia": 5.0}}
-        return lw.optimise(lw.read_study(tmp_path / "study.toml", wheel), 700, method="gradient", starts=4)
+        plan = lw.read_study(tmp_path / "study.toml", wheel)
+        return lw.optimise(plan, 700, method="gradient", starts=cases(2, 4))
 
     best, step = found(0.05), 1e-4
     slope = (found(0.05 - step).responses["inertia"] - found(0.05 + step).responses["inertia"]) / (2 * step)
@@ -425,7 +427,7 @@ def test_all_machines_are_counted(
         "exact without answer": BESIDE.replace(*AS_EXACT),
     }[kind]
     counts = machines(monkeypatch)
-    found = optimum(tmp_path, text, 300, method, starts=2)
+    found = optimum(tmp_path, text, 300, method, starts=cases(1, 2))
     assert found.n_evaluations == sum(counts)
     assert bool(found.reasons) == ("answer" in kind)
 

@@ -14,6 +14,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
+from sizes import cases
 
 import linkwright as lw
 from linkwright.torsion.excitation.excited_train import excited_train
@@ -168,7 +169,7 @@ def is_spare(machine: lw.Machine, one: CriticalResponse, peaks: list[float]) -> 
     return matched[0] == matched[1]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(cases(4, 12)))
 def test_random_trains(seed: int) -> None:
     """Each peak is a maximum of the response and counts once; a critical speed without one has none left."""
     machine = chain(seed)
