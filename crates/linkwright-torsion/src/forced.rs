@@ -14,6 +14,10 @@
 //!
 //! which is Gauss's elimination in the order of the tree, without fill. A lane is a speed.
 //!
+//! Where D_c + s is zero the discs beyond the shaft are in tune, as an absorber is: they hold the disc p still, and respond
+//! themselves by what it bears. That is no resonance, and the elimination divides by zero all the same. There the divisor is
+//! held at a small share of s, and the error that this makes is taken out again by the residual of the equations.
+//!
 //! Source: Holzer, *Die Berechnung der Drehschwingungen* (1921); with complex numbers Ker Wilson, *Practical Solution of
 //! Torsional Vibration Problems*, vol. 4.
 
@@ -25,7 +29,7 @@ use linkwright_kernel::real::Real;
 use num_complex::Complex64;
 use rayon::current_num_threads;
 use rayon::prelude::*;
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Sub};
 
 /// What damps a train, and how that changes with the speed.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +101,22 @@ impl<R: Real> Add for Z<R> {
     }
 }
 
+impl<R: Real> Sub for Z<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Z(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl<R: Real> Mul<f64> for Z<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, by: f64) -> Self {
+        Z(self.0 * by, self.1 * by)
+    }
+}
+
 impl<R: Real> Mul for Z<R> {
     type Output = Self;
     #[inline(always)]
@@ -107,11 +127,23 @@ impl<R: Real> Mul for Z<R> {
 }
 
 impl<R: Real> Z<R> {
+    /// |z|².
+    #[inline(always)]
+    fn squared(self) -> R {
+        self.0.mul_add(self.0, self.1 * self.1)
+    }
+
     #[inline(always)]
     fn recip(self) -> Self {
-        let size = self.0.mul_add(self.0, self.1 * self.1).recip();
+        let size = self.squared().recip();
         Z(self.0 * size, -(self.1 * size))
     }
+}
+
+/// Lane by lane `low` where `size` is below a limit, else `other`.
+#[inline(always)]
+fn pick<R: Real>(size: R, limit: R, low: Z<R>, other: Z<R>) -> Z<R> {
+    Z(size.select_lt(limit, low.0, other.0), size.select_lt(limit, low.1, other.1))
 }
 
 /// What a shaft and its disc are at some speeds: k, ηk, c, c₀.
@@ -161,7 +193,10 @@ impl Job for ResponseJob<'_> {
                     for (step, row) in steps.iter_mut().zip(block.chunks_exact(speeds)) {
                         step.M = read(row, first);
                     }
-                    train.respond(speed * order, &parts, &mut steps);
+                    if train.respond(speed * order, &parts, &mut steps) {
+                        let torque = |disc: usize| read(&block[disc * speeds..(disc + 1) * speeds], first);
+                        train.correct(speed * order, &parts, torque, &mut steps);
+                    }
                     for (step, row) in steps.iter().zip(block.chunks_exact_mut(speeds)) {
                         write(step.M, row, first);
                     }
@@ -172,9 +207,10 @@ impl Job for ResponseJob<'_> {
 }
 
 impl Train {
-    /// Amplitudes in place of torques, at one ω a lane.
+    /// Amplitudes in place of torques, at one ω a lane; whether a divisor was held away from zero.
     #[inline(always)]
-    fn respond<R: Real>(&self, omega: R, parts: &[Part<R>], steps: &mut [Step<R>]) {
+    fn respond<R: Real>(&self, omega: R, parts: &[Part<R>], steps: &mut [Step<R>]) -> bool {
+        let mut held = R::splat(1.0);
         let square = omega.squared();
         for ((step, part), &J) in steps.iter_mut().zip(parts).zip(&self.inertia) {
             step.D = Z(-(square * J), omega * part.ground);
@@ -182,7 +218,10 @@ impl Train {
         }
         for c in (1..self.len()).rev() {
             let Step { D, s, M } = steps[c];
-            let pivot = (D + s).recip();
+            let (sum, least) = (D + s, s.squared() * (IN_TUNE * IN_TUNE));
+            let size = sum.squared();
+            held = held.min(size - least);
+            let pivot = pick(size, least, s * IN_TUNE, sum).recip();
             let share = s * pivot;
             steps[c].D = pivot;
             let up = &mut steps[self.parent[c]];
@@ -196,8 +235,48 @@ impl Train {
             let step = &mut steps[c];
             step.M = (step.M + step.s * up) * step.D;
         }
+        held.any_below(R::splat(0.0))
+    }
+
+    /// Takes out of the amplitudes what divisors that were held away from zero made of them.
+    #[inline(always)]
+    fn correct<R: Real>(
+        &self,
+        omega: R,
+        parts: &[Part<R>],
+        torque: impl Fn(usize) -> Z<R>,
+        steps: &mut [Step<R>],
+    ) {
+        let square = omega.squared();
+        let mut theta: Vec<Z<R>> = steps.iter().map(|step| step.M).collect();
+        for _ in 0..CORRECTIONS {
+            for i in 0..self.len() {
+                let D = Z(-(square * self.inertia[i]), omega * parts[i].ground);
+                steps[i].M = torque(i) - (D + steps[i].s) * theta[i];
+            }
+            for c in 1..self.len() {
+                let (p, s) = (self.parent[c], steps[c].s);
+                steps[c].M = steps[c].M + s * theta[p];
+                steps[p].M = steps[p].M + s * (theta[c] - theta[p]);
+            }
+            self.respond(omega, parts, steps);
+            for (theta, step) in theta.iter_mut().zip(steps.iter()) {
+                *theta = *theta + step.M;
+            }
+        }
+        for (step, theta) in steps.iter_mut().zip(theta) {
+            step.M = theta;
+        }
     }
 }
+
+/// Share of the shaft's stiffness below which discs beyond it count as in tune: rounding of the torque over it, and it itself, leave
+/// as many digits.
+const IN_TUNE: f64 = 1e-8;
+
+/// Corrections then: the first leaves that share where a torque acts on the disc in tune, which cancels in its amplitude, and each
+/// further one multiplies what is left by about as much.
+const CORRECTIONS: usize = 3;
 
 /// Lanes of a row from a place on; past its end the last entry again.
 #[inline(always)]

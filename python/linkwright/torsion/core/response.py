@@ -176,16 +176,53 @@ def _distributed(
     k = np.zeros((len(orders), n + 1, len(at.speeds)), complex)
     for s, row in enumerate(tree.row.tolist()):
         k[:, row] += there.stiffness[:, s]
-    # Leaves first: what hangs on a shaft is a spring k behind which a stiffness d lies, k d/(k + d).
-    for row in range(n - 1, 0, -1):
-        share = k[:, row] / (k[:, row] + own[:, row])
-        own[:, tree.parent[row]] += share * own[:, row]
-        f[:, tree.parent[row]] += share * f[:, row]
+    k = k[:, :n]
+    q, is_held = _eliminated(tree.parent, own, k, f)
+    for _ in range(_CORRECTIONS if is_held else 0):
+        q += _eliminated(tree.parent, own, k, f - _balance(tree.parent, own, k, q))[0]
+    return np.take(q, np.argsort(tree.order), axis=1)
+
+
+# As in the core: share of a shaft's stiffness below which what hangs on it counts as in tune with the order.
+_IN_TUNE = 1e-8
+
+# Corrections then, as in the core.
+_CORRECTIONS = 3
+
+
+def _eliminated(parent: Integers, own: Complexes, k: Complexes, f: Complexes) -> tuple[Complexes, bool]:
+    """Amplitudes of a tree, from the leaves to the root and back, and whether a divisor was held off zero.
+
+    Masses in tune hold the one that they hang on still: that is no resonance, but divides by zero. All
+    arrays: (orders, masses, speeds) in the order of the tree; the shaft of a mass is above it.
+    """
+    own, f, is_held = own.copy(), f.copy(), False
+    for row in range(len(parent) - 1, 0, -1):
+        pivot = own[:, row] + k[:, row]
+        in_tune = np.abs(pivot) < _IN_TUNE * np.abs(k[:, row])
+        is_held |= bool(in_tune.any())
+        pivot = np.where(in_tune, _IN_TUNE * k[:, row], pivot)
+        # What hangs on a shaft is a spring k behind which a stiffness d lies, k d/(k + d).
+        share = k[:, row] / pivot
+        f[:, parent[row]] += share * f[:, row]
+        own[:, parent[row]] += share * own[:, row]
+        own[:, row] = pivot
     q = np.empty_like(f)
     q[:, 0] = f[:, 0] / (own[:, 0] + k[:, 0])
-    for row in range(1, n):
-        q[:, row] = (f[:, row] + k[:, row] * q[:, tree.parent[row]]) / (own[:, row] + k[:, row])
-    return np.take(q, np.argsort(tree.order), axis=1)
+    for row in range(1, len(parent)):
+        q[:, row] = (f[:, row] + k[:, row] * q[:, parent[row]]) / own[:, row]
+    return q, is_held
+
+
+def _balance(parent: Integers, own: Complexes, k: Complexes, q: Complexes) -> Complexes:
+    """Torques that amplitudes ask for, (orders, masses, speeds)."""
+    torques = own * q
+    torques[:, 0] += k[:, 0] * q[:, 0]
+    for row in range(1, len(parent)):
+        carried = k[:, row] * (q[:, row] - q[:, parent[row]])
+        torques[:, row] += carried
+        torques[:, parent[row]] -= carried
+    return torques
 
 
 def shaft_torques(
