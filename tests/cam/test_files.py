@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from brute_force import distances, samples
 from cam_outlines import CAMS, Cam, eccentric
+from sizes import DEEP
 
 from linkwright.cam.manufacture.curve import Track
 from linkwright.cam.manufacture.drawing import Drawing
@@ -24,8 +25,12 @@ CAM = CAMS["dwells, cycloidal, roller"]
 DRAWING = Drawing("Presser cam", {"PROFILE": CAM, "PITCH_CURVE": CAMS["flat face"]}, zero_angle=0.5)
 
 
-@pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("name", CAMS)
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("name", "form"),
+    # In `make test` every form with half of the cams, and every cam with half of the forms.
+    [(name, form) for n, name in enumerate(CAMS) for k, form in enumerate(FORMS) if DEEP or (n + k) % 2],
+)
 def test_files_are_written_and_keep_the_tolerance(tmp_path: Path, name: str, form: Form) -> None:
     drawing = Drawing(name, {"PROFILE": CAMS[name]})
     written = write_drawing(tmp_path, drawing, form=form, tolerance=1e-5)

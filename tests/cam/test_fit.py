@@ -30,7 +30,7 @@ from linkwright.cam.manufacture.fit import Form, Path, deviation, fit
 from linkwright.cam.manufacture.outline import Outline
 from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 
-TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8) if DEEP else (1e-4, 1e-6, 1e-8)
+TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8) if DEEP else (1e-4, 1e-8)
 
 # Sides of the polygons by which distances are checked, for a curve of 0.3 m. With their root over the length
 # their own chords, c²/(8r), err by at most 4e-10 m: cams of other sizes have other radii.
@@ -81,7 +81,8 @@ def test_arcs_keep_the_tolerance(name: str, tolerance: float) -> None:
     assert max(forth, back) == pytest.approx(measured, rel=0.02, abs=_blur(tolerance))
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+@pytest.mark.deep
+@pytest.mark.parametrize("tolerance", TOLERANCES)
 @pytest.mark.parametrize("form", ["spline", "cubic"])
 @pytest.mark.parametrize("name", CAMS)
 def test_splines_keep_the_tolerance(name: str, form: Form, tolerance: float) -> None:

@@ -72,11 +72,12 @@ def test_transfer_functions_are_those_of_the_package() -> None:
 
 def test_tables_of_the_report_are_there_in_the_language() -> None:
     machine = lw.read(ROOT / "machines" / "v8_diesel.toml")
-    answer = said(found(machine, "torsion"), "torsion", language("uk"))
+    study = found(machine, "torsion")
+    answer = said(study, "torsion", language("uk"))
     titles = [table["title"] for table in answer.tables]
     assert any("частот" in title for title in titles), titles
     assert answer.headline
-    english = said(found(machine, "torsion"), "torsion")
+    english = said(study, "torsion")
     lowest = next(f for f in lw.free_vibration(machine).natural_frequencies.tolist() if f > 0)
     cells = [cell for table in english.tables for row in table["rows"] for cell in row]
     assert any(cell.startswith(f"{lowest:.4g}") for cell in cells)
