@@ -1,6 +1,6 @@
 """Derivatives of run-up and run-down by entries of the machine.
 
-The core follows the variational equation along the motion (`linkwright-core`, module
+The core follows the variational equation along the motion (its module
 `derivatives::variation`). What ends a motion at g(t, φ, ω, p) = 0 comes later by δt = −δg/ġ, the change
 at the time held over the rate. A run-up ends where the speed enters the band about that of steady motion at
 the same angle, ω − ω_s(φ) = ±s ω_m, of which the derivatives are those of `linkwright.drive.gradient`; a
