@@ -1,8 +1,8 @@
 """Derivatives of steady motion by entries of the machine: a `SteadyState` whose scalars are tangents.
 
 The core gives the derivatives of the solution itself (its module `derivatives::gradient`): Newton's step in
-dual numbers, once, at the solution. All that is worked out from those, δ, H, k_p, efficiencies, comes from the
-formulas of `SteadyState` and `evenness`, which take tangents as they take numbers. The derivative of
+dual numbers, once, at the solution. All that is worked out from those, δ, H, k_p, efficiencies, comes from
+the formulas of `SteadyState` and `evenness`, which take tangents as they take numbers. The derivative of
 an extreme is that of the curve where it is (envelope theorem); where two extremes tie there is one on either
 side, and `ties` says so.
 """
