@@ -59,6 +59,7 @@ pub use x86::{Avx2, Avx512};
 mod x86 {
     use super::Register;
     use std::arch::x86_64::*;
+    use std::sync::LazyLock;
 
     /// Four numbers.
     #[derive(Clone, Copy)]
@@ -67,6 +68,24 @@ mod x86 {
     /// Eight numbers.
     #[derive(Clone, Copy)]
     pub struct Avx512(__m512d);
+
+    // Asked once: short work asks for every call.
+    static AVX2: LazyLock<bool> = LazyLock::new(|| {
+        is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt")
+    });
+    static AVX512: LazyLock<bool> = LazyLock::new(|| {
+        Avx2::is_here()
+            && is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512cd")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+    });
 
     /// Functions that are one instruction each.
     macro_rules! instructions {
@@ -97,12 +116,7 @@ mod x86 {
         type Mask = __m256d;
 
         fn is_here() -> bool {
-            is_x86_feature_detected!("avx2")
-                && is_x86_feature_detected!("fma")
-                && is_x86_feature_detected!("bmi1")
-                && is_x86_feature_detected!("bmi2")
-                && is_x86_feature_detected!("lzcnt")
-                && is_x86_feature_detected!("popcnt")
+            *AVX2
         }
         #[inline(always)]
         fn call<T>(work: impl FnOnce() -> T) -> T {
@@ -173,12 +187,7 @@ mod x86 {
         type Mask = __mmask8;
 
         fn is_here() -> bool {
-            Avx2::is_here()
-                && is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512bw")
-                && is_x86_feature_detected!("avx512cd")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512vl")
+            *AVX512
         }
         #[inline(always)]
         fn call<T>(work: impl FnOnce() -> T) -> T {
