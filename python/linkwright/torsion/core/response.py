@@ -191,11 +191,8 @@ _CORRECTIONS = 3
 
 
 def _eliminated(parent: Integers, own: Complexes, k: Complexes, f: Complexes) -> tuple[Complexes, bool]:
-    """Amplitudes of a tree, from the leaves to the root and back, and whether a divisor was held off zero.
-
-    Masses in tune hold the one that they hang on still: that is no resonance, but divides by zero. All
-    arrays: (orders, masses, speeds) in the order of the tree; the shaft of a mass is above it.
-    """
+    """Amplitudes of a tree, (orders, masses, speeds), and whether a divisor was held off zero."""
+    # Masses in tune hold the one that they hang on still: that is no resonance, but divides by zero.
     own, f, is_held = own.copy(), f.copy(), False
     for row in range(len(parent) - 1, 0, -1):
         pivot = own[:, row] + k[:, row]
