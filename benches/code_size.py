@@ -42,7 +42,9 @@ def told_by(*words: str) -> list[str]:
 def functions(library: Path) -> list[tuple[int, str]]:
     """Size [bytes] and name of each function, the largest first."""
     rows = (line.split(maxsplit=3) for line in told_by("nm", "-S", "-C", "--defined-only", str(library)))
-    return sorted(((int(row[1], 16), row[3]) for row in rows if len(row) == 4 and row[2] in "tTwW"), reverse=True)
+    return sorted(
+        ((int(row[1], 16), row[3]) for row in rows if len(row) == 4 and row[2] in "tTwW"), reverse=True
+    )
 
 
 def crate(name: str) -> str:
@@ -87,7 +89,11 @@ def main() -> int:
     faults = [
         *(f"{shown(name)} has {size:,} bytes, {LARGEST:,} at most" for size, name in rows if size > LARGEST),
         *([f"the core has {core:,} bytes, {ALL:,} at most"] if core > ALL else []),
-        *([f"{loose.total()} calls of single instructions, {CALLS} at most"] if loose.total() > CALLS else []),
+        *(
+            [f"{loose.total()} calls of single instructions, {CALLS} at most"]
+            if loose.total() > CALLS
+            else []
+        ),
     ]
     print("\n".join(faults) or f"core {core / 1e6:.2f} MB: within limits")
     return int(bool(faults))
