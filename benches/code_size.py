@@ -1,11 +1,12 @@
 """Machine code of the core: its largest functions, its sum, and kernels that came apart.
 
-``python benches/code_size.py [LIBRARY]`` reads the compiled module with its symbols, as `make build` leaves it. It ends with 1
+``python benches/code_size.py [LIBRARY]`` reads the compiled module with its symbols, as `make build` leaves it.
+It ends with 1
 
-- if a function is larger than 64 kB, or core and derivatives together are larger than 4.5 MB: a compiler takes longer than linearly
-  over a function, and so does everybody who builds;
-- if more vector instructions than today are calls of functions: each takes as long as ten to twenty of the instructions, and a
-  kernel of them is up to 25 times slower.
+- if a function is larger than 64 kB, or core and derivatives together are larger than 4.5 MB: a compiler takes
+  longer than linearly over a function, and so does everybody who builds;
+- if more vector instructions than today are calls of functions: each takes as long as ten to twenty of the
+  instructions, and a kernel of them is up to 25 times slower.
 
 Needs binutils and a library in the ELF format.
 """
@@ -23,7 +24,8 @@ LIBRARY = Path(__file__).parents[1] / "python" / "linkwright" / "_core.abi3.so"
 # A function, and core with derivatives [bytes].
 LARGEST, ALL = 64 * 1024, 4_500_000
 
-# Calls of single vector instructions. The few are in functions that a motion calls a few times: sorting kinks, collecting levels.
+# Calls of single vector instructions. The few are in functions that a motion calls a few times: sorting
+# kinks, collecting levels.
 CALLS = 700
 
 # Of which crate a function is: the first in its name of those that stand highest.
