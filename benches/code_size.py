@@ -1,10 +1,10 @@
 """Machine code of the core: its largest functions, its sum, and kernels that came apart.
 
-``python benches/code_size.py [LIBRARY]`` reads the compiled module with its symbols, as `make build` leaves it.
-It ends with 1
+``python benches/code_size.py [LIBRARY]`` reads the compiled module with its symbols, as `make build` leaves
+it. It ends with 1
 
-- if a function is larger than 64 kB, or core and derivatives together are larger than 4.5 MB: a compiler takes
-  longer than linearly over a function, and so does everybody who builds;
+- if a function is larger than 64 kB, or core and derivatives together are larger than 4.5 MB: a compiler
+  takes longer than linearly over a function, and so does everybody who builds;
 - if more vector instructions than today are calls of functions: each takes as long as ten to twenty of the
   instructions, and a kernel of them is up to 25 times slower.
 
