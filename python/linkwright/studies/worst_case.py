@@ -4,7 +4,7 @@ r"""Worst case of tolerances: the machine itself at the two corners that the sig
 
 is exact where f is monotone in each variable, however many there are and however curved f is. At each corner
 every variable is moved alone, a little inwards and to its other end: where that goes beyond the corner, f is
-not monotone and the most of what was computed is no more than the least that the worst case can be.
+not monotone, and the extremes of all that was computed bound the worst case from within.
 
 References
 ----------
@@ -63,11 +63,11 @@ def worst_case(
     own = dict(
         zip(bounded, np.split(back.ravel(), 2 * np.arange(1, len(bounded)) * len(places[0])), strict=True)
     )
-    found = {
+    cases = {
         name: _judged(plan, rows, name, own[name].reshape(2, -1), slopes[name], values[name], drawn[name])
         for name in bounded
     }
-    return {name: (found | endless)[name] for name in plan.responses}
+    return {name: (cases | endless)[name] for name in plan.responses}
 
 
 def _places(plan: StudyPlan, middles: Floats, rise: Floats) -> Floats:
