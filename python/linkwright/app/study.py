@@ -294,10 +294,12 @@ def _pumped(machine: Machine, findings: Findings) -> tuple[PumpingUnitMotion | N
     """The polished rod and the rotator of a pumping unit."""
     if machine.pumping_unit is None:
         return None, None
+    from linkwright.pumping.cautions import unit_findings
     from linkwright.pumping.rod_rotator import rod_rotator
     from linkwright.pumping.unit import pumping_unit
 
     unit = findings.of(pumping_unit, machine, n=INTERVALS)
+    findings.add(unit_findings(unit) if unit is not None else ())
     return unit, findings.of(rod_rotator, machine, n=INTERVALS) if machine.rod_rotator else None
 
 
