@@ -37,7 +37,7 @@ from linkwright.linkages.cautions import linkage_cautions
 from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.idle_parts import idle_parts
-from linkwright.linkages.law_jumps import law_cautions
+from linkwright.linkages.law_jumps import law_cautions, shaft_of_laws
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
@@ -236,7 +236,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     moved = findings.of(linkage, machine)
     if moved is not None:
         findings.add(idle_parts(machine))
-        findings.warn((*linkage_cautions(moved), *law_cautions(machine)))
+        findings.warn((*linkage_cautions(moved), *law_cautions(machine), *shaft_of_laws(machine)))
         if moved.closure.turns_fully and machine.drive is not None and machine.drive.motor is not None:
             findings.of(over_whole_cycle, compile_machine(machine))
     result = _turned(machine, findings, accuracy, step)

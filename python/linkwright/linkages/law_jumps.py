@@ -58,16 +58,33 @@ class LawJump:
         )
 
 
-def law_jumps(machine: Machine) -> list[LawJump]:
-    """Jumps of the laws over a revolution, those of the velocity first; empty without laws."""
+def drivers_with_laws(machine: Machine) -> dict[str, tuple[str, bool]]:
+    """Cranks and linear drivers with a formula: name → the formula, and whether it is an angle."""
     mechanism = machine.linkage
     laws = {name: (crank.law, True) for name, crank in mechanism.cranks.items() if crank.law}
-    laws |= {name: (driver.law, False) for name, driver in mechanism.linear_drivers.items() if driver.law}
+    return laws | {
+        name: (driver.law, False) for name, driver in mechanism.linear_drivers.items() if driver.law
+    }
+
+
+def shaft_of_laws(machine: Machine) -> Iterator[str]:
+    """What torques at the crank are where drivers follow laws; nothing without masses and loads."""
+    names = ", ".join(drivers_with_laws(machine))
+    if names and (machine.bodies or machine.loads):
+        yield (
+            f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the shaft "
+            "in front of the law; a motor that makes the motion itself needs the torque of the drive behind it"
+        )
+
+
+def law_jumps(machine: Machine) -> list[LawJump]:
+    """Jumps of the laws over a revolution, those of the velocity first; empty without laws."""
+    laws = drivers_with_laws(machine)
     if not laws:
         return []
     compiled = compile_machine(machine).first()
     return [
-        LawJump(name, text or "", order, angle, before, after, is_angle)
+        LawJump(name, text, order, angle, before, after, is_angle)
         for order in (1, 2)
         for name, (text, is_angle) in laws.items()
         for angle, before, after in _jumps(compiled, compiled.slides[f"{name}.law"], order)
