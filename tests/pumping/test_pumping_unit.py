@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError
 from linkwright.pumping.model.unit import PumpingUnit
 from linkwright.pumping.model.unit_catalogue import catalogue_unit, pumping_units
 from linkwright.pumping.unit import PumpingUnitMotion, pumping_unit
 
 INCH = 0.0254
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "pumping_unit_torque" / "machine.toml"
 
 # Proportions of a Mark II and of an air-balanced unit, made up: letters in metres. The equalizer bearing of
 # a Mark II lies in front of the shaft.
@@ -348,3 +355,32 @@ def test_unit_that_does_not_close() -> None:
 def test_no_unit() -> None:
     with pytest.raises(InputError, match="pumping_unit"):
         pumping_unit(lw.read("machines/roller_one_cart.toml"))
+
+
+def test_an_overloaded_gearbox_is_a_finding() -> None:
+    """110 % of the designation ends with exit code 1, as a limit of torsion does; below it there is none."""
+    path = str(EXAMPLE)
+    result = CliRunner().invoke(application(), ["run", path, "--json"])
+    assert result.exit_code == 1
+    (finding,) = json.loads(result.stdout)["findings"]
+    assert "The gearbox is overloaded" in finding
+    assert "110 % of its rating" in finding
+    lighter = ["--set", 'pumping_unit.load.up=["26.6 kN", "37 kN", "35 kN"]']
+    result = CliRunner().invoke(application(), ["run", path, "--json", *lighter])
+    assert (result.exit_code, json.loads(result.stdout)["findings"]) == (0, [])
+
+
+def test_counterbalance_effect_of_weights() -> None:
+    """Weights with M = E TF at 90° balance a load E + B at the rod there: the gearbox is free of torque."""
+    machine = lw.read(EXAMPLE)
+    found = pumping_unit(machine, n=3600)
+    gear = found.gear
+    assert gear is not None
+    assert gear.counterbalance_effect is not None
+    at = int(np.argmin(np.abs(gear.crank_angle - 0.5 * np.pi)))
+    factor = gear.torque_rod[at] / (gear.rod_load[at] - machine.pumping_unit.structural_unbalance)  # type: ignore[union-attr]
+    free = gear.torque_rod[at] + gear.torque_counterbalance[at]
+    assert gear.counterbalance_effect == pytest.approx(gear.rod_load[at] - free / factor, rel=1e-9)
+    table = CliRunner().invoke(application(), ["run", str(EXAMPLE)]).stdout
+    assert "counterbalance effect" in table
+    assert "maximum moment of the counterweights" in table

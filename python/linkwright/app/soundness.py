@@ -3,6 +3,7 @@
 | looked at | for | by |
 | --- | --- | --- |
 | mechanism | closes over the whole revolution, loads have values there | `require_turn` |
+| mechanism | no law has a corner that moves masses, no part of it is idle | `require_turn`, `idle_parts` |
 | drive | masses and loads repeat, the motor drives, the machine starts | `over_whole_cycle`, `start_of` |
 | pumping unit | the crank rotates fully | `PolishedRod` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
@@ -30,9 +31,11 @@ from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.closure import closure, over_whole_cycle
+from linkwright.linkages.idle_parts import idle_parts
+from linkwright.linkages.law_jumps import law_cautions
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 if TYPE_CHECKING:
     from linkwright.torsion.modes.free import FreeVibration
@@ -47,6 +50,7 @@ class Soundness:
 
     looked_at: tuple[str, ...]  # what was looked at, in words
     findings: tuple[str, ...]  # what the machine cannot do, in sentences
+    warnings: tuple[str, ...]  # what its designer should know although it moves, in sentences
 
 
 def soundness(machine: Machine) -> Soundness:
@@ -58,7 +62,7 @@ def soundness(machine: Machine) -> Soundness:
         *_mechanism(machine, findings),
         *_train(machine, findings),
     ]
-    return Soundness(tuple(looked), findings.findings)
+    return Soundness(tuple(looked), findings.findings, findings.warnings)
 
 
 def _diagram(machine: Machine, findings: Findings) -> Iterator[str]:
@@ -110,10 +114,15 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
                 findings.of(loaded_cam, machine, cam)
             yield "cams at constant speed: followers that leave them"
     compiled = findings.of(require_turn, machine)
+    if compiled is not None:
+        findings.add(idle_parts(machine))
+        findings.warn(law_cautions(machine))
     yield "mechanism: closure over the whole revolution" + (", loads there" if machine.loads else "")
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)
+        elif closure(machine).turns_fully:
+            findings.of(over_whole_cycle, compile_machine(machine))
         yield "drive: characteristic of the motor, start"
 
 

@@ -34,8 +34,12 @@ from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.cautions import linkage_cautions
+from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.cycle import Linkage, linkage
+from linkwright.linkages.idle_parts import idle_parts
+from linkwright.linkages.law_jumps import law_cautions, shaft_of_laws
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
 
 if TYPE_CHECKING:
@@ -230,7 +234,11 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         return _topped(Study(machine, turning_moment=diagram, findings=findings.findings), cut)
     unit, rotator = _pumped(machine, findings)
     moved = findings.of(linkage, machine)
-    findings.warn(linkage_cautions(moved) if moved is not None else ())
+    if moved is not None:
+        findings.add(idle_parts(machine))
+        findings.warn((*linkage_cautions(moved), *law_cautions(machine), *shaft_of_laws(machine)))
+        if moved.closure.turns_fully and machine.drive is not None and machine.drive.motor is not None:
+            findings.of(over_whole_cycle, compile_machine(machine))
     result = _turned(machine, findings, accuracy, step)
     result = replace(
         result,
@@ -286,10 +294,12 @@ def _pumped(machine: Machine, findings: Findings) -> tuple[PumpingUnitMotion | N
     """The polished rod and the rotator of a pumping unit."""
     if machine.pumping_unit is None:
         return None, None
+    from linkwright.pumping.cautions import unit_findings
     from linkwright.pumping.rod_rotator import rod_rotator
     from linkwright.pumping.unit import pumping_unit
 
     unit = findings.of(pumping_unit, machine, n=INTERVALS)
+    findings.add(unit_findings(unit) if unit is not None else ())
     return unit, findings.of(rod_rotator, machine, n=INTERVALS) if machine.rod_rotator else None
 
 

@@ -9,6 +9,7 @@ from linkwright.kernel.errors import FindingError, SteadyStateError
 from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
+from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -49,8 +50,9 @@ def require_same_turns(machine: Machine) -> None:
 def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if a load has no value at some angle, or a torsional spring is turned beyond half a revolution.
 
-    The `FindingError` names the load, the angle and the remedy.
+    So it does if a law with a corner moves masses. The `FindingError` names load or law, angle and remedy.
     """
+    require_finite_accelerations(machine)
     doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
     if not doubtful:
         return

@@ -24,6 +24,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, positive
 from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import motion_at
@@ -278,6 +279,7 @@ def transient(
         raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     require_half_turns(compiled, machine)
+    require_finite_accelerations(machine)
     turning = _turning(machine, speed, clockwise)
     motion = compiled.transient((angle, abs(speed)), turning, duration, turns, accuracy)
     end = End[motion.end]

@@ -19,6 +19,7 @@ from linkwright.kinetostatics.model.loads.table import TorqueAngle, TorqueSpeed
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene, cross
 from linkwright.kinetostatics.result import Contribution, Forces, PairForce
+from linkwright.linkages.law_jumps import drivers_with_laws
 from linkwright.linkages.model.structure import FRAME
 
 # Share of the maximum force by which rounding may push a cable, or pull a follower.
@@ -95,6 +96,7 @@ class Collector:
             motion=motion,
             load_forces=self._load_forces(),
             load_torques=self._load_torques(),
+            laws=tuple(drivers_with_laws(self.scene.machine)),
             findings=(
                 *_where(self.solution, motion.crank_angle),
                 *self._slack(pairs),

@@ -25,8 +25,8 @@ from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 
 _EXTENT_NAME = (
-    "Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, or the "
-    "moment of a guide as ``name moment``."
+    "Of the quantity: ``torque_drive``, ``shaking_force``, ``shaking_moment``, a pair, the moment of a "
+    "guide as ``name moment``, or the torque or force of a drive as ``name drive``."
 )
 
 
@@ -54,8 +54,8 @@ def envelope(result: Forces) -> list[Extent]:
     Returns
     -------
     list of Extent
-        Driving torque, shaking force and moment, each crank's torque where there are several, then the
-        pairs. Angles that a finding names are left out.
+        Driving torque, shaking force and moment, torque or force of each drive where there are several or
+        one follows a law, then the pairs. Angles that a finding names are left out.
 
     Notes
     -----
@@ -73,6 +73,10 @@ def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
         if values is None:
             continue
         yield name, result.unit_of(name), values if values.ndim == 1 else np.hypot(*values.T)
+    if len(result.drives) > 1 or result.laws:
+        # Of a single crank it is the driving torque; several may cancel in that, and a law changes it.
+        for name, values in result.drives.items():
+            yield f"{name} drive", result.drive_unit(name), values
     for name, pair in result.pairs.items():
         yield from _of_pair(name, pair)
 

@@ -156,6 +156,14 @@ def has_reactions(forces: Forces) -> bool:
     return bool(_largest(forces))
 
 
+def _given(forces: Forces) -> str:
+    """What the drive gives, in a sentence."""
+    most = quantity(forces.torque_drive_max, "N m")
+    if forces.shaft:
+        return f"The {forces.shaft}, is up to {most}."
+    return f"The drive gives up to {most} at the crank."
+
+
 def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
     """The figures of forces with their captions; none where no pair bears a force."""
     if not has_reactions(forces):
@@ -164,7 +172,7 @@ def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
     largest = max(pins, key=lambda name: pins[name])
     caption = (
         f"Joint reactions along the steady motion: {largest} at most {quantity(pins[largest], 'N')}. "
-        f"The drive gives up to {quantity(forces.torque_drive_max, 'N m')} at the crank."
+        f"{_given(forces)}"
     )
     yield CaptionedFigure("forces", "Joint reactions", caption, forces_figure(forces))
     caption = (

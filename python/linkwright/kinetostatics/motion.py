@@ -20,6 +20,7 @@ from linkwright.kernel.result import Record
 from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.linkages.kinematics import crank_angles
+from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -81,6 +82,7 @@ def motion_at(
         return Motion(motion.crank_angle, motion.speed, motion.acceleration, motion.time)
     if angles is None:
         _require_full_turn(machine)
+    require_finite_accelerations(machine)
     if speed is None:
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:

@@ -121,6 +121,13 @@ class Forces(Result):
             shape="(n, 2)",
         ),
     ] = field(default=None)
+    laws: Annotated[
+        tuple[str, ...],
+        About(
+            "Cranks and drivers that follow a law by a formula: the driving torque is that on the shaft in "
+            "front of it, as of a cam, and ``drives`` is what they need themselves."
+        ),
+    ] = field(default=())
     findings: Annotated[
         tuple[str, ...], About("Where forces are unbounded, friction locks, or a cable pushes, in sentences.")
     ] = field(default=())
@@ -153,6 +160,23 @@ class Forces(Result):
         """Peak absolute value among the angles."""
         return float(np.nanmax(np.hypot(self.shaking_force[:, 0], self.shaking_force[:, 1])))
 
+    def drive_unit(self, name: str) -> str:
+        """Unit of what a drive gives: what has a guide is pushed along it, what has none is turned."""
+        return "N" if f"{name}.guide" in self.pairs else "N m"
+
+    @property
+    def drive_max(self) -> dict[str, float]:
+        """Peak torque [N m] or force [N] of each drive, with its sign."""
+        return {name: float(values[np.nanargmax(np.abs(values))]) for name, values in self.drives.items()}
+
+    @property
+    def shaft(self) -> str:
+        """What the driving torque is, where drives follow laws; empty where it is that of the crank."""
+        if not self.laws:
+            return ""
+        words = f"torque on the shaft in front of the law of {', '.join(self.laws)}"
+        return words if np.any(self.acceleration) else f"{words}, at constant speed"
+
     def columns(self) -> dict[str, Floats]:
         """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
         unit = self.unit_of("shaking_force")
@@ -165,14 +189,18 @@ class Forces(Result):
             columns |= {f"{name}_{axis} [N]": pair.force[:, k] for k, axis in enumerate("xy")}
             columns[f"{name}_moment [N m]"] = pair.moment
         for name, values in self.drives.items():
-            # What has a guide is pushed along it, what has none is turned.
-            columns[f"{name}_drive [{'N' if f'{name}.guide' in self.pairs else 'N m'}]"] = values
+            columns[f"{name}_drive [{self.drive_unit(name)}]"] = values
         columns |= {f"loads.{name} [N]": values for name, values in self.load_forces.items()}
         return columns | {f"loads.{name} [N m]": values for name, values in self.load_torques.items()}
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars and maximum forces by name, ready for JSON; with ``curves`` also all forces as lists."""
-        results = super().to_dict(curves=curves) | {"reaction_max": self.reaction_max}
+        results = super().to_dict(curves=curves) | {
+            "reaction_max": self.reaction_max,
+            "drive_max": self.drive_max,
+        }
+        if self.laws:
+            results["torque_drive_is"] = self.shaft
         if curves:
             results["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
             results["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}

@@ -52,6 +52,11 @@ def _scales(extents: Iterable[Extent]) -> dict[str, float]:
 
 def _words(name: str, forces: Forces) -> tuple[str, str]:
     """Words for a quantity, and its symbol or the name of the pair."""
+    if name == "torque_drive" and forces.shaft:
+        return forces.shaft, shown(Forces, name).symbol
+    if name.endswith(" drive") and name.removesuffix(" drive") in forces.drives:
+        drive = name.removesuffix(" drive")
+        return "force of the drive" if forces.drive_unit(drive) == "N" else "torque of the drive", drive
     if name in declared(Forces):
         mark = shown(Forces, name)
         return mark.word, mark.symbol
@@ -111,6 +116,13 @@ def pose_table(forces: Forces, case: str = "") -> Table:
     for name in ("torque_drive", "shaking_moment"):
         moment = measured(float(getattr(forces, name)[0]), "N m", torques)
         rows.append((*_words(name, forces), "", "", "", "", moment))
+    for name, values in forces.drives.items() if len(forces.drives) > 1 or forces.laws else ():
+        given = float(values[0])
+        unit = forces.drive_unit(name)
+        cells = ("", "", "", "", measured(given, unit, torques))
+        if unit == "N":
+            cells = (measured(abs(given), unit, newtons), "", "", "", "")
+        rows.append((*_words(f"{name} drive", forces), *cells))
     rows.append((*_words("shaking_force", forces), *_components(forces.shaking_force[0], newtons), ""))
     for name, pair in forces.pairs.items():
         turning = pair.normal if pair.kind == "mesh" and not pair.force.any() else pair.moment

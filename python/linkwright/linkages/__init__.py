@@ -14,8 +14,10 @@
 | `figures_of_motion` | A motion over time as tables and figures of a report |
 | `gradient` | Derivatives of strokes, swings, time ratios and transmission angles by the entries |
 | `grashof` | Four-bar loops of a mechanism and their class after Grashof |
+| `idle_parts` | Parts that no driver moves although W = 1 |
 | `kinematics` | How do points, links and slides move? |
 | `law` | Laws of the driver: the crank angle over time with three derivatives |
+| `law_jumps` | Jumps of velocity and acceleration in the laws of drivers, and what they move |
 | `model/` | Elements of a mechanism, how they refer to each other, and in which order they are built |
 | `motion` | Where is everything under a law of time? |
 | `nearest_places` | Where on a curve are the places nearest to given points, in their order? |

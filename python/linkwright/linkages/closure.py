@@ -31,7 +31,7 @@ from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import Element
+from linkwright.machine.program.core import Channel, Element
 
 # A radicand whose parabola through three angles dips below this share of its maximum is looked into.
 _CLOSE = 1e-3
@@ -63,6 +63,9 @@ _OVER_PIVOT = 5e-4
 # Difference of inertia or load on the crank from one revolution to the next, over its size, that counts as
 # rounding.
 _SAME = 1e-7
+
+# Angles of a revolution at which laws are compared, a prime number so that no symmetry hides a difference.
+_LAW_LOOKS = 97
 
 # Doublings of the revolutions looked at in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
@@ -373,12 +376,37 @@ def over_whole_cycle(compiled: CompiledMachine) -> CompiledMachine:
     if turns == 1 or _repeats(compiled):
         return compiled
     if turns is None or math.lcm(turns, compiled.turns) > TURNS_MAX:
-        after = f"only after {turns} revolutions" if turns else "never"
-        raise AssemblyError(
-            f"masses and loads return to their positions {after}; a cycle may take up to {TURNS_MAX}: choose "
-            "the slowest part as the crank, or put masses and loads on parts that repeat with it"
+        remedy = _law_that_goes_on(compiled) or (
+            "choose the slowest part as the crank, or put masses and loads on parts that repeat with it"
         )
+        raise AssemblyError(f"masses and loads do not repeat within {TURNS_MAX} revolutions: {remedy}")
     return compiled.over_turns(turns)
+
+
+def _law_that_goes_on(compiled: CompiledMachine) -> str:
+    """What the first law that does not repeat does beyond a revolution, and its remedy; empty without one."""
+    turn = 2 * np.pi
+    phi = np.linspace(0.0, turn, _LAW_LOOKS)
+    for name, slide in compiled.slides.items():
+        if not name.endswith(".law"):
+            continue
+        first, second, third = (
+            compiled.motion([Channel.Slide(slide)], phi + k * turn)[0][0] for k in range(3)
+        )
+        size = float(np.abs(first).max()) or 1.0
+        if np.abs(second - first).max() <= _SAME * size:
+            continue
+        does = "does not repeat"
+        if np.ptp(second) <= _SAME * size:
+            does = f"stays at {second[0]:.4g}"
+        elif np.ptp(second - first) <= _SAME * size and np.ptp(third - second) <= _SAME * size:
+            does = f"advances by {second[0] - first[0]:.4g} per revolution"
+        return (
+            f"φ counts on beyond 2π, and there the law of {name.removesuffix('.law')} {does}; with "
+            "u = pi - atan2(sin(phi), -cos(phi)) in place of phi it repeats in every revolution, and "
+            "h*(phi - u)/(2*pi) added to it advances by h in each; or describe the motion as a cam"
+        )
+    return ""
 
 
 def _repeats(compiled: CompiledMachine) -> bool:

@@ -163,8 +163,11 @@ def _warnings(machine: Machine, zero: float = 0.0) -> list[str]:
     from linkwright.linkages.cautions import linkage_cautions
     from linkwright.linkages.closure import closure
     from linkwright.linkages.cycle import linkage
+    from linkwright.linkages.law_jumps import law_cautions
 
-    return [*linkage_cautions(linkage(machine), zero)] if closure(machine).turns_fully else []
+    if not closure(machine).turns_fully:
+        return []
+    return [*linkage_cautions(linkage(machine), zero), *law_cautions(machine)]
 
 
 def _worded(machine: Machine, zero: Zero) -> list[str]:

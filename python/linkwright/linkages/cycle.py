@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
@@ -98,10 +98,6 @@ def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:
         for angle in swept.reversals(k):
             turns_back = "position" if output.kind == "stroke" else "angle"
             yield DeadPoint(swept.cycle.named(angle), output.name, REVERSAL, 1, turns_back)
-
-
-# Difference of the rates of two links that stay parallel: rounding, lost near change points.
-_PARALLEL = 1e-6
 
 
 _ELEMENT_MOTION_VELOCITY_RATIO_MIN = (
@@ -312,8 +308,7 @@ def examined(compiled: CompiledMachine, where: Closure, swept: LinkageSweep) -> 
         transmission_angles={dyad.name: swept.mu[k] for k, dyad in enumerate(swept.dyads)},
         velocity_ratios=dict(zip(apart(output.name for output in swept.outputs), swept.d1, strict=True)),
         elements=tuple(
-            _element(swept, k, output, _parallel(loops.get(output.element), swept.d1[k]))
-            for k, output in enumerate(swept.outputs)
+            _element(swept, k, output, loops.get(output.element)) for k, output in enumerate(swept.outputs)
         ),
         closure=where,
         period_turns=swept.cycle.period,
@@ -329,11 +324,6 @@ def swept_cycle(machine: Machine) -> tuple[CompiledMachine, Closure, LinkageSwee
         raise closure_error(where, machine)
     period = turns_to_repeat(compiled) if where.turns_fully else None
     return compiled, where, sweep(compiled, machine.linkage, Cycle.of(where, period))
-
-
-def _parallel(loop: FourBar | None, rate: Floats) -> FourBar | None:
-    """The loop with the knowledge whether its follower turns as its driver does."""
-    return None if loop is None else replace(loop, is_parallel=bool(np.abs(rate - 1).max() < _PARALLEL))
 
 
 def _element(swept: LinkageSweep, k: int, output: Output, loop: FourBar | None) -> ElementMotion:

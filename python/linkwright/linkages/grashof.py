@@ -19,6 +19,11 @@ from linkwright.machine.program.core import Element
 # Share of s + l by which p + q may differ and still be the same: lengths given to all digits are.
 _SAME = 1e-9
 
+# Angles at which arms are compared, a prime number so that no symmetry hides a difference, and by how far
+# directions that are the same differ, by rounding that change points make larger [rad].
+_LOOKS = 97
+_PARALLEL = 1e-6
+
 
 @dataclass(frozen=True)
 class FourBar:
@@ -122,8 +127,21 @@ def _loops(
             ground = float(np.hypot(*(grounds[fixed] - grounds[centre])))
             if ground > 0:
                 coupler, follower = (float(lengths[k]) for k in order)
-                loops.append(FourBar(name, driver, coupler, follower, ground))
+                is_parallel = _stays_parallel(compiled, (centre, moving), (fixed, dyad.joint))
+                loops.append(FourBar(name, driver, coupler, follower, ground, is_parallel))
     return loops
+
+
+def _stays_parallel(compiled: CompiledMachine, driver: tuple[int, int], follower: tuple[int, int]) -> bool:
+    """Whether two arms, each from its centre to its end, have one direction wherever the mechanism closes."""
+    angles = np.linspace(0.0, 2 * np.pi * compiled.turns, _LOOKS)
+    one, other = (
+        compiled.point_motion(end, angles).place - compiled.point_motion(centre, angles).place
+        for centre, end in (driver, follower)
+    )
+    apart = np.hypot(*(one / np.hypot(*one) - other / np.hypot(*other)))
+    known = np.isfinite(apart)
+    return bool(known.any() and apart[known].max() < _PARALLEL)
 
 
 def _arms(compiled: CompiledMachine, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:

@@ -1,4 +1,4 @@
-"""What the user of a pumping unit or of a rotator should know although it runs: sentences with numbers."""
+"""What a pumping unit cannot bear, and what its user should know although it runs: sentences with numbers."""
 
 from __future__ import annotations
 
@@ -27,10 +27,28 @@ def unit_cautions(
     if unit is not None:
         sentences += _stroke(unit)
         sentences += _fall(unit)
-        sentences += _gear(unit.gear) if unit.gear else []
+        sentences += _flanks(unit.gear) if unit.gear else []
     if rotator is not None:
         sentences += _lever(machine, rotator)
     return tuple(sentences)
+
+
+def unit_findings(unit: PumpingUnitMotion) -> Iterator[str]:
+    """Loads of gearbox and structure above the ratings of the designation."""
+    gear = unit.gear
+    if gear is None:
+        return
+    peak = max(gear.torque_net_up, gear.torque_net_down)
+    if gear.torque_rated is not None and peak > gear.torque_rated:
+        yield (
+            f"The gearbox is overloaded: its torque reaches {peak:.4g} N m, "
+            f"{100 * peak / gear.torque_rated:.0f} % of its rating of {gear.torque_rated:.4g} N m."
+        )
+    if gear.load_rated is not None and gear.load_max > gear.load_rated:
+        yield (
+            f"The structure is overloaded: the polished rod carries {gear.load_max:.4g} N, "
+            f"{100 * gear.load_max / gear.load_rated:.0f} % of its rating of {gear.load_rated:.4g} N."
+        )
 
 
 def _stroke(unit: PumpingUnitMotion) -> Iterator[str]:
@@ -50,18 +68,8 @@ def _fall(unit: PumpingUnitMotion) -> Iterator[str]:
         )
 
 
-def _gear(gear: GearTorque) -> Iterator[str]:
+def _flanks(gear: GearTorque) -> Iterator[str]:
     peak = max(gear.torque_net_up, gear.torque_net_down)
-    if gear.torque_rated is not None and peak > gear.torque_rated:
-        yield (
-            f"The gearbox is overloaded: its torque reaches {peak:.4g} N m, "
-            f"{100 * peak / gear.torque_rated:.0f} % of its rating of {gear.torque_rated:.4g} N m."
-        )
-    if gear.load_rated is not None and gear.load_max > gear.load_rated:
-        yield (
-            f"The structure is overloaded: the polished rod carries {gear.load_max:.4g} N, "
-            f"{100 * gear.load_max / gear.load_rated:.0f} % of its rating of {gear.load_rated:.4g} N."
-        )
     if gear.torque_net_min < -_SMALL * peak:
         yield (
             f"The torque of the gearbox falls to {gear.torque_net_min:.4g} N m: there the rods or the "

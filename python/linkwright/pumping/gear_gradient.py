@@ -21,7 +21,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, on_lines, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, stroke_load
+from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, effect_of_weights, stroke_load
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
 
 # A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
@@ -62,6 +62,8 @@ def gear_scalars(
     scalars |= {"load_max": at["load_max"].load[0], name: balanced}
     scalars |= _means(along, _kinks(strokes, size if is_air else 0.0), balanced)
     scalars |= _shares(scalars, gear)
+    if not is_air and gear.counterbalance_effect is not None:
+        scalars["counterbalance_effect"] = effect_of_weights(along.unit, along.motion, balanced)
     still = "a peak is reached at an end of the stroke, where the table of the load has a corner that moves"
     return scalars, {
         f"gear.{name}": still for name, number in scalars.items() if np.isnan(lifted(number, 1).d).any()

@@ -21,12 +21,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.numerics.tangent_array import on_lines
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
@@ -66,7 +67,14 @@ class GearTorque(Result):
     ]
     counterbalance_effect: Annotated[
         float | None,
-        Label("counterbalance effect of the cylinder", "E", "N", "Of an air cylinder.", table="gear_torque"),
+        Label(
+            "counterbalance effect",
+            "E",
+            "N",
+            "At the polished rod: of the air cylinder, or of cranks and weights at a crank angle of 90°, "
+            "with the structural unbalance; None where the rod does not rise there.",
+            table="gear_torque",
+        ),
     ]
     torque_net_up: Annotated[
         float, Label("maximum torque of the gearbox, upstroke", "M_G,up", "N m", table="gear_torque")
@@ -118,6 +126,18 @@ class GearTorque(Result):
         """Maximum net torque over the rating of the gearbox."""
         peak = max(self.torque_net_up, self.torque_net_down)
         return None if self.torque_rated is None else peak / self.torque_rated
+
+
+def effect_of_weights(unit: PumpingUnit, motion: Callable[[Floats], Any], moment: Any) -> Any:
+    """Load of the polished rod that weights and structure balance with the crank at 90° [N]; None at rest.
+
+    Takács, *Sucker-Rod Pumping Handbook*, 3.7: CBE = M sin(θ + τ)/TF + B at θ = 90°.
+    """
+    assert unit.load is not None
+    factor = motion(np.array([0.5 * np.pi]))[1][0]
+    if not primal(factor) > 0:
+        return None
+    return moment * np.cos(unit.load.phase) / factor + unit.structural_unbalance
 
 
 @dataclass(frozen=True)
@@ -182,7 +202,7 @@ def gear_torque(
         torque_counterbalance=shown.net(size) - shown.rod(),
         torque_net=shown.net(size),
         counterbalance=None if is_air else size,
-        counterbalance_effect=size if is_air else None,
+        counterbalance_effect=size if is_air else effect_of_weights(unit, motion, size),
         torque_net_up=up.extreme(+1)[0],
         torque_net_down=down.extreme(+1)[0],
         torque_net_min=min(up.extreme(-1)[0], down.extreme(-1)[0]),

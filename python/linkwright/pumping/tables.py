@@ -48,8 +48,8 @@ def _gear(gear: GearTorque) -> Table:
         "torque_net_up": f"rated {measured(gear.torque_rated, 'N m')}",
         "load_max": f"rated {measured(gear.load_rated, 'N')}",
     }
-    without = "counterbalance_effect" if gear.counterbalance is not None else "counterbalance"
-    rows = rows_in(gear, "gear_torque", beside, without=(without,))
+    without = [name for name in ("counterbalance", "counterbalance_effect") if getattr(gear, name) is None]
+    rows = rows_in(gear, "gear_torque", beside, without=tuple(without))
     return Table("gear_torque", "Torque of the gearbox", ("quantity", "", "value", "rating"), rows)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.drive.cautions import unjudged_limits
 from linkwright.kinetostatics.contact import lost_contacts
+from linkwright.linkages.law_jumps import drivers_with_laws
 from linkwright.machine.machine import Machine
 
 
@@ -13,5 +14,10 @@ def lost(machine: Machine | None) -> tuple[str, ...]:
 
 
 def unjudged(machine: Machine) -> tuple[str, ...]:
-    """Limits of its shafts that are not judged, in sentences."""
-    return tuple(unjudged_limits(machine))
+    """Which shaft is sized where drivers follow laws, and limits that are not judged, in sentences."""
+    names = ", ".join(drivers_with_laws(machine))
+    law = (
+        f"Sized is the motor of the shaft in front of the law of {names}, which turns at constant speed as if "
+        "the law were a cam; a servo motor that makes the motion itself needs other torques and speeds"
+    )
+    return (*((law,) if names else ()), *unjudged_limits(machine))

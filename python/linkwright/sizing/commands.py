@@ -179,14 +179,16 @@ def size(
         reserve=reserve,
         by=by,
         free_ratio=free_ratio,
-        unevenness=unevenness if together else None,
+        unevenness=unevenness,
+        together=together,
         inertias=_inertias(inertia or []),
         catalogue=None if catalogue is None else read_motors(catalogue),
         track=_tracked,
     )
     flywheel = None
     if motor.chosen and motor.chosen.machine:
-        flywheel = choose_flywheel(motor.chosen.machine, unevenness)
+        kept = motor.chosen.flywheel_kept
+        flywheel = choose_flywheel(motor.chosen.machine, unevenness, keep=kept)
     hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
 
 
@@ -397,12 +399,30 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
         f"{need.formula}, mean load {load}, η {need.efficiency:.4g}",
     ]
     if motor.chosen:
-        lines.append(motor.reason)
+        lines += [motor.reason, *_deciding(motor)]
     if flywheel:
         lines += _flywheel_words(flywheel)
     if others := len(motor.candidates) - len(_suited(motor)):
         lines.append(f"{others} types have another speed: see --free-ratio")
     return "\n".join(lines)
+
+
+def _deciding(motor: MotorChoice) -> list[str]:
+    """Which check makes the motor as large as it is, and which ones do not decide and are not passed."""
+    from linkwright.kernel.page.numbers import quantity
+
+    lines = []
+    if decided := motor.decided_by:
+        check, other = decided
+        power = quantity(other.known.power_rated, "W", 4, usual="kW")
+        verdict = "is not known, which counts as failed" if check.passed is None else "fails"
+        lines.append(
+            f"decisive check: {check.title}; {other.type}, {power}, passes all others; this one {verdict}"
+        )
+        if check.name == "starting_torque_worst":
+            lines.append("if the machine starts from its start angle only, use --by fixed-start")
+    assert motor.chosen is not None
+    return lines + [f"not decisive: {check.brief}" for check in motor.chosen.open]
 
 
 def _tables_of_choice(motor: MotorChoice) -> list[Table]:
@@ -482,6 +502,11 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     """What flywheel, what it gives, what the classical estimate would have been."""
     from linkwright.kernel.page.numbers import quantity
 
+    if flywheel.kept:
+        return [
+            f"The flywheel of the machine is kept: the speed fluctuation is {flywheel.unevenness:.4f}, "
+            f"required is at most {flywheel.unevenness_wanted:g}"
+        ]
     without = flywheel.unevenness_without
     bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:

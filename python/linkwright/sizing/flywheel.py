@@ -99,10 +99,14 @@ class FlywheelChoice(Result):
     machine: Annotated[Machine, About("The machine with it.")]
     steady: Annotated[SteadyState, About("Its steady motion.")]
     run_up: Annotated[RunUp | None, About("Its run-up.")]
+    kept: Annotated[
+        bool,
+        About("Whether it is the machine's own flywheel; the inertia is then referred to the crankshaft."),
+    ] = False
 
 
 @public
-def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
+def choose_flywheel(machine: Machine, unevenness: float, *, keep: bool = False) -> FlywheelChoice:
     """Find the flywheel on the crankshaft that gives a wanted speed fluctuation.
 
     Parameters
@@ -111,6 +115,8 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
         The machine, with a motor. A flywheel that it has is taken off first.
     unevenness : float
         δ, with the mean of the extremes [–].
+    keep : bool
+        Keep the flywheel of the machine if δ is not above the wanted one with it.
 
     Returns
     -------
@@ -142,8 +148,28 @@ def choose_flywheel(machine: Machine, unevenness: float) -> FlywheelChoice:
     bare = with_flywheel(machine, 0.0)
     without = _unevenness(bare)
     estimate, work = classical_flywheel(bare, unevenness)
+    if keep and keeps_flywheel(machine, unevenness):
+        own = own_flywheel(machine)
+        return _verified(bare, unevenness, without, own, (max(estimate, 0.0), work), 2, kept=machine)
     inertia, solved = flywheel_inertia(bare, unevenness, guess=estimate)
     return _verified(bare, unevenness, without, inertia, (max(estimate, 0.0), work), solved)
+
+
+def own_flywheel(machine: Machine) -> float:
+    """Inertia of the flywheel that the machine has, referred to the crankshaft [kg m²]; 0 without one."""
+    drive = machine.drive
+    if drive is None or drive.flywheel is None:
+        return 0.0
+    step = drive.gearbox.ratio if drive.flywheel.on == "motor" else 1.0
+    return float(drive.flywheel.inertia) * step**2
+
+
+def keeps_flywheel(machine: Machine, unevenness: float) -> bool:
+    """Whether the machine has a flywheel with which δ is not above a wanted one [–]."""
+    if not own_flywheel(machine) > 0:
+        return False
+    value = _unevenness(machine)
+    return value is not None and value <= unevenness
 
 
 def flywheel_inertia(machine: Machine, unevenness: float, *, guess: float = 0.0) -> tuple[float, int]:
@@ -260,10 +286,11 @@ def _verified(
     inertia: float,
     classical: tuple[float, float],
     iterations: int,
+    kept: Machine | None = None,
 ) -> FlywheelChoice:
-    """The result, with the machine analysed anew."""
+    """The result, with the machine analysed anew; `kept`: the machine whose own flywheel suffices."""
     note = f"Flywheel for a speed fluctuation of {wanted:g} by linkwright size." if inertia > 0 else ""
-    machine = with_flywheel(bare, inertia, note=note)
+    machine = kept or with_flywheel(bare, inertia, note=note)
     steady = _steady(machine)
     up, why_not = _run_up(machine, steady)
     up_without, why_not_without = _run_up(bare) if inertia > 0 else (up, why_not)
@@ -281,6 +308,7 @@ def _verified(
         machine=machine,
         steady=steady,
         run_up=up,
+        kept=kept is not None,
     )
 
 

@@ -27,7 +27,7 @@ from linkwright.sizing.checks import (
     motion_checks,
     rating_checks,
 )
-from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia
+from linkwright.sizing.flywheel import UNEVENNESS, flywheel_inertia, keeps_flywheel, own_flywheel
 from linkwright.sizing.motor_change import rotor_inertia, with_flywheel, with_motor
 from linkwright.sizing.power import RequiredPower, required_power
 
@@ -56,6 +56,7 @@ class Candidate(Record):
             "inertia of the flywheel", "", "kg m²", "That it was judged with; None if none was sized for it."
         ),
     ]
+    flywheel_kept: Annotated[bool, About("Whether that is the flywheel of the machine.")]
     checks: Annotated[
         tuple[Check, ...], About("Those made; a motor whose rating does not suit is not analysed further.")
     ]
@@ -80,6 +81,11 @@ class Candidate(Record):
         return "; ".join(check.words for check in self.failed)
 
     @property
+    def open(self) -> tuple[Check, ...]:
+        """Checks that do not decide and are not passed."""
+        return tuple(check for check in self.checks if check.name not in self.decisive and not check.passed)
+
+    @property
     def worst(self) -> Annotated[float, Label("maximum utilisation", "", "")]:
         """Among the decisive checks; infinite where one has no number."""
         shares = [check.utilisation for check in self.failed]
@@ -99,6 +105,7 @@ class Candidate(Record):
             "torque_start": self.known.start.get("torque_start"),
             "torque_start_is_minimum": self.known.start_is_minimum,
             "flywheel": self.flywheel,
+            "flywheel_kept": self.flywheel_kept,
             "passes": self.passes,
             "reason": self.reason,
             "checks": [check.to_dict() for check in self.checks],
@@ -130,13 +137,32 @@ class MotorChoice(Record):
         """Why this one, or by how much the best of the catalogue falls short."""
         if self.chosen is None:
             return self._shortfall()
+        checks = "all decisive checks" if self.chosen.open else "all checks"
         rule = {
-            "all": "passes all checks",
-            "fixed-start": "passes all checks if the machine starts from its start angle",
+            "all": f"passes {checks}",
+            "fixed-start": f"passes {checks} if the machine starts from its start angle",
             "power": "has sufficient power and starts the machine",
         }[self.by]
         power = self.chosen.known.power_rated / 1e3
         return f"{self.chosen.type}, {power:.4g} kW, is the smallest motor of the catalogue that {rule}"
+
+    @property
+    def decided_by(self) -> tuple[Check, Candidate] | None:
+        """The check without which the smallest motor would pass, and that motor; None if there is none."""
+        if self.chosen is None:
+            return None
+        power = self.chosen.known.power_rated
+        near = [
+            candidate
+            for candidate in self.candidates
+            if len(candidate.failed) == 1
+            and candidate.known.power_rated < power
+            and {check.name for check in candidate.checks} >= set(candidate.decisive)
+        ]
+        if not near:
+            return None
+        least = min(near, key=_rank)
+        return least.failed[0], least
 
     def _shortfall(self) -> str:
         """What the best of the candidates that fail lacks."""
@@ -162,6 +188,7 @@ class MotorChoice(Record):
             "chosen": self.chosen.to_dict() if self.chosen else None,
             "reason": self.reason,
             "by": self.by,
+            "decided_by": self.decided_by[0].name if self.decided_by else None,
             "power_reserve": self.reserve,
             "present": [check.to_dict() for check in self.present],
             "considered": [
@@ -178,6 +205,7 @@ def choose_motor(
     by: By = "all",
     free_ratio: bool = False,
     unevenness: float | None = None,
+    together: bool = True,
     inertias: Mapping[str, float] | None = None,
     catalogue: Sequence[CatalogueMotor] | None = None,
     track: Track = iter,
@@ -199,7 +227,11 @@ def choose_motor(
         is done in any case if the machine has no gearbox.
     unevenness : float, optional
         Judge each motor together with the flywheel on the crankshaft that gives this δ with it [–]. It takes
-        the peaks off the motor, so that a smaller one may do.
+        the peaks off the motor, so that a smaller one may do. Where the machine's own flywheel gives it too,
+        either may serve.
+    together : bool
+        With `unevenness`: whether that flywheel may help. If not, the motor must also pass the checks on the
+        machine as it is, whose flywheel is then kept where it suffices.
     inertias : mapping, optional
         Type → inertia of its rotor [kg m²], where it is known better than the catalogue does.
     catalogue : sequence of CatalogueMotor, optional
@@ -240,7 +272,8 @@ def choose_motor(
     if not types:
         raise InputError("catalogue: found no motor to choose from")
     given = own_inertia(machine) | {_of(type, types).type: J for type, J in (inertias or {}).items()}
-    judge = _Judge(machine, required, reserve, by, free_ratio or not _has_ratio(machine), unevenness, given)
+    is_free = free_ratio or not _has_ratio(machine)
+    judge = _Judge(machine, required, reserve, by, is_free, unevenness, together, given)
     candidates = sorted((judge.candidate(known) for known in track(types)), key=_rank)
     chosen = candidates[0] if candidates[0].passes else None
     present = present_checks(machine, required, reserve)
@@ -308,6 +341,16 @@ def _least_torques(known: CatalogueMotor) -> Iterator[str]:
 
 
 @dataclass(frozen=True)
+class _Fit:
+    """A machine with a motor, its checks, and the flywheel on the crankshaft in these."""
+
+    machine: Machine | None
+    done: MotorChecks
+    flywheel: float | None = None  # [kg m²]
+    kept: bool = False  # whether it is the machine's own
+
+
+@dataclass(frozen=True)
 class _Judge:
     """Judges one type after another for one machine."""
 
@@ -317,6 +360,7 @@ class _Judge:
     by: By
     free_ratio: bool
     unevenness: float | None
+    together: bool
     inertias: Mapping[str, float]
 
     def candidate(self, known: CatalogueMotor) -> Candidate:
@@ -329,38 +373,59 @@ class _Judge:
         estimate, estimated = rotor_inertia(known)
         inertia = self.inertias.get(known.type, estimate)
         estimated = estimated and known.type not in self.inertias
-        fitted, flywheel, done = None, None, MotorChecks(())
+        fitted = _Fit(None, MotorChecks(()))
         if all(check.passed for check in rating):
-            fitted, flywheel, done = self._analysed(known, inertia, ratio, estimated)
+            fitted = self._analysed(known, inertia, ratio, estimated)
         return Candidate(
             type=known.type,
             known=known,
             ratio=ratio,
             inertia=inertia,
             inertia_estimated=estimated,
-            flywheel=flywheel,
-            checks=(*rating, *done.checks),
+            flywheel=fitted.flywheel,
+            flywheel_kept=fitted.kept,
+            checks=(*rating, *fitted.done.checks),
             decisive=DECISIVE[self.by],
-            machine=fitted,
-            steady=done.steady,
-            run_up=done.run_up,
+            machine=fitted.machine,
+            steady=fitted.done.steady,
+            run_up=fitted.done.run_up,
         )
 
-    def _analysed(
-        self, known: CatalogueMotor, inertia: float, ratio: float, estimated: bool
-    ) -> tuple[Machine, float | None, MotorChecks]:
-        """The machine with the motor, the flywheel sized for it, and the checks."""
+    def _analysed(self, known: CatalogueMotor, inertia: float, ratio: float, estimated: bool) -> _Fit:
+        """The machine with the motor, the flywheel that it is judged with, and the checks of just that."""
         note = f"Motor {known.type} by linkwright size"
         note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
-        fitted = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
+        machine = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
         if self.unevenness is None:
-            return fitted, None, motion_checks(fitted, known)
+            return _Fit(machine, motion_checks(machine, known))
+        if self.together:
+            sized = self._with_flywheel(machine, known)
+            if not self._failed(sized.done) or not keeps_flywheel(machine, self.unevenness):
+                return sized
+            own = _Fit(machine, motion_checks(machine, known), own_flywheel(machine), kept=True)
+            return min(sized, own, key=lambda fitted: len(self._failed(fitted.done)))
+        alone = _Fit(machine, motion_checks(machine, known))
+        if self._failed(alone.done):
+            return alone
+        if keeps_flywheel(machine, self.unevenness):
+            return replace(alone, flywheel=own_flywheel(machine), kept=True)
+        return self._with_flywheel(machine, known)
+
+    def _with_flywheel(self, machine: Machine, known: CatalogueMotor) -> _Fit:
+        """The machine with the flywheel that is sized for it, in place of its own."""
+        assert self.unevenness is not None
         try:
-            flywheel, _ = flywheel_inertia(with_flywheel(fitted, 0.0), self.unevenness)
+            flywheel, _ = flywheel_inertia(with_flywheel(machine, 0.0), self.unevenness)
         except FindingError as error:
-            return fitted, None, MotorChecks((Check("run_up", None, None, "s", False, note=str(error)),))
-        fitted = with_flywheel(fitted, flywheel)
-        return fitted, flywheel, motion_checks(fitted, known)
+            lost = Check("run_up", None, None, "s", False, note=str(error))
+            return _Fit(machine, MotorChecks((lost,)))
+        fitted = with_flywheel(machine, flywheel)
+        return _Fit(fitted, motion_checks(fitted, known), flywheel)
+
+    def _failed(self, done: MotorChecks) -> list[str]:
+        """Decisive checks of the motion that are not made or not passed."""
+        passed = {check.name for check in done.checks if check.passed}
+        return [name for name in DECISIVE[self.by][2:] if name not in passed]
 
     def doubts(self, chosen: Candidate | None) -> list[str]:
         """What the choice rests on without being known."""
@@ -382,5 +447,5 @@ class _Judge:
     def _lost(self, chosen: Candidate, factor: float) -> list[str]:
         """Decisive checks that fail with another inertia."""
         inertia = chosen.inertia * factor
-        checks = self._analysed(chosen.known, inertia, chosen.ratio, True)[2].checks
+        checks = self._analysed(chosen.known, inertia, chosen.ratio, True).done.checks
         return [check.name for check in checks if check.name in chosen.decisive and not check.passed]

@@ -27,8 +27,10 @@
 | `point_slopes` | Derivatives of responses that follow from places of points |
 | `slopes` | Derivatives of responses by variables, exact where the analysis has them |
 | `tolerance` | Scatter of responses, contributions, yield |
+| `worst_case` | The machine at the corners of the tolerances |
 | `indices` | Sobol indices with their confidence intervals |
 | `allocation` | The cheapest tolerances for a wanted yield |
+| `least_cost` | Factors of minimum cost within limits of squares |
 | `front` | Machines of which none is better in both of two goals |
 | `workers` | Files of a sweep by processes beside, or by a cluster |
 | `optimise` | The best machine, what it touches and what wider limits would be worth |

@@ -6,15 +6,14 @@ deviations if
 
 .. math:: \sum_i \Bigl(\frac{z\, s_{ji}\, \sigma_i f_i}{m_j}\Bigr)^2 \le 1
 
-with derivatives s and standard deviations σ. Cost and limits are sums of powers of f: the minimum cost is one
-convex problem of log f [3]_. z is then chosen by Monte Carlo on the machine itself, with the same random
+with derivatives s and standard deviations σ. Their minimum cost is a convex problem
+(`linkwright.studies.least_cost`). z is then chosen by Monte Carlo on the machine itself, with the same random
 numbers each time, so that the yield is what was wanted.
 
 References
 ----------
 .. [1] Chase, Greenwood, Design issues in mechanical tolerance analysis, Manufacturing Review 1 (1988) 50.
 .. [2] Spotts, Allocation of tolerances to minimize cost of assembly, J. Eng. Ind. 95 (1973) 762: k = 2.
-.. [3] Boyd, Vandenberghe, Convex Optimization, 2004, section 4.5: geometric programming.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import ConvergenceError, FindingError, InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -35,6 +34,7 @@ from linkwright.machine.address import get
 from linkwright.studies import sampling
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate
+from linkwright.studies.least_cost import LeastCost
 from linkwright.studies.limits import limits
 from linkwright.studies.plan import StudyPlan, with_tolerances
 from linkwright.studies.rows import FastStarts, OneByOne
@@ -214,44 +214,13 @@ class _Problem:
 
     def factors(self, z: float) -> Floats:
         """The cheapest ones that keep all limits by z deviations; the narrowest if none do, (variables,)."""
-        from scipy.optimize import minimize
-
         factors = np.ones(len(self.costs))
         own, fixed = self.table[:, self.free], np.delete(self.table, self.free, axis=1).sum(axis=1)
-        costs = self.costs[self.free] / self.costs.sum()
-        edge = np.log(_FACTOR)
         room = z**-2.0 - fixed
-        if (room <= own.sum(axis=1) * np.exp(-2 * edge)).any():
+        if (room <= own.sum(axis=1) / _FACTOR**2).any():
             factors[self.free] = 1 / _FACTOR
-            return factors
-
-        def use(x: Floats) -> Floats:
-            used: Floats = np.log(own @ np.exp(2 * x) / room)
-            return used
-
-        def use_slope(x: Floats) -> Floats:
-            parts = own * np.exp(2 * x)
-            slope: Floats = 2 * parts / parts.sum(axis=1, keepdims=True)
-            return slope
-
-        # All of them narrower by one factor keep the limits, to begin with.
-        start = np.full(len(self.free), -0.5 * max(float(use(np.zeros(len(self.free))).max()), -2 * edge))
-        kept: Any = {"type": "ineq", "fun": lambda x: -use(x), "jac": lambda x: -use_slope(x)}
-        given: Any = {
-            "fun": lambda x: float(costs @ np.exp(-self.power * x)),
-            "x0": np.clip(start, -edge, edge),
-            "jac": lambda x: -self.power * costs * np.exp(-self.power * x),
-            "bounds": [(-edge, edge)] * len(start),
-            "constraints": [kept],
-            "method": "SLSQP",
-            "options": {"maxiter": 300, "ftol": 1e-13},
-        }
-        best = minimize(**given)
-        if not best.success:
-            raise ConvergenceError(
-                f"the cheapest tolerances were not found ({best.message})", method="SLSQP", iterations=300
-            )
-        factors[self.free] = np.exp(best.x)
+        else:
+            factors[self.free] = LeastCost(self.costs[self.free], own, room, self.power, _FACTOR).factors()
         return factors
 
     def active(self, factors: Floats, z: float) -> tuple[str, ...]:

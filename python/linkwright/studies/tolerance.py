@@ -2,13 +2,13 @@ r"""Tolerances: how responses scatter when variables do, by first and second ord
 
 With the values x of the variables, their middles and standard deviations σ, to first order
 
-.. math:: \sigma_f^2 = \sum_i \left(\frac{\partial f}{\partial x_i} \sigma_i\right)^2, \qquad
-   f_\mathrm{worst} = f \pm \sum_i \left|\frac{\partial f}{\partial x_i}\right| t_i
+.. math:: \sigma_f^2 = \sum_i \left(\frac{\partial f}{\partial x_i} \sigma_i\right)^2
 
-where t are half widths of the tolerances, and to second order the mean is shifted by ½ Σ f″σ². First
-derivatives are exact where the analysis has them (`linkwright.studies.slopes`), and otherwise extrapolated
-differences, as `Tolerance.exact` says; second ones are central differences over a quarter of a standard
-deviation. Sobol indices are those of `linkwright.studies.indices`.
+and to second order the mean is shifted by ½ Σ f″σ². First derivatives are exact where the analysis has them
+(`linkwright.studies.slopes`), and otherwise extrapolated differences, as `Tolerance.exact` says; second ones
+are central differences over a quarter of a standard deviation. The worst case is that of the machine at the
+corners of the tolerances (`linkwright.studies.worst_case`). Sobol indices are those of
+`linkwright.studies.indices`.
 
 References
 ----------
@@ -35,16 +35,16 @@ from linkwright.studies.indices import NONE, Interval, intervals, sobol_indices,
 from linkwright.studies.plan import StudyPlan, with_tolerances
 from linkwright.studies.rows import SOLVED, FastStarts, OneByOne, Rows
 from linkwright.studies.slopes import slopes
+from linkwright.studies.worst_case import WorstCase, worst_case
 
 # Share of a standard deviation to both sides over which derivatives are taken: large against the accuracy of
 # responses, and its square over six is the relative error where the third derivative counts as much as the
 # first over one deviation.
 _STEP = 0.25
 
-# By how much the deviation at random may differ from that to first order, as a share, and a band lie outside
-# of the worst case, as a share of this. The deviation of n machines scatters by 1/√(2n) if they are normal,
-# and by more with longer tails: 4/√n is beyond chance.
-_BENT, _BEYOND, _SCATTER = 0.1, 0.01, 4.0
+# By how much the deviation at random may differ from that to first order, as a share. The deviation of n
+# machines scatters by 1/√(2n) if they are normal, and by more with longer tails: 4/√n is beyond chance.
+_BENT, _SCATTER = 0.1, 4.0
 
 # A deviation that is a smaller share of the response may be rounding.
 _ROUNDING = 1e-8
@@ -67,9 +67,13 @@ class Tolerance(Result):
     responses: Annotated[
         dict[str, dict[str, float]],
         About(
-            "Response → value at the middle, mean, deviation and 99.73 % band by Monte Carlo, deviation and "
-            "worst case to first order, shift of the mean to second order, in SI."
+            "Response → value at the middle, mean, deviation and 99.73 % band by Monte Carlo, deviation to "
+            "first order, worst case of the machine itself, shift of the mean to second order, in SI."
         ),
+    ]
+    beyond_corners: Annotated[
+        dict[str, str],
+        About("Responses whose worst case may be wider than the one given, each with the reason."),
     ]
     contributions: Annotated[
         dict[str, dict[str, float]], About("Response → variable → share of the variance to first order.")
@@ -134,6 +138,7 @@ class Tolerance(Result):
             "failure_indices",
             "failure_index_intervals",
             "ties",
+            "beyond_corners",
             "fast_starts",
             "one_by_one",
         )
@@ -184,6 +189,8 @@ def tolerance(
         raise FindingError(
             f"only {int(solved.sum())} of {rows} machines have an answer; most often: {reason}"
         )
+    columns = {name: drawn.columns[name][solved] for name in plan.responses}
+    worst = worst_case(plan, scatters.means, place.slopes, middle, columns)
     sobol = sobol_indices(plan, seed, indices, level) if indices else NONE
     names, deviations = scatters.names, scatters.deviations
     return Tolerance(
@@ -192,7 +199,7 @@ def tolerance(
         reasons=dict(drawn.failures().most_common()),
         variables=scatters.to_dict(),
         responses={
-            name: _row(scatters, drawn.columns[name][solved], middle[name], place.slopes[name], bends[name])
+            name: _row(scatters, columns[name], middle[name], place.slopes[name], bends[name], worst[name])
             for name in plan.responses
         },
         contributions={name: _shares(names, place.slopes[name] * deviations) for name in plan.responses},
@@ -201,6 +208,7 @@ def tolerance(
         },
         exact=tuple(name for name in plan.responses if name in place.exact),
         ties=place.ties,
+        beyond_corners={name: case.doubt for name, case in worst.items() if case.doubt},
         indices={name: values(of) for name, of in sobol.responses.items()},
         failure_indices=values(sobol.failures),
         index_intervals={name: intervals(of) for name, of in sobol.responses.items()},
@@ -234,7 +242,7 @@ def _check(plan: StudyPlan, rows: int, indices: int) -> None:
 
 
 class _Scatters:
-    """Means, standard deviations, limits and half widths of the variables [SI], (variables,) each.
+    """Means, standard deviations and limits of the variables [SI], (variables,) each.
 
     Where a variable has no ends, they are infinite.
     """
@@ -243,7 +251,6 @@ class _Scatters:
         self.names = [axis.name for axis in plan.axes]
         self.means, self.deviations = np.array([axis.moments() for axis in plan.axes]).T
         self.low, self.high = np.array([(axis.low, axis.high) for axis in plan.axes]).T
-        self.widths = 0.5 * (self.high - self.low)
 
     def to_dict(self) -> dict[str, dict[str, float]]:
         """All of it by the name of the variable."""
@@ -269,13 +276,10 @@ def _bends(plan: StudyPlan, scatters: _Scatters) -> tuple[dict[str, float], dict
 
 
 def _row(
-    scatters: _Scatters, drawn: Floats, middle: float, slopes: Floats, bends: Floats
+    scatters: _Scatters, drawn: Floats, middle: float, slopes: Floats, bends: Floats, worst: WorstCase
 ) -> dict[str, float]:
     """What is known of the scatter of a response."""
     low, high = np.quantile(drawn, _BAND)
-    # What a variable without ends may do is without end, unless the response does not depend on it.
-    with np.errstate(invalid="ignore"):
-        worst = float(np.where(slopes == 0, 0.0, np.abs(slopes) * scatters.widths).sum())
     return {
         "middle": middle,
         "mean": float(drawn.mean()),
@@ -284,8 +288,8 @@ def _row(
         "band_high": float(high),
         "deviation_first_order": float(np.sqrt(((slopes * scatters.deviations) ** 2).sum())),
         "mean_shift_second_order": float(0.5 * (bends * scatters.deviations**2).sum()),
-        "worst_low": middle - worst,
-        "worst_high": middle + worst,
+        "worst_low": worst.low,
+        "worst_high": worst.high,
     }
 
 
@@ -320,7 +324,4 @@ def _is_bent(row: Mapping[str, float], n: int) -> bool:
     first, drawn = row["deviation_first_order"], row["deviation"]
     if max(first, drawn) < _ROUNDING * abs(row["middle"]):
         return False
-    if abs(drawn - first) > (_BENT + _SCATTER / np.sqrt(n)) * max(first, drawn):
-        return True
-    beyond = max(row["worst_low"] - row["band_low"], row["band_high"] - row["worst_high"])
-    return beyond > _BEYOND * (row["worst_high"] - row["worst_low"])
+    return bool(abs(drawn - first) > (_BENT + _SCATTER / np.sqrt(n)) * max(first, drawn))

@@ -15,10 +15,11 @@ from linkwright.kernel.page.sentences import sentence, sentences
 from linkwright.kernel.page.table import Table
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import dumps
+from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.limits.survey import TorquePeaks
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion.study import TorsionStudy, is_balanced
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.torsion import (
     detail_tables,
@@ -157,8 +158,10 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
         )
 
 
-def _balanced(train: Train) -> str:
+def _balanced(train: Train, at: ExcitedTrain | None) -> str:
     """How mean torques balance."""
+    if at is not None and train.installed and train.drivers and is_balanced(at):
+        return "Mean torques of engines, drivers and loads balance."
     if not train.installed:
         shares = ", ".join(f"{on} {share:.4g}" for on, share in train.shares.items() if share < 1)
         parts = f", by shares of the power: {shares}" if shares else ""
@@ -207,7 +210,7 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
             "service; torsion is that of the worst misfire outside barred speed ranges."
         )
     if train.loads:
-        yield _balanced(train)
+        yield _balanced(train, study.excited)
     for name, coupling in train.couplings.items():
         if coupling.twist is not None:
             yield f"Coupling {name} has the stiffness of its curve at the mean torque of each speed."

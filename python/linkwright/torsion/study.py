@@ -396,14 +396,19 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
                 "(train.run.loads_follow = true)."
             )
         return
-    left, n = at.torques.surplus, at.referred.speed
-    taken = np.abs(n[:, None] * at.torques.mean).sum(axis=0)
-    if (np.abs(left) > _BALANCED * taken).any():
+    if not is_balanced(at):
+        left = at.torques.surplus
         yield (
             f"Steady running: loads keep their given torque; an excess torque of {left.min():+.5g} to "
             f"{left.max():+.5g} N m of the engine accelerates the train (train.run.loads_follow = true "
             "scales the loads instead)."
         )
+
+
+def is_balanced(at: ExcitedTrain) -> bool:
+    """Whether the mean torques on a train leave no excess at any speed."""
+    taken = np.abs(at.referred.speed[:, None] * at.torques.mean).sum(axis=0)
+    return not bool((np.abs(at.torques.surplus) > _BALANCED * taken).any())
 
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:
@@ -414,6 +419,11 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if forced is None or at is None:
         if train is not None and pulsates(train):
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
+        if train is not None and train.loads and train.run is None and study.transient is None:
+            yield (
+                "The loads damp at the speeds of [train.run] only: without it, natural frequencies and "
+                "damping ratios leave their slope over the speed out."
+            )
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)
     yield from () if study.misfire is None else _about_misfires(study.misfire)
@@ -468,6 +478,15 @@ def _about_misfires(verdict: MisfireVerdict) -> Iterator[str]:
 def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:
     """Loads that do not take what an engine gives."""
     if not train.loads:
+        left = at.torques.surplus
+        if is_balanced(at):
+            return
+        if any(driver.torque is not None for driver in train.drivers.values()):
+            yield (
+                f"The torques of engine and drivers leave an excess of {left.min():+.5g} to "
+                f"{left.max():+.5g} N m, which accelerates the train."
+            )
+            return
         yield "The engine drives no load: its mean torque accelerates the train, and the shafts carry it."
         return
     # Behind the throws there are loads and drivers alone, and all loads drive if one does.

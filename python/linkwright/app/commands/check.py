@@ -39,6 +39,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
         units=machine.units,
         results=lambda curves: {"checked": list(judged.looked_at)},
         findings=judged.findings,
+        warnings=judged.warnings,
         head=lambda: f"{verdict}  {file}\n\n{summary(machine)}",
         tables=lambda: [_checks(judged.looked_at)],
     )

@@ -79,7 +79,8 @@ class Crank(CheckedDescription):
     law: str | None = Field(
         None,
         description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
-        '"0.6*sin(phi)" swings back and forth. Default: phi.',
+        '"0.6*sin(phi)" swings back and forth. phi counts on beyond 2*pi: pi - atan2(sin(phi), -cos(phi)) '
+        "begins anew in every revolution. Default: phi.",
     )
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."

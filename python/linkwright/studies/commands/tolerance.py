@@ -73,6 +73,10 @@ def tolerance(
             *_dropped(scatter, indices),
             *(_bent(name, scatter.responses[name], plan.units[name]) for name in scatter.bent),
             *(
+                f"The worst case of {name} may be wider than given: {why}"
+                for name, why in scatter.beyond_corners.items()
+            ),
+            *(
                 f"{name} has a derivative on either side only, or none: {why}"
                 for name, why in scatter.ties.items()
             ),
@@ -115,8 +119,8 @@ def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
 
     shown = {key: measured(value, unit) for key, value in row.items()}
     return (
-        f"{name} is not linear within the tolerances, so that worst case and contributions, which are to "
-        f"first order, do not hold: 99.73 % of the machines lie from {shown['band_low']} to "
+        f"{name} is not linear within the tolerances, so that its contributions, which are to first "
+        f"order, do not hold: 99.73 % of the machines lie from {shown['band_low']} to "
         f"{shown['band_high']}, its standard deviation is {shown['deviation']}, to first order "
         f"{shown['deviation_first_order']}."
     )

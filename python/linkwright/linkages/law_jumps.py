@@ -1,0 +1,177 @@
+"""Jumps of velocity and acceleration in the laws of drivers that formulas give, and what they move.
+
+A law is continuous where it can be followed at all (`machine/program/smooth_laws.py`). Where its velocity
+jumps, the acceleration is infinite: no torque moves a mass through such a corner. Where its acceleration
+jumps, forces do too, and everything elastic is struck (VDI 2143: shock and jerk).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import AssemblyError, FindingError, InputError
+from linkwright.kernel.page.numbers import degrees
+from linkwright.machine.address import replace
+from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.machine.program.core import Channel
+
+# Intervals of a revolution that are looked at, and how far a rise may differ from its slopes, as a share of
+# the largest rate: a smooth law differs by its third derivative times h³/12, some 1e-6 of it.
+_LOOK, _DIFFERS = 720, 1e-3
+
+# Halvings from half a degree to 1e-11 rad.
+_HALVINGS = 30
+
+# By how far a driver is moved to see what it moves [rad, m], and places over the revolution at which.
+_MOVED, _PLACES = 1e-3, 7
+
+# What is left of a place that does not move, as a share of the move.
+_STILL = 1e-6
+
+_WORDS = {1: "velocity", 2: "acceleration"}
+
+
+@dataclass(frozen=True)
+class LawJump:
+    """A jump of a law's derivative of some order, 1 or 2, from one value to another [rad or m, per radᵏ]."""
+
+    name: str
+    text: str
+    order: int
+    angle: float  # crank angle [rad]
+    before: float
+    after: float
+    is_angle: bool  # whether the law is an angle, not a distance
+
+    @property
+    def words(self) -> str:
+        """Where and by how much."""
+        unit = ("rad" if self.is_angle else "m") + ("/rad" if self.order == 1 else "/rad²")
+        return (
+            f"the {_WORDS[self.order]} of the law of {self.name} jumps from {self.before:.4g} to "
+            f"{self.after:.4g} {unit} at a crank angle of {degrees(self.angle)}"
+        )
+
+
+def drivers_with_laws(machine: Machine) -> dict[str, tuple[str, bool]]:
+    """Cranks and linear drivers with a formula: name → the formula, and whether it is an angle."""
+    mechanism = machine.linkage
+    laws = {name: (crank.law, True) for name, crank in mechanism.cranks.items() if crank.law}
+    return laws | {
+        name: (driver.law, False) for name, driver in mechanism.linear_drivers.items() if driver.law
+    }
+
+
+def shaft_of_laws(machine: Machine) -> Iterator[str]:
+    """What torques at the crank are where drivers follow laws; nothing without masses and loads."""
+    names = ", ".join(drivers_with_laws(machine))
+    if names and (machine.bodies or machine.loads):
+        yield (
+            f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the shaft "
+            "in front of the law; a motor that makes the motion itself needs the torque of the drive behind it"
+        )
+
+
+def law_jumps(machine: Machine) -> list[LawJump]:
+    """Jumps of the laws over a revolution, those of the velocity first; empty without laws."""
+    laws = drivers_with_laws(machine)
+    if not laws:
+        return []
+    compiled = compile_machine(machine).first()
+    return [
+        LawJump(name, text, order, angle, before, after, is_angle)
+        for order in (1, 2)
+        for name, (text, is_angle) in laws.items()
+        for angle, before, after in _jumps(compiled, compiled.slides[f"{name}.law"], order)
+    ]
+
+
+def require_finite_accelerations(machine: Machine) -> None:
+    """Raise if a law with a corner moves masses: FindingError with its angle and jump."""
+    for corner in law_jumps(machine) if machine.bodies else []:
+        if corner.order == 1 and (moved := _bodies_moved(machine, corner)):
+            raise FindingError(
+                f"{corner.words}: {', '.join(moved)} would need an infinite acceleration there; write a law "
+                "whose velocity is continuous, or describe the motion as a cam"
+            )
+
+
+def law_cautions(machine: Machine) -> Iterator[str]:
+    """Jumps of velocity that move no masses, and jumps of acceleration, in sentences."""
+    for jump in law_jumps(machine):
+        words = jump.words[0].upper() + jump.words[1:]
+        if jump.order == 1:
+            if _bodies_moved(machine, jump):
+                continue  # refused
+            yield f"{words}: masses there would need an infinite acceleration"
+        else:
+            yield f"{words}: inertia forces jump there and excite vibration"
+
+
+def _jumps(compiled: CompiledMachine, slide: int, order: int) -> list[tuple[float, float, float]]:
+    """Crank angles at which a derivative of a law jumps, with both values."""
+
+    def law(angles: Floats) -> Floats:
+        (rows,) = compiled.motion([Channel.Slide(slide)], angles)
+        values: Floats = np.asarray(rows)
+        return values
+
+    # From just after zero to just after a revolution, so that a corner at its end is met once.
+    phi = np.linspace(0.0, 2 * np.pi, _LOOK + 1) + 0.37 * 2 * np.pi / _LOOK
+    values = law(phi)
+    size = max(float(np.abs(values[order]).max()), 1e-12)
+    if order == 1:
+        rise = np.diff(values[1]) - 0.5 * (values[2][1:] + values[2][:-1]) * np.diff(phi)
+        doubtful = np.abs(rise) > _DIFFERS * size
+    else:
+        # Of the third derivative the core has no channel: what changes fast is looked into.
+        doubtful = np.abs(np.diff(values[2])) > 0.05 * size
+    places = []
+    for k in np.flatnonzero(doubtful):
+        low, high = float(phi[k]), float(phi[k + 1])
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            a, b, c = law(np.array([low, middle, high]))[order]
+            low, high = (low, middle) if abs(b - a) > abs(c - b) else (middle, high)
+        before, after = law(np.array([low, high]))[order]
+        if abs(after - before) > 0.1 * _DIFFERS * size:
+            places.append((low % (2 * np.pi), float(before), float(after)))
+    return places
+
+
+def _bodies_moved(machine: Machine, corner: LawJump) -> list[str]:
+    """Bodies with a place or direction that the driver of a law moves."""
+    if not machine.bodies:
+        return []
+    address = f"mechanism.cranks.{corner.name}.phase"
+    if not corner.is_angle:
+        address = f"mechanism.linear_drivers.{corner.name}.start"
+    part = address.split(".")[1]
+    own = getattr(machine.mechanism, part).get(corner.name)
+    if own is None:
+        return list(machine.bodies)
+    value = own.phase if corner.is_angle else own.start
+    try:
+        there, moved = _places(machine), _places(replace(machine, {address: float(value) + _MOVED}))
+    except (AssemblyError, InputError):
+        return list(machine.bodies)
+    names = {
+        name
+        for name, place in there.items()
+        if np.nanmax(np.abs(moved[name] - place), initial=0.0) > _STILL * _MOVED
+    }
+    return [name for name, body in machine.bodies.items() if (body.on or name) in names]
+
+
+def _places(machine: Machine) -> dict[str, Floats]:
+    """Places of points and directions of links at some crank angles, by name."""
+    compiled = compile_machine(machine).first()
+    phi = 0.317 + np.linspace(0.0, 2 * np.pi, _PLACES, endpoint=False)
+    points = {name: compiled.point_motion(index, phi).place for name, index in compiled.points.items()}
+    links = {name: compiled.link_motion(index, phi).direction for name, index in compiled.links.items()}
+    return points | links
