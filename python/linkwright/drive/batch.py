@@ -20,7 +20,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine

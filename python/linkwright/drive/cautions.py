@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
-from linkwright.drive.reduction import Reduction
+from linkwright.drive.reduction import Reduction, has_inertia
 from linkwright.drive.steady_state import START_WORDS, SteadyState
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -30,9 +30,6 @@ _SMALL = 0.01
 # Relative accuracy of the steady motion above which it is worth a sentence: results are shown with six
 # digits.
 _ACCURATE = 1e-6
-
-# Inertia that is a smaller share of the maximum is zero but for rounding.
-_ROUNDING = 1e-12
 
 
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
@@ -112,11 +109,6 @@ def _least_start(drive: Drive) -> Iterator[str]:
 def _unloaded(machine: Machine) -> Iterator[str]:
     if not machine.loads:
         yield "The machine has no loads: only its inertia resists."
-
-
-def has_inertia(reduced: Reduction) -> bool:
-    """Whether the reduced inertia is above zero all round, beyond rounding."""
-    return reduced.inertia_min > _ROUNDING * reduced.inertia_max
 
 
 def _reduced(reduced: Reduction) -> Iterator[str]:

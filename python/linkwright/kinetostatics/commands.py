@@ -436,11 +436,14 @@ def balance(
     Those on given links that minimise the shaking force of inertia, or one on the crank against a
     share of a slider's mass; and what they change.
     """
+    from linkwright.kinetostatics.balancing import has_speed
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
     balanced = _counterweights(machine, links, slider, share, radius, planes, speed)
     speeds = speeds_of(balanced.before.speed, machine, speed)
+    if speed is None and not has_speed(machine):
+        speeds["speed_source"] = "the file has no drive.speed: counterweights are the same at any speed"
     hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
 
 
@@ -478,10 +481,7 @@ def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any])
     from linkwright.machine.write import dumps
 
     measures = {name: {"before": a, "after": b} for name, (a, b) in balanced.measures().items()}
-    weights = {
-        counterweight.link: {k: v for k, v in vars(counterweight).items() if k != "link"}
-        for counterweight in balanced.counterweights
-    }
+    weights = _by_place(balanced)
     return Answer(
         machine=machine.name,
         units=machine.units,
@@ -491,6 +491,17 @@ def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any])
         tables=partial(_balance_rows, balanced),
         machine_file=lambda: dumps(balanced.machine),
     )
+
+
+def _by_place(balanced: Balance) -> dict[str, dict[str, Any]]:
+    """Counterweights by link, in two planes by link and place along the crankshaft."""
+    has_planes = len({weight.axial for weight in balanced.counterweights}) > 1
+    return {
+        f"{weight.link} at {weight.axial:.6g} m" if has_planes else weight.link: {
+            k: v for k, v in vars(weight).items() if k != "link" or has_planes
+        }
+        for weight in balanced.counterweights
+    }
 
 
 def _balance_rows(balanced: Balance) -> list[Table]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from linkwright import _core
 from linkwright.kernel.arrays import Bools, Floats, Integers
 from linkwright.kernel.description.place import arrays, join
-from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.errors import AssemblyError, InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
@@ -120,6 +120,8 @@ class CompiledMachine:
     ground: tuple[_core.GroundPoint, ...] = ()  # points at rest
     # The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
     elements: tuple[_core.Element, ...] = ()
+    # What is wrong with a driver's law that has no value at some crank angles.
+    law_gap: AssemblyError | None = None
     # What has been found out about the machine once and for all, by name.
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -360,6 +362,7 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine
         resisting=assembly.plan.without_conservative(),
         ground=tuple(program.ground),
         elements=tuple(program.elements),
+        law_gap=assembly.law_gap,
     )
 
 

@@ -27,7 +27,7 @@ from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.motion import WIDTHS, link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
-from linkwright.machine.program.smooth_laws import LOOK, require_smooth
+from linkwright.machine.program.smooth_laws import LOOK, gap_in_law
 
 # First row of all parameters, which of them vary, and their values over the rows.
 Columns = tuple[Floats, Integers, Floats]
@@ -68,6 +68,8 @@ class InitialAssembly:
         self.given_at: dict[int, float] = {}
         # Machines in which a dyad passes an odd number of change points: their motion takes two revolutions.
         self.odd = np.zeros(1, dtype=np.bool_)
+        # What is wrong with the first law that has no value at some crank angles.
+        self.law_gap: AssemblyError | None = None
 
     def run(self) -> None:
         """Settles all that is pending, in build order.
@@ -76,9 +78,13 @@ class InitialAssembly:
         link turns irregularly, or a redundant bar does not fit.
         """
         self._check_laws()
-        for pending in self.program.pending:
-            self._fill_in(pending)
-        self._check_redundant()
+        try:
+            for pending in self.program.pending:
+                self._fill_in(pending)
+            self._check_redundant()
+        except AssemblyError as error:
+            # What hangs on a law cannot be followed where that has no value.
+            raise (self.law_gap or error) from None
 
     def _fill_in(self, pending: Pending) -> None:
         match pending:
@@ -92,13 +98,14 @@ class InitialAssembly:
                 self._follow(pending)
 
     def _check_laws(self) -> None:
-        """A driver's law must have a value everywhere, and no jump."""
+        """A driver's law must have values, and no jump; where it has none is known from then on."""
         mechanism = self.program.mechanism
         laws = {name: crank.law for name, crank in mechanism.cranks.items()}
         laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
         for name, law in laws.items():
             if law is not None:
-                require_smooth(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
+                gap = gap_in_law(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
+                self.law_gap = self.law_gap or gap
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""
