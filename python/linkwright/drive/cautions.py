@@ -14,6 +14,7 @@ from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction, has_inertia
 from linkwright.drive.steady_state import START_WORDS, SteadyState
+from linkwright.linkages.whole_cycle import first_revolution_words
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import reverse_factor
@@ -35,7 +36,12 @@ _ACCURATE = 1e-6
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
     """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
-    sentences = [*_unloaded(machine), *_reduced(reduced), *unjudged_limits(machine)]
+    sentences = [
+        *_unloaded(machine),
+        *_reduced(reduced),
+        *first_revolution_words(machine),
+        *unjudged_limits(machine),
+    ]
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)

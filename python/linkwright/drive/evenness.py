@@ -28,7 +28,7 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.whole_cycle import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -128,7 +128,7 @@ def constant_energy(machine: Machine) -> ConstantEnergy:
     Raises
     ------
     AssemblyError
-        The mechanism does not close all round, or its masses do not repeat within 24 revolutions.
+        The mechanism does not close all round.
     SteadyStateError
         The reduced inertia is zero at some crank angle, as at a dead centre of a machine without flywheel.
     """
@@ -163,7 +163,7 @@ def _exactly(compiled: CompiledMachine) -> float:
         ratio: Floats = (slope / inertia**2)[None]
         return ratio
 
-    compiled = over_whole_cycle(compiled)
+    compiled = over_known_cycle(compiled)
     turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))
 

@@ -17,7 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.linkages.whole_cycle import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.tangents import Derivatives, Directions, directions
@@ -54,7 +54,7 @@ def constant_energy_tangents(machine: Machine, variables: Sequence[str]) -> Deri
     program = directions(bare, own)
     refused = dict(program.refused)
     listed = tuple(name for name in variables if name not in refused)
-    compiled = over_whole_cycle(compile_machine(bare).first())
+    compiled = over_known_cycle(compile_machine(bare).first())
     turn = turn_curve(_curves(compiled), compiled.kinks(), "inertia reduced to the crank")
     high, low = turn.extreme(1, _INERTIA)[0], turn.extreme(-1, _INERTIA)[0]
     if high - low <= _CONSTANT * high:

@@ -93,12 +93,13 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     Returns
     -------
     Reduction
-        Curves over a cycle of the machine, extremes and means; these do not depend on ``n``.
+        Curves over a cycle of the machine, extremes and means; these do not depend on ``n``. Where masses and
+        loads do not repeat within 24 revolutions, over the first one.
 
     Raises
     ------
     AssemblyError
-        The mechanism does not close all round, or masses and loads do not repeat within 24 revolutions.
+        The mechanism does not close all round.
     FindingError
         A load has no value at some angle.
 

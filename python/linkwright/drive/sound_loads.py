@@ -9,7 +9,7 @@ from linkwright.kernel.errors import FindingError, SteadyStateError
 from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
-from linkwright.linkages.whole_cycle import cycle_of, over_whole_cycle
+from linkwright.linkages.whole_cycle import cycle_of, over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -28,12 +28,12 @@ _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 def require_turn(machine: Machine) -> CompiledMachine:
     """The machine over its cycle, if its crank rotates fully, with loads that have a value everywhere.
 
-    Raises `FindingError`: what does not close or repeat, or the load, and where.
+    Raises `FindingError`: what does not close, or the load, and where.
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     require_same_turns(machine)
-    compiled = over_whole_cycle(compiled)
+    compiled = over_known_cycle(compiled)
     require_sound_loads(compiled, machine)
     return compiled
 

@@ -235,17 +235,17 @@ def with_counterweights(
     [kg m]. Returns: with the forces of the new machine.
     """
     largest = max(float(np.hypot(*u)) for u in moments.values())
+    # Moments whose force is rounding beside the inertia of the bodies are none.
+    noise = _noise(scene)["shaking_force"] / float(np.nanmax(np.abs(scene.motion.speed))) ** 2
+    least = max(_NOTHING * largest, noise)
     counterweights, bodies = [], dict(machine.bodies)
     for (link, axial), u in moments.items():
         at = radius.get(link) if isinstance(radius, Mapping) else radius
         at = scene.links[link].length if at is None else at
         in_range(**{f"radius of {link}": (at, positive(LENGTH))})
-        size = float(np.hypot(*u))
-        # The sign of what rounding leaves across the link would turn 180° into −180°.
-        across = 0.0 if abs(u[1]) <= _NOTHING * size else float(u[1])
-        angle = float(np.arctan2(across, u[0]))
+        size, angle = _polar(u, least)
         counterweights.append(Counterweight(link, size, angle, size / at, at, axial))
-        if size > _NOTHING * largest:
+        if size > 0:
             in_range(**{f"mass of the counterweight on {link}": (size / at, not_negative(MASS))})
             place = {"along": at * float(np.cos(angle)), "across": at * float(np.sin(angle))}
             bodies[_free_name(link, bodies)] = Body(
@@ -253,6 +253,16 @@ def with_counterweights(
             )
     balanced = machine.with_entries({"bodies": bodies})
     return Balance(balanced, tuple(counterweights), before, forces(balanced, scene.motion))
+
+
+def _polar(u: Floats, least: float) -> tuple[float, float]:
+    """Size of a moment (2,) and its direction [rad]; 0 where rounding is as large."""
+    size = float(np.hypot(*u))
+    if size <= least:
+        return 0.0, 0.0
+    # The sign of what rounding leaves across the link would turn 180° into −180°.
+    across = 0.0 if abs(u[1]) <= _NOTHING * size else float(u[1])
+    return size, float(np.arctan2(across, u[0]))
 
 
 # Speed at which a machine is balanced that has none: counterweights are the same at any [rad/s].

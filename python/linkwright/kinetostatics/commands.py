@@ -175,6 +175,7 @@ def _answer(
 ) -> Answer:
     """What was found, case by case."""
     from linkwright.drive.cautions import unjudged_limits
+    from linkwright.linkages.whole_cycle import first_revolution_words
 
     return Answer(
         machine=machine.name,
@@ -184,7 +185,11 @@ def _answer(
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
-        warnings=[*_nothing_to_carry(machine), *unjudged_limits(machine)],
+        warnings=[
+            *_nothing_to_carry(machine),
+            *first_revolution_words(machine),
+            *unjudged_limits(machine),
+        ],
         head=partial(_head, speeds),
         tables=partial(_tables, cases, orders),
         files=partial(_files, cases),

@@ -76,7 +76,7 @@ def forces(
         speed.
     angles : array_like, shape (n,), optional
         Crank angles for a speed [rad]; without them a cycle: the revolutions after which
-        all forces repeat.
+        all forces repeat, or the first if these are more than 24.
     n : int
         Intervals of a revolution.
     friction : mapping of str to Friction, optional
@@ -94,8 +94,8 @@ def forces(
     Raises
     ------
     FindingError
-        The crank does not rotate fully, or masses and loads do not repeat within 24 revolutions; there are no
-        forces at any angle, or more unknowns at all angles than are solved for at once.
+        The crank does not rotate fully, there are no forces at any angle, or more unknowns at all angles than
+        are solved for at once.
     InputError
         Motion and speed are both given, or neither where the machine has none; wrong friction.
 

@@ -30,6 +30,7 @@ from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel, Element
+from linkwright.machine.program.smooth_laws import LARGEST
 
 # A radicand whose parabola through three angles dips below this share of its maximum is looked into.
 _CLOSE = 1e-3
@@ -158,9 +159,10 @@ def _gaps(compiled: CompiledMachine, angles: Floats) -> Floats:
     if compiled.law_gap is None:
         return gaps
     laws = [Channel.Slide(part.slide) for part in compiled.elements if isinstance(part, Element.Law)]
-    values = np.array([row for rows in compiled.motion(laws, angles) for row in rows])
-    known = np.isfinite(values).all(axis=0)
-    return np.concatenate([np.where(known, 1.0, -1.0)[None], gaps])
+    values = np.array([row for rows in compiled.motion(laws, angles) for row in rows[:2]])
+    known = (np.abs(values) < LARGEST).all(axis=0)
+    # What hangs on the law has no place there.
+    return np.concatenate([np.where(known, 1.0, -1.0)[None], np.where(known, gaps, np.nan)])
 
 
 def _shares(compiled: CompiledMachine, gaps: Floats, sizes: Floats) -> Floats:

@@ -8,10 +8,11 @@ with change points, or with gears at a fraction of the speed, differs from one r
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import AssemblyError
 from linkwright.linkages.closure import turn_angles
@@ -29,10 +30,26 @@ def over_whole_cycle(compiled: CompiledMachine) -> CompiledMachine:
 
     The `AssemblyError` says after how many revolutions it does, if they are many, and what to change.
     """
-    known: CompiledMachine | None = compiled.kept.get("whole cycle")
-    if known is None:
-        known = compiled.kept["whole cycle"] = _whole_cycle(compiled)
-    return known
+    if not _turns(compiled):
+        raise AssemblyError(_unrepeated(compiled))
+    return over_known_cycle(compiled)
+
+
+def over_known_cycle(compiled: CompiledMachine) -> CompiledMachine:
+    """`over_whole_cycle`, and where there is none, over the revolutions that loads over the angle take."""
+    turns = _turns(compiled)
+    return compiled.over_turns(turns) if turns > compiled.turns else compiled
+
+
+def first_revolution_words(machine: Machine) -> Iterator[str]:
+    """What is to know of quantities over a cycle, if masses and loads do not repeat."""
+    compiled = compile_machine(machine).first()
+    if not _turns(compiled):
+        text = _unrepeated(compiled)
+        yield (
+            f"{text[0].upper()}{text[1:]}. Inertia, torques and forces over a cycle are those of the first "
+            "revolution."
+        )
 
 
 def over_whole_motion(compiled: CompiledMachine) -> CompiledMachine | None:
@@ -47,34 +64,51 @@ def over_whole_motion(compiled: CompiledMachine) -> CompiledMachine | None:
 
 
 def force_turns(compiled: CompiledMachine) -> int:
-    """Revolutions after which all forces repeat: with every point and link, else with what the crank feels.
-
-    The `AssemblyError` is that of `over_whole_cycle`.
-    """
-    return (over_whole_motion(compiled) or over_whole_cycle(compiled)).turns
+    """Revolutions after which forces repeat: with every point and link, else with what the crank feels."""
+    return (over_whole_motion(compiled) or over_known_cycle(compiled)).turns
 
 
 def cycle_of(machine: Machine) -> float:
-    """Angle of the crank after which all that it feels repeats; of what never does, a revolution [rad]."""
-    try:
-        return over_whole_cycle(compile_machine(machine).first()).cycle
-    except AssemblyError:
-        return 2 * np.pi
+    """Angle of the crank after which all that it feels repeats [rad]."""
+    return over_known_cycle(compile_machine(machine).first()).cycle
 
 
-def _whole_cycle(compiled: CompiledMachine) -> CompiledMachine:
+def row_turns(compiled: CompiledMachine) -> Integers:
+    """Revolutions of the cycle of each machine of a batch, (rows,); 0 where these are too many, or none."""
     if compiled.one_turn:
-        return compiled
+        return np.full(compiled.n_rows, compiled.turns, dtype=np.int32)
+    # Where masses and loads alone vary, all mechanisms repeat together.
+    shared = None if compiled.motion_varies else turns_to_repeat(compiled.first()) or 0
+    return np.array([_row_turns(compiled.row(k), shared) for k in range(compiled.n_rows)], dtype=np.int32)
+
+
+def _row_turns(compiled: CompiledMachine, known: int | None) -> int:
+    """Revolutions of a machine's cycle, 0 if there is none; `known`: those after which its motion repeats."""
+    if _repeats(compiled):
+        return compiled.turns
+    turns = turns_to_repeat(compiled) if known is None else known
+    together = math.lcm(turns or 0, compiled.turns)
+    return together if together <= TURNS_MAX else 0
+
+
+def _turns(compiled: CompiledMachine) -> int:
+    """Revolutions of the cycle of a machine, of a batch of the first; 0 where these are too many, or none."""
+    if compiled.one_turn:
+        return compiled.turns
+    known: int | None = compiled.kept.get("cycle")
+    if known is None:
+        known = compiled.kept["cycle"] = _row_turns(compiled, None)
+    return known
+
+
+def _unrepeated(compiled: CompiledMachine) -> str:
+    """Why a machine has no cycle, in words, and what to change."""
     turns = turns_to_repeat(compiled)
-    if turns == 1 or _repeats(compiled):
-        return compiled
-    if turns is None or math.lcm(turns, compiled.turns) > TURNS_MAX:
-        after = f"they do only after {turns}" if turns else "they never do"
-        raise AssemblyError(
-            f"masses and loads do not repeat within {TURNS_MAX} revolutions of the crank: {after}; choose "
-            "the slowest part as the crank, or put masses and loads on parts that repeat with it"
-        )
-    return compiled.over_turns(turns)
+    after = f"only after {turns} revolutions" if turns else "and never do"
+    return (
+        f"masses and loads do not repeat within {TURNS_MAX} revolutions of the crank, {after}: choose the "
+        "slowest part as the crank, or put masses and loads on parts that repeat with it"
+    )
 
 
 def _repeats(compiled: CompiledMachine) -> bool:

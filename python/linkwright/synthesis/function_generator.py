@@ -57,7 +57,7 @@ class FunctionGenerator(TransmissionResult):
     rocker_opposite: Annotated[bool, About("Whether the link ``B.rocker`` points against the rocker angle.")]
     assembly: Annotated[
         str,
-        About("Side of the joint seen from the crank's pin to the rocker's pivot, as in the machine file."),
+        About("Side of the joint, seen from the crank's pin to the rocker's pivot, as in the machine file."),
     ]
     residual: Annotated[
         float,

@@ -17,7 +17,7 @@ LOOK = 720
 _DIFFERS = 1e-4
 
 # Beyond this a sine has no digits left that mean anything [rad, m, and their slopes].
-_LARGEST = 1e6
+LARGEST = 1e6
 
 # Halvings of an interval after which what is left of a rise is a jump: half a degree is then 1e-11 rad.
 _HALVINGS = 30
@@ -31,7 +31,7 @@ def gap_in_law(name: str, text: str, law: Callable[[Floats], Floats]) -> Assembl
     """
     phi = np.linspace(0.0, 2 * np.pi, LOOK + 1)
     value, slope = law(phi)
-    known = (np.abs(value) < _LARGEST) & (np.abs(slope) < _LARGEST)
+    known = (np.abs(value) < LARGEST) & (np.abs(slope) < LARGEST)
     if not known.all():
         at = float(phi[int(np.argmin(known))])
         remedy = "look for a division by zero, a root or a logarithm"
