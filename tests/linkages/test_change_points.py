@@ -73,7 +73,7 @@ def test_laws_that_cannot_be_followed(law: str, words: str) -> None:
     crank = machine.mechanism.cranks["A"].with_entries({"law": law})
     mechanism = machine.mechanism.with_entries({"cranks": {"A": crank}})
     with pytest.raises(AssemblyError, match="the law of A") as caught:
-        lw.closure(machine.with_entries({"mechanism": mechanism}))
+        lw.reduction(machine.with_entries({"mechanism": mechanism}))
     assert words in str(caught.value)
 
 

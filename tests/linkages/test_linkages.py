@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.read import loads
 

@@ -31,9 +31,10 @@ from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.closure import closure, over_whole_cycle
+from linkwright.linkages.closure import closure
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 

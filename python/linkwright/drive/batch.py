@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,17 +13,17 @@ from linkwright.drive import evenness
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.sound_loads import require_same_turns
 from linkwright.drive.steady_state import START_WORDS, known_start_limits
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.extras import require
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_whole_cycle, row_turns
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SENTENCES, Status
 
 if TYPE_CHECKING:
@@ -46,7 +46,9 @@ COLUMNS = (
 )
 
 # What each status means.
-STATUS = SENTENCES
+STATUS = SENTENCES | {
+    int(Status.TWO_TURNS): "masses and loads do not repeat within 24 revolutions of the crank"
+}
 
 # What each number of `SteadyStates.fast_starts` means; fast starts settle where it is 0.
 _OUTCOMES = ("runs away", "undecided")
@@ -94,7 +96,7 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
     ]
     fast_starts: Annotated[NDArray[np.uint8], About(_FAST_STARTS, "(rows,)")]
     turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
-    turns: Annotated[int, Label("revolutions of a cycle", "", "")] = 1
+    turns: Annotated[Integers, Label("revolutions of a cycle", "", "")]
 
     @property
     def speed_mean_time(self) -> Annotated[Floats, Label("mean speed over time", "ω_m", "rad/s")]:
@@ -162,7 +164,7 @@ def steady_states(
     Returns
     -------
     SteadyStates
-        One row a machine, in the order of the arrays.
+        One row a machine, in the order of the arrays; each over its own cycle.
 
     Raises
     ------
@@ -173,7 +175,7 @@ def steady_states(
     InputError
         The machine has no motor, or one of constant speed.
     FindingError
-        The first machine does not repeat after one revolution of the crank.
+        Masses and loads of the first machine do not repeat within 24 revolutions of the crank.
     SteadyStateError
         A load changes with time itself.
     """
@@ -194,27 +196,26 @@ def steady_states(
             f"{', '.join(arrays)}: no effect on the steady motion of {machine.name}; vary an entry of the "
             "motor's characteristic, the mechanism, its bodies or its loads"
         )
-    compiled = over_whole_cycle(compiled)
-    motions = compiled.steady_rows(accuracy)
-    status, columns = motions.status, {name: getattr(motions, name) for name in COLUMNS}
-    if not compiled.two_turns[0]:
-        # The first machine was checked above.
-        longer = np.broadcast_to(compiled.two_turns, status.shape)
-        status[longer] = int(Status.TWO_TURNS)
-        motions.fast_starts[longer] = 0
-        for column in columns.values():
-            column[longer] = np.nan
-    for name in ("energy_motor", "energy_drive", "energy_load"):
-        if name in columns:
-            columns[name] = columns[name] / compiled.turns
-    return SteadyStates(
-        entries=arrays,
-        status=status,
-        fast_starts=motions.fast_starts,
-        turns_swept=motions.turns_swept,
-        turns=compiled.turns,
-        **columns,
-    )
+    over_whole_cycle(compiled.first())
+    return SteadyStates(entries=arrays, **_solved_rows(compiled, accuracy))
+
+
+def _solved_rows(compiled: CompiledMachine, accuracy: float) -> dict[str, Any]:
+    """Steady motion of every row over its own cycle, by name of the attribute."""
+    turns, swept = row_turns(compiled), 0
+    status = np.full(len(turns), int(Status.TWO_TURNS), dtype=np.uint8)
+    fast = np.zeros(len(turns), dtype=np.uint8)
+    columns = {name: np.full(len(turns), np.nan) for name in COLUMNS}
+    for cycle in np.unique(turns[turns > 0]).tolist():
+        members = np.flatnonzero(turns == cycle).astype(np.int32)
+        part = compiled.over_turns(cycle)
+        motions = (part if len(members) == len(turns) else part.rows(members)).steady_rows(accuracy)
+        status[members], fast[members] = motions.status, motions.fast_starts
+        for name, column in columns.items():
+            per = cycle if name.startswith("energy") else 1
+            column[members] = getattr(motions, name) / per
+        swept += motions.turns_swept
+    return {"status": status, "fast_starts": fast, "turns_swept": swept, "turns": turns, **columns}
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:

@@ -12,8 +12,9 @@ import numpy as np
 from linkwright.drive.model.catalogue import KNOWN, OVERLOAD, estimated_inertia
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
-from linkwright.drive.reduction import Reduction
+from linkwright.drive.reduction import Reduction, has_inertia
 from linkwright.drive.steady_state import START_WORDS, SteadyState
+from linkwright.linkages.whole_cycle import first_revolution_words
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import reverse_factor
@@ -31,14 +32,16 @@ _SMALL = 0.01
 # digits.
 _ACCURATE = 1e-6
 
-# Inertia that is a smaller share of the maximum is zero but for rounding.
-_ROUNDING = 1e-12
-
 
 def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
     """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
-    sentences = [*_unloaded(machine), *_reduced(reduced), *unjudged_limits(machine)]
+    sentences = [
+        *_unloaded(machine),
+        *_reduced(reduced),
+        *first_revolution_words(machine),
+        *unjudged_limits(machine),
+    ]
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)
@@ -112,11 +115,6 @@ def _least_start(drive: Drive) -> Iterator[str]:
 def _unloaded(machine: Machine) -> Iterator[str]:
     if not machine.loads:
         yield "The machine has no loads: only its inertia resists."
-
-
-def has_inertia(reduced: Reduction) -> bool:
-    """Whether the reduced inertia is above zero all round, beyond rounding."""
-    return reduced.inertia_min > _ROUNDING * reduced.inertia_max
 
 
 def _reduced(reduced: Reduction) -> Iterator[str]:

@@ -17,6 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -61,7 +62,7 @@ def characteristic(
     speed = np.linspace(0.0, top, n + 1)
     crank = speed / ratio
     load = reduced.torque_load_mean + reduced.viscous_mean * crank
-    load = load + compiled.speed_load(crank) + mean_laws(compiled, crank)
+    load = load + compiled.speed_load(crank) + mean_laws(over_known_cycle(compiled), crank)
     return Characteristic(
         speed=speed,
         torque=compiled.motor_torques(crank).motor,

@@ -22,9 +22,9 @@ from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.motion import Motion, motion_along
+from linkwright.linkages.whole_cycle import over_whole_cycle, over_whole_motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyMotion
@@ -284,8 +284,9 @@ def _along(machine: Machine, crank: CrankMotion, phi: Floats) -> Motion:
 def _looked_at(compiled: CompiledMachine, low: float, high: float, turns: int) -> Floats:
     """Angles at which extremes are looked for first: evenly, and on both sides of every kink."""
     even = np.linspace(low, high, _SEARCHED * turns + 1)
-    first, last = np.floor(np.array([low, high]) / (2 * np.pi)).astype(int)
-    every = [compiled.kinks() + 2 * np.pi * n for n in range(first, last + 1)]
+    compiled = over_whole_motion(compiled) or compiled
+    first, last = np.floor(np.array([low, high]) / compiled.cycle).astype(int)
+    every = [compiled.kinks() + compiled.cycle * n for n in range(first, last + 1)]
     kinks = np.concatenate(every)
     angles = np.sort(np.concatenate([even, kinks - _BESIDE, kinks + _BESIDE]))
     # `np.unique` would import masked arrays, which takes longer than all that is computed here.

@@ -21,13 +21,14 @@ from typing import TYPE_CHECKING, Annotated, Generic, TypeVar
 
 import numpy as np
 
-from linkwright.drive.reduction import NO_INERTIA, Reduction, reduction
+from linkwright.drive.reduction import NO_INERTIA, Reduction, has_inertia, reduction
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -128,6 +129,8 @@ def constant_energy(machine: Machine) -> ConstantEnergy:
     ------
     AssemblyError
         The mechanism does not close all round.
+    SteadyStateError
+        The reduced inertia is zero at some crank angle, as at a dead centre of a machine without flywheel.
     """
     return constant_energy_of(reduction(machine, n=1), compile_machine(machine).first())
 
@@ -139,8 +142,12 @@ def constant_energy_of(reduced: Reduction, compiled: CompiledMachine | None = No
     Its peak is exact for a machine. Of curves alone it is found by a parabola through the best sample and its
     neighbours: with 1440 intervals within 1e-6 of H on the machines that are shipped.
     """
-    if not reduced.inertia_min > 0:
-        raise SteadyStateError(NO_INERTIA)
+    if not has_inertia(reduced):
+        at = np.degrees(reduced.inertia_min_angle)
+        raise SteadyStateError(
+            f"no constant-energy limit: the reduced inertia falls to zero at a crank angle of {at:.1f}°, "
+            "where the crank would be infinitely fast; give motor, flywheel or bodies their inertia"
+        )
     slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)
     mean = mean_of_extremes(float(slow), float(fast))
     peak = _by_samples(reduced) if compiled is None else _exactly(compiled)
@@ -156,6 +163,7 @@ def _exactly(compiled: CompiledMachine) -> float:
         ratio: Floats = (slope / inertia**2)[None]
         return ratio
 
+    compiled = over_known_cycle(compiled)
     turn = turn_curve(acceleration, compiled.kinks(), "angular acceleration at constant energy")
     return max(abs(turn.extreme(sign)[0]) for sign in (1, -1))
 

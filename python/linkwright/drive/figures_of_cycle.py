@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
-from linkwright.drive.tables_of_cycle import outputs, speed_words, within_turn
+from linkwright.drive.tables_of_cycle import angle_words, outputs, speed_words
 from linkwright.kernel.figure.style import (
     LINES,
     CaptionedFigure,
@@ -19,7 +19,7 @@ from linkwright.kernel.figure.style import (
     styled,
     zero_line,
 )
-from linkwright.kernel.page.numbers import crank_angle, measured
+from linkwright.kernel.page.numbers import measured
 from linkwright.linkages.cycle import Linkage
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def _words(motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple
             (abs(extremes.minimum), extremes.minimum_angle), (abs(extremes.maximum), extremes.maximum_angle)
         )
         value = measured(peak, motion.unit_of(name + ending))
-        parts.append(f"the peak {word} of {name} is {value} at φ = {crank_angle(within_turn(motion, at))}")
+        parts.append(f"the peak {word} of {name} is {value} at φ = {angle_words(motion, at)}")
     return "; ".join(parts) or "at rest"
 
 

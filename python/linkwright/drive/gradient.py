@@ -20,7 +20,8 @@ from linkwright.drive.steady_state import SteadyState, solved_state, unknown_wor
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.linkages.closure import over_whole_cycle, turn_angles
+from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.address import exchanged
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine

@@ -17,6 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.tangents import Derivatives, Directions, directions
@@ -53,7 +54,7 @@ def constant_energy_tangents(machine: Machine, variables: Sequence[str]) -> Deri
     program = directions(bare, own)
     refused = dict(program.refused)
     listed = tuple(name for name in variables if name not in refused)
-    compiled = compile_machine(bare).first()
+    compiled = over_known_cycle(compile_machine(bare).first())
     turn = turn_curve(_curves(compiled), compiled.kinks(), "inertia reduced to the crank")
     high, low = turn.extreme(1, _INERTIA)[0], turn.extreme(-1, _INERTIA)[0]
     if high - low <= _CONSTANT * high:
@@ -130,8 +131,9 @@ class _Reads:
         lost = apart.any(axis=0)
         places = " and ".join(dict.fromkeys(map(_degrees, angles)))
         why = f"it is reached at {places}" if lost.any() else ""
+        half = 0.5 * self.compiled.cycle
         for angle in angles:
-            on = np.abs(np.remainder(self.joints - angle + np.pi, 2 * np.pi) - np.pi) <= _ON_JOINT
+            on = np.abs(np.remainder(self.joints - angle + half, self.compiled.cycle) - half) <= _ON_JOINT
             if on.any():
                 lost |= self.moves[on].any(axis=0)
                 why = f"it is reached at {_degrees(angle)}, on a joint of a motion law that an entry moves"

@@ -16,6 +16,7 @@ from numpy.polynomial import polynomial
 from linkwright.drive.transient import End, Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
+from linkwright.linkages.whole_cycle import over_whole_motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -227,6 +228,7 @@ def _passages(motion: Transient, away: Floats) -> Iterator[tuple[int, int]]:
 def _kinks(machine: Machine) -> tuple[Floats, float]:
     """Crank angles at which the equation of motion has kinks, and the cycle of these [rad]."""
     compiled = compile_machine(machine).first()
+    compiled = over_whole_motion(compiled) or compiled
     return compiled.kinks(), compiled.cycle
 
 

@@ -1,4 +1,6 @@
-r"""The machine reduced to the crank: reduced inertia and load torque over one revolution.
+r"""The machine reduced to the crank: reduced inertia and load torque over one cycle.
+
+A cycle is a revolution, or as many as mechanism and loads take to repeat.
 
 .. math::
 
@@ -32,6 +34,9 @@ NO_INERTIA = (
     "give motor, flywheel or bodies their inertia"
 )
 
+# Inertia that is a smaller share of the maximum is zero but for rounding.
+_ROUNDING = 1e-12
+
 # Speeds at which laws are integrated together; more only take memory.
 _SPEEDS = 64
 
@@ -40,9 +45,11 @@ _LOADS = "Of all loads that do not depend on the size of the speed, crank turnin
 
 @dataclass(frozen=True)
 class Reduction(Result):
-    """Reduced inertia and torque over one revolution."""
+    """Reduced inertia and torque over one cycle."""
 
-    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "0 to 2π.", shape="(n + 1,)")]
+    crank_angle: Annotated[
+        Floats, Label("crank angle", "φ", "rad", "Over a cycle, from 0.", shape="(n + 1,)")
+    ]
     inertia_reduced: Annotated[Floats, Label("reduced inertia", "J", "kg m²", "Motor and gearbox included.")]
     inertia_reduced_d1: Annotated[Floats, Label("derivative of the reduced inertia", "J′", "kg m²/rad")]
     torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m", _LOADS)]
@@ -86,12 +93,14 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
     Returns
     -------
     Reduction
-        Curves over the revolution, extremes and means; these do not depend on ``n``.
+        Curves over a cycle of the machine, extremes and means; these do not depend on ``n``. Where masses and
+        loads do not repeat within 24 revolutions, over the first one.
 
     Raises
     ------
     AssemblyError
         The mechanism does not close all round.
+    FindingError
         A load has no value at some angle.
 
     Notes
@@ -107,7 +116,7 @@ def reduction(machine: Machine, *, n: int = 360) -> Reduction:
 
 
 def reduction_of(compiled: CompiledMachine, n: int = 360) -> Reduction:
-    """`reduction` of a compiled machine that closes."""
+    """`reduction` of a compiled machine that closes, over its cycle."""
     phi = turn_angles(n, compiled.turns)
     at = compiled.reductions(phi)
     turn = turn_curve(lambda at: _inertia_and_load(compiled, at), compiled.kinks(), "inertia and load")
@@ -131,8 +140,13 @@ def reduction_of(compiled: CompiledMachine, n: int = 360) -> Reduction:
     )
 
 
+def has_inertia(reduced: Reduction) -> bool:
+    """Whether the reduced inertia is above zero all round, beyond rounding."""
+    return reduced.inertia_min > _ROUNDING * reduced.inertia_max
+
+
 def mean_over_turn(compiled: CompiledMachine) -> tuple[float, float]:
-    """Means of the load torque and of the viscous coefficient over the crank angle.
+    """Means of the load torque and of the viscous coefficient over the cycle of a compiled machine.
 
     Loads that have a potential do no work over a closed cycle, whatever their size: they are left out of the
     integral where the mechanism is after a cycle where it was.

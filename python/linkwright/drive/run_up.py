@@ -20,6 +20,7 @@ from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.linkages.whole_cycle import cycle_of
 from linkwright.machine.machine import Machine
 
 # Relative accuracy of a step, and of the steady motion that is approached: as in a study, which has it.
@@ -107,7 +108,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
             accuracy=accuracy,
         )
         if motion.came_to_rest:
-            raise StartError(_why_not(motion))
+            raise StartError(_why_not(motion, cycle_of(machine)))
         settled = _settled(machine, motion, steady, accuracy)
         # Settled well before the end: otherwise the speed may yet leave the band again.
         if settled is not None and (settled[0] <= 0.8 * turns or turns >= options.turns_max):
@@ -138,7 +139,7 @@ def _steady_or_stall(machine: Machine) -> SteadyState:
             machine, angle=options.angle_start, speed=options.speed_start, turns=options.turns_max
         )
         if motion.came_to_rest:
-            raise StartError(_why_not(motion)) from None
+            raise StartError(_why_not(motion, cycle_of(machine))) from None
         raise
 
 
@@ -155,12 +156,12 @@ def start_of(machine: Machine) -> None:
         machine, angle=options.angle_start, speed=options.speed_start, turns=0.01, accuracy=1e-6
     )
     if first.came_to_rest:
-        raise StartError(_why_not(first))
+        raise StartError(_why_not(first, cycle_of(machine)))
 
 
-def _why_not(motion: Transient) -> str:
-    """One sentence: where the machine comes to rest, with both torques."""
-    angle = f"{np.degrees(motion.crank_angle[-1] % (2 * np.pi)):.1f}°"
+def _why_not(motion: Transient, cycle: float) -> str:
+    """One sentence: at which angle of a cycle [rad] the machine comes to rest, with both torques."""
+    angle = f"{np.degrees(motion.crank_angle[-1] % cycle):.1f}°"
     drive, load = motion.torque_drive_end, motion.torque_load_end
     balance = f"at {angle} the motor gives {drive:.0f} N m at the crank, the load needs {load:.0f} N m"
     remedy = "choose a motor with more starting torque, a larger ratio, or another start angle"
@@ -295,5 +296,5 @@ def accurate_run_down(machine: Machine, speed: float, accuracy: float) -> RunDow
         raise SteadyStateError(
             f"does not come to rest within {_TURNS_MAX:.0f} revolutions: add [drive.brake]"
         )
-    end = float(motion.crank_angle[-1] % (2 * np.pi))
+    end = float(motion.crank_angle[-1] % cycle_of(machine))
     return RunDown(turns=motion.turns, time=float(motion.time[-1]), angle_end=end, motion=motion)

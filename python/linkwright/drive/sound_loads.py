@@ -1,4 +1,4 @@
-"""Whether the loads of a machine can be computed all round, and repeat every revolution."""
+"""Whether the loads of a machine can be computed all round, and repeat every cycle."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from linkwright.kinetostatics.model.loads.between import GasSpring, TorsionalSpr
 from linkwright.kinetostatics.model.loads.force import FormulaLoad, Load
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.linkages.law_jumps import require_finite_accelerations
+from linkwright.linkages.whole_cycle import cycle_of, over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
@@ -26,13 +27,14 @@ _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 
 
 def require_turn(machine: Machine) -> CompiledMachine:
-    """The machine compiled, if its crank rotates fully, with loads that have a value everywhere.
+    """The machine over its cycle, if its crank rotates fully, with loads that have a value everywhere.
 
     Raises `FindingError`: what does not close, or the load, and where.
     """
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     require_same_turns(machine)
+    compiled = over_known_cycle(compiled)
     require_sound_loads(compiled, machine)
     return compiled
 
@@ -73,7 +75,7 @@ def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
     The torques of both sides drive the crank back to that speed (Filippov, *Differential Equations with
     Discontinuous Righthand Sides*, 1988, § 4).
     """
-    where = f"at {speed:.6g} rad/s (φ = {np.degrees(angle) % 360:.4g}°)"
+    where = f"at {speed:.6g} rad/s (φ = {np.degrees(angle % cycle_of(machine)):.4g}°)"
     what = f"a load jumps {where}"
     for name, load in machine.loads.items():
         if not isinstance(load, FormulaLoad):
@@ -101,7 +103,7 @@ def require_half_turns(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if a torsional spring is turned beyond half a revolution from its free angle."""
     for name, load in machine.loads.items():
         if isinstance(load, TorsionalSpring):
-            _require_half_turns(name, load, compiled, turn_angles(_ANGLES))
+            _require_half_turns(name, load, compiled, turn_angles(_ANGLES, compiled.turns))
 
 
 def _torques(compiled: CompiledMachine, phi: Floats) -> Floats:

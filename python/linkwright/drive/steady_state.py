@@ -26,7 +26,8 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.closure import over_whole_cycle, require_full_turn, turn_angles
+from linkwright.linkages.closure import require_full_turn, turn_angles
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import (

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from linkwright.drive.cautions import cautions, has_inertia
+from linkwright.drive.cautions import cautions
 from linkwright.drive.evenness import ConstantEnergy, constant_energy_of
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.reduction import Reduction, reduction
+from linkwright.drive.reduction import Reduction, has_inertia, reduction
 from linkwright.drive.run_up import RunDown, RunUp, run_down, run_up, start_of
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion, step_method

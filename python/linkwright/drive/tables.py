@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
 from linkwright.drive.study import DriveStudy
-from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number
+from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number
 from linkwright.kernel.page.table import Row, Table, rows_in
 from linkwright.kernel.quantities import in_table, shown
-from linkwright.kernel.result import Result
 
 
 def drive_tables(study: DriveStudy) -> Iterator[Table]:
@@ -19,10 +19,11 @@ def drive_tables(study: DriveStudy) -> Iterator[Table]:
     yield from (table for part in parts if (table := part(study)) is not None)
 
 
-def _rows(result: Result, table: str, *, without: Collection[str] = ()) -> list[Row]:
+def _rows(result: Reduction | SteadyState, table: str, *, without: Collection[str] = ()) -> list[Row]:
     """The rows of a table; of an extreme, with the crank angle where it is."""
     extremes = [name for name in in_table(type(result), table) if hasattr(result, f"{name}_angle")]
-    places = {name: crank_angle(getattr(result, f"{name}_angle"), "at φ = ") for name in extremes}
+    cycle = cycle_of_angles(result.crank_angle)
+    places = {name: crank_angle(getattr(result, f"{name}_angle"), "at φ = ", cycle) for name in extremes}
     return rows_in(result, table, places, without=without)
 
 

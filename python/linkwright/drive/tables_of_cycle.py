@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
-from linkwright.kernel.page.numbers import crank_angle, measured
+from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, measured
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import Linkage
 
@@ -67,16 +67,17 @@ def _row(motion: CycleMotion, name: str, ending: str, word: str, symbol: str) ->
         f"{name}, {word}",
         symbol,
         measured(extremes.minimum, unit, scale),
-        crank_angle(within_turn(motion, extremes.minimum_angle)),
+        angle_words(motion, extremes.minimum_angle),
         measured(extremes.maximum, unit, scale),
-        crank_angle(within_turn(motion, extremes.maximum_angle)),
+        angle_words(motion, extremes.maximum_angle),
     )
 
 
-def within_turn(motion: CycleMotion, angle: float | None) -> float | None:
-    """A crank angle from 0 on, unless the cycle takes several revolutions [rad]."""
+def angle_words(motion: CycleMotion, angle: float | None) -> str:
+    """A crank angle [rad] in words: from 0 on, unless the cycle takes several revolutions."""
     is_single = np.ptp(motion.crank_angle) < 2 * np.pi + 1e-6
-    return angle % (2 * np.pi) if angle is not None and is_single else angle
+    within = angle % (2 * np.pi) if angle is not None and is_single else angle
+    return crank_angle(within, cycle=cycle_of_angles(motion.crank_angle))
 
 
 def _scale(extremes: Extremes) -> float:

@@ -22,6 +22,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
@@ -70,13 +71,33 @@ class Balance(Record):
         has a place along the crankshaft.
         """
         names = [*_MEASURES, *(["shaking_couple"] if self.after.shaking_couple is not None else [])]
-        return {name: (_rms(self.before, name), _rms(self.after, name)) for name in names}
+        noise = _noise(Scene(self.machine, self.before.motion))
+        measured = {name: (_rms(self.before, name), _rms(self.after, name)) for name in names}
+        return {
+            name: (_without(noise[name], before), _without(noise[name], after))
+            for name, (before, after) in measured.items()
+        }
 
 
 _MEASURES = ("shaking_force", "shaking_moment", "torque_drive")
 
 # Measures that are of inertia alone by themselves.
 _WHOLE = ("torque_drive", "shaking_couple")
+
+
+def _noise(scene: Scene) -> dict[str, float]:
+    """Measures below which rounding of the inertia of all bodies lies [N, N m]."""
+    force = moment = 0.0
+    for mass in masses(scene):
+        size = mass.mass * float(np.hypot(*mass.acceleration(scene).T).max())
+        force += size
+        moment += size * (float(np.hypot(*mass.centre.T).max()) + abs(mass.axial))
+    return dict.fromkeys(_MEASURES + _WHOLE, NOISE * moment) | {"shaking_force": NOISE * force}
+
+
+def _without(noise: float, value: float) -> float:
+    """A measure, 0 where it is rounding."""
+    return 0.0 if value <= noise else value
 
 
 def _rms(result: Forces, name: str) -> float:
@@ -108,15 +129,15 @@ def balance(
     links : sequence of str
         Links that turn about fixed points.
     speed : float, optional
-        Of the crank [rad/s]. Default: the steady motion of the motor, or the drive's design speed. At a
-        constant speed the counterweights do not depend on it.
+        Of the crank [rad/s]. Default: the steady motion of the motor, the drive's design speed, or 1 rad/s.
+        At a constant speed the counterweights do not depend on it.
     radius : float or mapping of str to float, optional
         Distance of the counterweights from their pivots, of all or by link [m]. Default: the link's
         length.
     planes : sequence of float
         Places along the crankshaft at which each link has a counterweight, one or two [m].
     n : int
-        Intervals of the revolution.
+        Intervals of a revolution.
 
     Returns
     -------
@@ -135,8 +156,7 @@ def balance(
     .. [1] Berkof, Lowen, A new method for completely force balancing simple linkages, J. Eng. Ind. 91 (1969).
     .. [2] Lowen, Tepper, Berkof, Balancing of linkages – an update, Mech. Mach. Theory 18 (1983).
     """
-    require_turning(speed)
-    scene = Scene(machine, motion_at(machine, None, speed=speed, n=n))
+    scene = Scene(machine, _turning(machine, speed, n))
     _check_links(scene, links)
     before = forces(machine, scene.motion)
     places = [(link, plane) for link in links for plane in _checked_planes(planes)]
@@ -215,14 +235,17 @@ def with_counterweights(
     [kg m]. Returns: with the forces of the new machine.
     """
     largest = max(float(np.hypot(*u)) for u in moments.values())
+    # Moments whose force is rounding beside the inertia of the bodies are none.
+    noise = _noise(scene)["shaking_force"] / float(np.nanmax(np.abs(scene.motion.speed))) ** 2
+    least = max(_NOTHING * largest, noise)
     counterweights, bodies = [], dict(machine.bodies)
     for (link, axial), u in moments.items():
         at = radius.get(link) if isinstance(radius, Mapping) else radius
         at = scene.links[link].length if at is None else at
         in_range(**{f"radius of {link}": (at, positive(LENGTH))})
-        size, angle = float(np.hypot(*u)), float(np.arctan2(u[1], u[0]))
+        size, angle = _polar(u, least)
         counterweights.append(Counterweight(link, size, angle, size / at, at, axial))
-        if size > _NOTHING * largest:
+        if size > 0:
             in_range(**{f"mass of the counterweight on {link}": (size / at, not_negative(MASS))})
             place = {"along": at * float(np.cos(angle)), "across": at * float(np.sin(angle))}
             bodies[_free_name(link, bodies)] = Body(
@@ -232,10 +255,33 @@ def with_counterweights(
     return Balance(balanced, tuple(counterweights), before, forces(balanced, scene.motion))
 
 
-def require_turning(speed: float | None) -> None:
-    """Refuse a speed at which there is no inertia to balance."""
+def _polar(u: Floats, least: float) -> tuple[float, float]:
+    """Size of a moment (2,) and its direction [rad]; 0 where rounding is as large."""
+    size = float(np.hypot(*u))
+    if size <= least:
+        return 0.0, 0.0
+    # The sign of what rounding leaves across the link would turn 180° into −180°.
+    across = 0.0 if abs(u[1]) <= _NOTHING * size else float(u[1])
+    return size, float(np.arctan2(across, u[0]))
+
+
+# Speed at which a machine is balanced that has none: counterweights are the same at any [rad/s].
+UNIT_SPEED = 1.0
+
+
+def _turning(machine: Machine, speed: float | None, n: int) -> Motion:
+    """The motion in which inertia is balanced: at a speed, the machine's own, or the unit of speed."""
     if speed is not None:
         in_range(speed=(abs(speed), positive(SPEED)))
+    elif not has_speed(machine):
+        speed = UNIT_SPEED
+    return motion_at(machine, None, speed=speed, n=n)
+
+
+def has_speed(machine: Machine) -> bool:
+    """Whether a machine has a speed of its own: that of a steady motion, or the design speed."""
+    drive = machine.drive
+    return drive is not None and (drive.motor is not None or drive.speed is not None)
 
 
 def _free_name(link: str, bodies: Mapping[str, Body]) -> str:
@@ -271,7 +317,7 @@ def partial_balance(
     radius : float, optional
         Distance of the counterweight from the pivot [m]; without it the crank's radius.
     n : int
-        Intervals of the revolution.
+        Intervals of a revolution.
 
     Returns
     -------
@@ -292,7 +338,6 @@ def partial_balance(
     .. [1] Norton, Design of Machinery, chapter 13 (equivalent masses, balancing the engine).
     """
     in_range(share=(share, Quantity(RATIO, SHARE)))
-    require_turning(speed)
     part = machine.linkage.sliders.get(slider)
     if part is None or part.crank not in machine.linkage.cranks:
         able = [
@@ -302,7 +347,7 @@ def partial_balance(
         ]
         expected = f"a slider on the pin of a crank: {', '.join(able) or 'there is none'}"
         raise MachineError([Problem("slider", slider, expected, suggestion(slider, able))])
-    scene = Scene(machine, motion_at(machine, None, speed=speed, n=n))
+    scene = Scene(machine, _turning(machine, speed, n))
     moment = np.zeros(2)
     crank = machine.linkage.cranks[part.crank]
     pin = np.array([crank.radius, 0.0])

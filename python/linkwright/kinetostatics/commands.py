@@ -176,6 +176,7 @@ def _answer(
     """What was found, case by case."""
     from linkwright.drive.cautions import unjudged_limits
     from linkwright.linkages.law_jumps import shaft_of_laws
+    from linkwright.linkages.whole_cycle import first_revolution_words
 
     return Answer(
         machine=machine.name,
@@ -185,7 +186,12 @@ def _answer(
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
-        warnings=[*_nothing_to_carry(machine), *shaft_of_laws(machine), *unjudged_limits(machine)],
+        warnings=[
+            *_nothing_to_carry(machine),
+            *first_revolution_words(machine),
+            *shaft_of_laws(machine),
+            *unjudged_limits(machine),
+        ],
         head=partial(_head, speeds),
         tables=partial(_tables, cases, orders),
         files=partial(_files, cases),
@@ -437,11 +443,14 @@ def balance(
     Those on given links that minimise the shaking force of inertia, or one on the crank against a
     share of a slider's mass; and what they change.
     """
+    from linkwright.kinetostatics.balancing import has_speed
     from linkwright.machine.read import read
 
     machine = read(file, set or (), allow_outside=allow_outside)
     balanced = _counterweights(machine, links, slider, share, radius, planes, speed)
     speeds = speeds_of(balanced.before.speed, machine, speed)
+    if speed is None and not has_speed(machine):
+        speeds["speed_source"] = "the file has no drive.speed: counterweights are the same at any speed"
     hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
 
 
@@ -479,10 +488,7 @@ def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any])
     from linkwright.machine.write import dumps
 
     measures = {name: {"before": a, "after": b} for name, (a, b) in balanced.measures().items()}
-    weights = {
-        counterweight.link: {k: v for k, v in vars(counterweight).items() if k != "link"}
-        for counterweight in balanced.counterweights
-    }
+    weights = _by_place(balanced)
     return Answer(
         machine=machine.name,
         units=machine.units,
@@ -492,6 +498,17 @@ def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any])
         tables=partial(_balance_rows, balanced),
         machine_file=lambda: dumps(balanced.machine),
     )
+
+
+def _by_place(balanced: Balance) -> dict[str, dict[str, Any]]:
+    """Counterweights by link, in two planes by link and place along the crankshaft."""
+    has_planes = len({weight.axial for weight in balanced.counterweights}) > 1
+    return {
+        f"{weight.link} at {weight.axial:.6g} m" if has_planes else weight.link: {
+            k: v for k, v in vars(weight).items() if k != "link" or has_planes
+        }
+        for weight in balanced.counterweights
+    }
 
 
 def _balance_rows(balanced: Balance) -> list[Table]:

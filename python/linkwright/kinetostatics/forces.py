@@ -75,9 +75,10 @@ def forces(
         machine at rest. Without motion and speed: the steady motion of the motor, or the drive's design
         speed.
     angles : array_like, shape (n,), optional
-        Crank angles for a speed [rad]; without them a revolution.
+        Crank angles for a speed [rad]; without them a cycle: the revolutions after which
+        all forces repeat, or the first if these are more than 24.
     n : int
-        Intervals of the revolution.
+        Intervals of a revolution.
     friction : mapping of str to Friction, optional
         Friction of pins, guides and slots by name of the pair.
     pressure_angle : float
@@ -93,7 +94,8 @@ def forces(
     Raises
     ------
     FindingError
-        There are no forces at any angle, or more unknowns at all angles than are solved for at once.
+        The crank does not rotate fully, there are no forces at any angle, or more unknowns at all angles than
+        are solved for at once.
     InputError
         Motion and speed are both given, or neither where the machine has none; wrong friction.
 

@@ -30,9 +30,10 @@ from linkwright.kinetostatics.forces import acting, solved
 from linkwright.kinetostatics.motion import Motion, motion_at
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.closure import closure_of
 from linkwright.linkages.kinematics import kinematics_along
 from linkwright.linkages.model.structure import Structure, structure
+from linkwright.linkages.whole_cycle import force_turns
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import SteadySolution
@@ -245,8 +246,8 @@ class Kinks:
 
     def __init__(self, machine: Machine, program: Directions, solution: Any) -> None:
         compiled = compile_machine(machine)
-        # At a given speed forces are those of one revolution, whether it repeats or not.
-        compiled = compiled if solution is None else over_whole_cycle(compiled)
+        if closure_of(compiled).turns_fully:
+            compiled = compiled.over_turns(force_turns(compiled))
         self.variables = program.variables
         self.angles, self.cycle = compiled.kinks(), compiled.cycle
         along = compiled.kinks_along(program.values, self.angles) * program.sizes

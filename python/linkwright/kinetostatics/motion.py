@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -21,6 +22,7 @@ from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.linkages.kinematics import crank_angles
 from linkwright.linkages.law_jumps import require_finite_accelerations
+from linkwright.linkages.whole_cycle import force_turns
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -71,7 +73,7 @@ def motion_at(
 
     `motion`: a computed motion, with its own angles. Without it and without a speed: the steady motion of the
     motor, or the design speed of the drive; `speed`, `acceleration`: of the crank at every angle [rad/s,
-    rad/s²]; `angles` (n,): crank angles for a speed [rad]; without them a revolution. Raises InputError:
+    rad/s²]; `angles` (n,): crank angles for a speed [rad]; without them a cycle. Raises InputError:
     motion and speed are both given, or there is neither of them, nor a motor, nor a design speed.
     """
     if motion is not None and speed is not None:
@@ -86,7 +88,7 @@ def motion_at(
     if speed is None:
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:
-            return motion_at(machine, steady_state(machine, n=n))
+            return _over_turns(steady_state(machine, n=n), force_turns(compile_machine(machine)))
         speed = None if drive is None else drive.speed
     if speed is None:
         raise InputError(
@@ -94,8 +96,23 @@ def motion_at(
             'give one, such as --speed "10 rad/s"'
         )
     in_range(speed=(speed, Quantity(SPEED)), acceleration=(acceleration, Quantity(ANGULAR_ACCELERATION)))
-    return _at_speed(
-        speed, acceleration, turn_angles(n, compile_machine(machine).turns) if angles is None else angles
+    if angles is None:
+        angles = turn_angles(n, force_turns(compile_machine(machine)))
+    return _at_speed(speed, acceleration, angles)
+
+
+def _over_turns(steady: SteadyState, turns: int) -> Motion:
+    """Steady motion over so many revolutions: forces may take several cycles of the speed to repeat."""
+    cycles = math.lcm(turns, steady.turns) // steady.turns
+    ends, one = steady.crank_angle[-1], len(steady.crank_angle) - 1
+    # The end of each cycle is the start of the next.
+    place = np.append(np.arange(one * cycles) % one, one)
+    done = np.append(np.repeat(np.arange(cycles), one), cycles - 1)
+    return Motion(
+        steady.crank_angle[place] + done * ends,
+        steady.speed[place],
+        steady.acceleration[place],
+        steady.time[place] + done * steady.period,
     )
 
 
@@ -108,9 +125,10 @@ def _require_full_turn(machine: Machine) -> None:
     if not closed.moves:
         raise error
     low, high = np.degrees(closed.ranges[0])
-    if low >= 0 and high > 360:
-        # A range about zero is found from its lower end on; a screw's extends over many revolutions.
-        low, high = low - 360, high - 360
+    cycle = 360 * (closed.turns or 0)
+    if cycle and high > cycle:
+        # A range about zero is found from its lower end on.
+        low, high = low - cycle, high - cycle
     low, high = np.ceil(10 * low + 1) / 10, np.floor(10 * high - 1) / 10
     raise AssemblyError(
         f"{error}; within that range forces are found at a speed, between given crank angles, such as "

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number, quantity
+from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
@@ -37,8 +37,9 @@ def _row(extent: Extent, forces: Forces, scale: float) -> Row:
     peak, rms, mean = (
         measured(value, extent.unit, scale) for value in (extent.peak, extent.rms, extent.mean)
     )
+    cycle = cycle_of_angles(forces.crank_angle)
     # Rounding is largest somewhere, which says nothing.
-    at = "–" if peak == measured(0.0, extent.unit) else crank_angle(extent.peak_angle)
+    at = "–" if peak == measured(0.0, extent.unit) else crank_angle(extent.peak_angle, cycle=cycle)
     return word, symbol, peak, at, rms, mean
 
 

@@ -29,5 +29,6 @@
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
 | `sweep` | A linkage swept over its cycle: what is looked at, curves, exact extremes |
 | `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
+| `whole_cycle` | After how many revolutions do masses, loads and forces repeat? |
 | `zero` | Crank angles counted from a dead centre |
 """

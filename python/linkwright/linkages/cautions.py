@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import degrees
+from linkwright.kernel.page.numbers import cycle_of_angles, degrees
 from linkwright.linkages.cycle import Linkage
 
 # Links this near to a line go on one way or the other by tolerances of their lengths; nearer than the first
@@ -22,7 +22,7 @@ def linkage_cautions(linkage: Linkage, zero: float = 0.0) -> Iterator[str]:
             continue
         is_least = worst == element.transmission_angle_min
         at = element.transmission_angle_min_angle if is_least else element.transmission_angle_max_angle
-        angle = ((at or 0.0) - zero) % (2 * np.pi)
+        angle = ((at or 0.0) - zero) % cycle_of_angles(linkage.crank_angle)
         yield (
             f"The links of {element.element} come within {degrees(worst)} of a line at a crank angle of "
             f"{degrees(angle)}, next to a change point: slightly other lengths move it another way from "

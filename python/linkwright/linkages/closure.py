@@ -10,7 +10,6 @@ the motion is not determined.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -19,7 +18,6 @@ from typing import Annotated
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.kernel.public import public
@@ -32,6 +30,7 @@ from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel, Element
+from linkwright.machine.program.smooth_laws import LARGEST
 
 # A radicand whose parabola through three angles dips below this share of its maximum is looked into.
 _CLOSE = 1e-3
@@ -59,13 +58,6 @@ _JUMP = 1e-3
 # So near to where its pin passes over its pivot [rad] a slotted lever has no sound motion: rounding of the
 # pin's place, 1e-16 of the crank, makes 1e-16 over the cube of this of ψ″, a millionth.
 _OVER_PIVOT = 5e-4
-
-# Difference of inertia or load on the crank from one revolution to the next, over its size, that counts as
-# rounding.
-_SAME = 1e-7
-
-# Angles of a revolution at which laws are compared, a prime number so that no symmetry hides a difference.
-_LAW_LOOKS = 97
 
 # Doublings of the revolutions looked at in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
@@ -143,16 +135,45 @@ def _found_closure(compiled: CompiledMachine) -> Closure:
     if turns is None:
         return _endless(compiled)
     full = Closure(((0.0, 2 * np.pi * turns),), "", turns=turns)
-    if not compiled.dyads:
+    if not _parts(compiled):
         return full
-    gaps = compiled.gaps(_over(turns, _FEW))
+    gaps = _gaps(compiled, _over(turns, _FEW))
     flat = np.flatnonzero((gaps == 0).all(axis=1))
     if len(flat):
         # Guides that are always parallel never meet.
-        return Closure((), compiled.dyads[int(flat[0])], turns=turns)
+        return Closure((), _parts(compiled)[int(flat[0])], turns=turns)
     if (gaps.min(axis=1) > _AMPLE * gaps.max(axis=1)).all():
         return full
     return _Search(compiled, turns).run() or full
+
+
+def _parts(compiled: CompiledMachine) -> tuple[str, ...]:
+    """Names of what limits the motion: the driver whose law has no value somewhere, and the dyads."""
+    gap = compiled.law_gap
+    return compiled.dyads if gap is None else (gap.element, *compiled.dyads)
+
+
+def _gaps(compiled: CompiledMachine, angles: Floats) -> Floats:
+    """−1 where a law has no value, 1 where it has; and radicands of the dyads, (parts, n)."""
+    gaps = compiled.gaps(angles)
+    if compiled.law_gap is None:
+        return gaps
+    laws = [Channel.Slide(part.slide) for part in compiled.elements if isinstance(part, Element.Law)]
+    values = np.array([row for rows in compiled.motion(laws, angles) for row in rows[:2]])
+    known = (np.abs(values) < LARGEST).all(axis=0)
+    # What hangs on the law has no place there.
+    return np.concatenate([np.where(known, 1.0, -1.0)[None], np.where(known, gaps, np.nan)])
+
+
+def _shares(compiled: CompiledMachine, gaps: Floats, sizes: Floats) -> Floats:
+    """Radicands (parts, n) over their sizes (parts, 1); −1 where a group does not close, for any size."""
+    shares = gaps / sizes
+    first = len(gaps) - len(compiled.dyads)
+    for element in compiled.elements:
+        if isinstance(element, Element.Group):
+            row = first + element.dyad
+            shares[row] = np.where(gaps[row] < 0, -1.0, shares[row])
+    return shares
 
 
 def _over(turns: int, per_turn: int) -> Floats:
@@ -174,7 +195,7 @@ class _Search:
         self.compiled, self.turns = compiled, turns
         self.period = 2 * np.pi * turns
         self.angles: Floats = _over(turns, _ANGLES)[:-1].copy()
-        gaps = compiled.gaps(self.angles)
+        gaps = _gaps(compiled, self.angles)
         # A dyad that closes nowhere is measured by how far it is from closing.
         known = np.abs(gaps) if not (gaps > 0).any() else gaps
         self.sizes: Floats = np.nan_to_num(known).max(axis=1, keepdims=True)
@@ -183,17 +204,17 @@ class _Search:
 
     def _least(self, gaps: Floats) -> Floats:
         # A dyad behind one that does not close is NaN, and that one is negative.
-        least: Floats = np.fmin.reduce(gaps / self.sizes, axis=0)
+        least: Floats = np.fmin.reduce(_shares(self.compiled, gaps, self.sizes), axis=0)
         return least
 
     def spare(self, angles: Floats) -> Floats:
         """Minimum radicand of all dyads as a share of its maximum, at crank angles."""
-        return self._least(self.compiled.gaps(angles))
+        return self._least(_gaps(self.compiled, angles))
 
     def limiter(self, angle: float) -> str:
         """Name of the dyad with the minimum radicand at an angle."""
-        gaps = self.compiled.gaps(np.array([angle])) / self.sizes
-        return self.compiled.dyads[int(np.nanargmin(gaps[:, 0]))]
+        gaps = _shares(self.compiled, _gaps(self.compiled, np.array([angle])), self.sizes)
+        return _parts(self.compiled)[int(np.nanargmin(gaps[:, 0]))]
 
     def run(self) -> Closure | None:
         """The closure; None if it closes all round."""
@@ -255,9 +276,9 @@ class _Search:
 
     def _element(self, closes: Bools) -> str:
         """The first dyad in build order that does not close somewhere."""
-        gaps = self.compiled.gaps(self.angles[~closes])
-        fails = (gaps < -_ZERO * self.sizes).any(axis=1)
-        return self.compiled.dyads[int(np.argmax(fails))]
+        gaps = _gaps(self.compiled, self.angles[~closes])
+        fails = (_shares(self.compiled, gaps, self.sizes) < -_ZERO).any(axis=1)
+        return _parts(self.compiled)[int(np.argmax(fails))]
 
     def _ranges(self, closes: Bools) -> Iterator[tuple[float, float]]:
         starts = np.flatnonzero(closes & ~np.roll(closes, 1))
@@ -304,13 +325,13 @@ def _without(
 def _endless(compiled: CompiledMachine) -> Closure:
     """A motion that never repeats: from where it is at angle zero as far as it goes, both ways."""
     reach, endless = 2 * np.pi, Closure(((0.0, 2 * np.pi),), "", turns=None)
-    for _ in range(_DOUBLINGS if compiled.dyads else 0):
+    for _ in range(_DOUBLINGS if _parts(compiled) else 0):
         angles = np.linspace(-reach, reach, 2 * _ANGLES + 1)
-        gaps = compiled.gaps(angles)
-        closes = _closing(gaps)
+        gaps = _gaps(compiled, angles)
+        closes = _closing(compiled, gaps)
         sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
         worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
-        element = compiled.dyads[int(np.argmin(worst))]
+        element = _parts(compiled)[int(np.argmin(worst))]
         if not closes[_ANGLES]:
             return Closure((), element, turns=None)
         ends = [_first_end(compiled, angles[_ANGLES::way], closes[_ANGLES::way]) for way in (-1, 1)]
@@ -330,17 +351,18 @@ def _first_end(compiled: CompiledMachine, angles: Floats, closes: Bools) -> floa
         return None
 
     def least(at: Floats) -> Floats:
-        gap: Floats = np.fmin.reduce(compiled.gaps(at), axis=0)
+        gap: Floats = np.fmin.reduce(_gaps(compiled, at), axis=0)
         return gap
 
     first = int(np.argmin(closes))
     return float(zeros(least, angles[first - 1 : first], angles[first : first + 1])[0][0])
 
 
-def _closing(gaps: Floats) -> Bools:
+def _closing(compiled: CompiledMachine, gaps: Floats) -> Bools:
     """At which angles every dyad closes, (n,). Links in line leave zero, or by rounding a little less."""
     sizes = np.nan_to_num(gaps).max(axis=1, keepdims=True)
-    closes: Bools = ((gaps >= -_ZERO * sizes) & (sizes > 0)).all(axis=0)
+    shares = _shares(compiled, gaps, np.where(sizes > 0, sizes, 1.0))
+    closes: Bools = ((shares >= -_ZERO) & (sizes > 0)).all(axis=0)
     return closes
 
 
@@ -365,71 +387,11 @@ def require_full_turn(compiled: CompiledMachine, machine: Machine) -> None:
         raise closure_error(closed, machine)
 
 
-def over_whole_cycle(compiled: CompiledMachine) -> CompiledMachine:
-    """The machine over the revolutions after which the crank feels the same masses and loads again.
-
-    The `AssemblyError` says after how many revolutions it does, if they are many, and what to change.
-    """
-    if compiled.one_turn:
-        return compiled
-    turns = turns_to_repeat(compiled)
-    if turns == 1 or _repeats(compiled):
-        return compiled
-    if turns is None or math.lcm(turns, compiled.turns) > TURNS_MAX:
-        remedy = _law_that_goes_on(compiled) or (
-            "choose the slowest part as the crank, or put masses and loads on parts that repeat with it"
-        )
-        raise AssemblyError(f"masses and loads do not repeat within {TURNS_MAX} revolutions: {remedy}")
-    return compiled.over_turns(turns)
-
-
-def _law_that_goes_on(compiled: CompiledMachine) -> str:
-    """What the first law that does not repeat does beyond a revolution, and its remedy; empty without one."""
-    turn = 2 * np.pi
-    phi = np.linspace(0.0, turn, _LAW_LOOKS)
-    for name, slide in compiled.slides.items():
-        if not name.endswith(".law"):
-            continue
-        first, second, third = (
-            compiled.motion([Channel.Slide(slide)], phi + k * turn)[0][0] for k in range(3)
-        )
-        size = float(np.abs(first).max()) or 1.0
-        if np.abs(second - first).max() <= _SAME * size:
-            continue
-        does = "does not repeat"
-        if np.ptp(second) <= _SAME * size:
-            does = f"stays at {second[0]:.4g}"
-        elif np.ptp(second - first) <= _SAME * size and np.ptp(third - second) <= _SAME * size:
-            does = f"advances by {second[0] - first[0]:.4g} per revolution"
-        return (
-            f"φ counts on beyond 2π, and there the law of {name.removesuffix('.law')} {does}; with "
-            "u = pi - atan2(sin(phi), -cos(phi)) in place of phi it repeats in every revolution, and "
-            "h*(phi - u)/(2*pi) added to it advances by h in each; or describe the motion as a cam"
-        )
-    return ""
-
-
-def _repeats(compiled: CompiledMachine) -> bool:
-    """Whether the crank feels the same inertia and load in the next cycle of the loads."""
-    looks = turn_angles(16, compiled.turns)
-    first, next_ = (compiled.first().reductions(looks + cycle) for cycle in (0.0, compiled.cycle))
-    return all(
-        bool((np.abs(after - before) <= _SAME * np.abs(before).max()).all())
-        for before, after in (
-            (first.inertia, next_.inertia),
-            (first.inertia_slope, next_.inertia_slope),
-            (first.load, next_.load),
-            (first.dry, next_.dry),
-            (first.viscous, next_.viscous),
-        )
-    )
-
-
 def require_closed(compiled: CompiledMachine, machine: Machine, angles: Floats) -> None:
     """Raise if the mechanism does not close at some crank angles, or is not determined between them."""
-    if not compiled.dyads:
+    if not _parts(compiled):
         return
-    gaps = compiled.gaps(angles)
+    gaps = _gaps(compiled, angles)
     closes = (gaps >= 0).all(axis=0)
     if closes.all() and not has_levers(compiled):
         return
@@ -497,6 +459,10 @@ def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
 
 def _sentence(closed: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
+    gap = compile_machine(machine).law_gap
+    if gap is not None and closed.element == gap.element:
+        where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)
+        return f"the mechanism moves only at crank angles {where}: {gap}" if where else str(gap)
     if closed.change_point is not None:
         what, remedy = change_point(closed.element, machine)
         where = f"a change point at crank angle {_deg(closed.change_point)}°"

@@ -73,7 +73,7 @@ class DeadPoint(NamedTuple):
 
 def dead_points(compiled: CompiledMachine, swept: LinkageSweep, where: Closure) -> list[DeadPoint]:
     """The dead points of a linkage."""
-    points = [*_of_closure(compiled, where), *_passed(swept), *_reversals(swept)]
+    points = [*_of_closure(compiled, where), *_passed(compiled, swept), *_reversals(swept)]
     return sorted(points)
 
 
@@ -87,10 +87,20 @@ def _of_closure(compiled: CompiledMachine, where: Closure) -> Iterator[DeadPoint
             yield DeadPoint(at, limiter_at(compiled, end), LIMIT, 1)
 
 
-def _passed(swept: LinkageSweep) -> Iterator[DeadPoint]:
+def _passed(compiled: CompiledMachine, swept: LinkageSweep) -> Iterator[DeadPoint]:
+    """Change points in every revolution of the cycle in which they are passed."""
+    turns = np.arange(swept.cycle.period or 1) * (2 * np.pi)
     for dyad in swept.dyads:
+        gaps = compiled.gaps(np.ascontiguousarray(swept.cycle.angles))[compiled.dyads.index(dyad.name)]
         for angle in dyad.change_points:
-            yield DeadPoint(angle, dyad.name, PASSED, 2)
+            at: Floats = np.asarray(angle + turns, dtype=np.float64)
+            spare = compiled.gaps(at)[compiled.dyads.index(dyad.name)]
+            for passed in at[(spare <= _IN_LINE * np.nanmax(gaps)) | (turns == 0)]:
+                yield DeadPoint(float(passed), dyad.name, PASSED, 2)
+
+
+# Share of its maximum below which the radicand of a dyad whose links are in line lies.
+_IN_LINE = 1e-6
 
 
 def _reversals(swept: LinkageSweep) -> Iterator[DeadPoint]:

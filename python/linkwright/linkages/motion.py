@@ -23,7 +23,7 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME, Quantity
-from linkwright.linkages.closure import closure_of, require_closed
+from linkwright.linkages.closure import Closure, closure_of, require_closed
 from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
 from linkwright.linkages.law import Law, as_law
 from linkwright.machine.machine import Machine
@@ -210,7 +210,7 @@ def _require_within(compiled: CompiledMachine, machine: Machine, law: Law, times
         return
     start = law.at(times[:1])[0]
     require_closed(compiled, machine, start)
-    low, high = _range_around(float(start[0]), where.ranges)
+    low, high = _range_around(float(start[0]), where)
     looked = _with_turning_points(law, times)
     angles = law.at(looked)[0]
     out = np.flatnonzero((angles < low) | (angles > high))
@@ -229,15 +229,17 @@ def _require_within(compiled: CompiledMachine, machine: Machine, law: Law, times
     )
 
 
-def _range_around(start: float, ranges: tuple[tuple[float, float], ...]) -> tuple[float, float]:
-    """The range that holds an angle, on the revolution of that angle."""
+def _range_around(start: float, where: Closure) -> tuple[float, float]:
+    """The range that holds an angle, in the cycle of that angle."""
+    ranges = where.ranges
+    cycle = 2 * np.pi * (where.turns or 1)
     for low, high in ranges:
-        turn = 2 * np.pi * np.floor((start - low) / (2 * np.pi))
+        turn = cycle * np.floor((start - low) / cycle)
         if low + turn <= start <= high + turn:
             return low + turn, high + turn
     # At a limit, by rounding.
     return min(
-        ((low + turn, high + turn) for low, high in ranges for turn in (0.0, -2 * np.pi)),
+        ((low + turn, high + turn) for low, high in ranges for turn in (0.0, -cycle)),
         key=lambda curve: min(abs(start - curve[0]), abs(start - curve[1])),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.numbers import crank_angle, measured, number, parted, quantity
+from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, measured, number, parted, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import DeadPoint, ElementMotion, Linkage
 
@@ -35,26 +35,22 @@ def _with_rows(*tables: Table) -> list[Table]:
 def _travel(linkage: Linkage) -> Table:
     heads = ("output", "", "travel", "from φ", "to φ", "time ratio", "velocity ratio", "mechanical advantage")
     names = [element.output for element in linkage.elements]
-    rows = [_travel_row(element, names.count(element.output) > 1) for element in linkage.elements]
+    cycle = cycle_of_angles(linkage.crank_angle)
+    rows = [_travel_row(element, names.count(element.output) > 1, cycle) for element in linkage.elements]
     return Table("linkage", "Linkage over its cycle", heads, rows)
 
 
-def _travel_row(element: ElementMotion, of_two: bool) -> Row:
+def _travel_row(element: ElementMotion, of_two: bool, cycle: float) -> Row:
     """Swing, stroke or turns, where the extremes are, and the ratios."""
-    # `of_two`: whether link and slide have one name, as of a slotted lever.
+    # `of_two`: whether link and slide have one name, as of a slotted lever; `cycle`: of the crank [rad].
+    places = crank_angle(element.low_angle, cycle=cycle), crank_angle(element.high_angle, cycle=cycle)
     if element.turns is not None:
         turns = number(element.turns)
         travel, ends = f"{turns} revolution{'' if turns == '1' else 's'}", ("–", "–")
     elif element.swing is not None:
-        travel, ends = (
-            measured(element.swing, "rad"),
-            (crank_angle(element.low_angle), crank_angle(element.high_angle)),
-        )
+        travel, ends = measured(element.swing, "rad"), places
     else:
-        travel, ends = (
-            measured(element.stroke, "m"),
-            (crank_angle(element.low_angle), crank_angle(element.high_angle)),
-        )
+        travel, ends = measured(element.stroke, "m"), places
     low, high = element.velocity_ratio_min, element.velocity_ratio_max
     # Of what goes in a straight line, a length per angle.
     per = "m/rad" if element.stroke is not None else ""
@@ -77,12 +73,15 @@ def _travel_row(element: ElementMotion, of_two: bool) -> Row:
 def _transmission(linkage: Linkage) -> Table:
     heads = ("dyad", "", "minimum", "at φ", "maximum", "at φ")
     rows: dict[str, Row] = {}
+    cycle = cycle_of_angles(linkage.crank_angle)
     for element in linkage.elements:
         low, high = element.transmission_angle_min, element.transmission_angle_max
         at = element.transmission_angle_min_angle, element.transmission_angle_max_angle
         if low is not None and high is not None and at[0] is not None and at[1] is not None:
             # One that is constant has no place.
-            places = [crank_angle(angle) for angle in at] if high - low > _CONSTANT else ["–", "–"]
+            places = (
+                [crank_angle(angle, cycle=cycle) for angle in at] if high - low > _CONSTANT else ["–", "–"]
+            )
             extremes = measured(low, "rad"), places[0], measured(high, "rad"), places[1]
             rows[element.element] = (element.element, "μ", *extremes)
     return Table("transmission", "Transmission angle", heads, list(rows.values()))
@@ -105,8 +104,10 @@ def _loops(linkage: Linkage) -> Table:
 def _dead(linkage: Linkage) -> Table:
     points = linkage.dead_points if len(linkage.dead_points) <= _DEAD_POINTS_MAX else ()
     names = [element.output for element in linkage.elements]
+    cycle = cycle_of_angles(linkage.crank_angle)
     rows: list[Row] = [
-        (f"{_turning(point, names)}: {point.kind}", "φ", crank_angle(point.angle)) for point in points
+        (f"{_turning(point, names)}: {point.kind}", "φ", crank_angle(point.angle, cycle=cycle))
+        for point in points
     ]
     return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)
 

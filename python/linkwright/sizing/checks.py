@@ -31,6 +31,7 @@ from linkwright.kernel.errors import FindingError
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.sizing.power import RequiredPower
@@ -272,7 +273,9 @@ def _inertia_ratio(machine: Machine, own: float) -> Check:
         return Check(
             "inertia_ratio", None, INERTIA_RATIO, "", None, at_most=True, note="no inertia of the rotor"
         )
-    mean = float(np.mean(reduction_of(compile_machine(machine), _ANGLES).inertia_reduced[:-1]))
+    mean = float(
+        np.mean(reduction_of(over_known_cycle(compile_machine(machine)), _ANGLES).inertia_reduced[:-1])
+    )
     ratio = mean / machine.drive.gearbox.ratio**2 / own - 1
     return Check("inertia_ratio", ratio, INERTIA_RATIO, "", ratio <= INERTIA_RATIO, at_most=True)
 
@@ -294,7 +297,7 @@ def _start_doubt(motor: InductionMotor | DcMotor) -> str:
 
 def _start_checks(machine: Machine, doubt: str, torque: float | None = None) -> tuple[Check, Check]:
     """Torque of the drive at standstill, or by a motor torque, against the load at the start and at worst."""
-    compiled = compile_machine(machine)
+    compiled = over_known_cycle(compile_machine(machine))
     if torque is None:
         drive = float(compiled.motor_torques(0.0).crank[0])
     else:

@@ -33,7 +33,8 @@ from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units import RATIO, Bound, Quantity
-from linkwright.linkages.closure import over_whole_cycle, turn_angles
+from linkwright.linkages.closure import turn_angles
+from linkwright.linkages.whole_cycle import force_turns, over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
@@ -208,10 +209,10 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 def constant_inertia(machine: Machine) -> float:
     """Inertia at the crank [kg m²] of drive and bodies that turn in a constant ratio to it."""
     total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
-    phi = turn_angles(_ANGLES)
     for name, body in machine.bodies.items():
         alone = machine.with_entries({"drive": None, "loads": {}, "bodies": {name: body}})
-        J = compile_machine(alone).reductions(phi).inertia
+        compiled = compile_machine(alone)
+        J = compiled.reductions(turn_angles(_ANGLES, force_turns(compiled))).inertia
         total += float(J.max()) if np.ptp(J) <= _CONSTANT * J.max() else 0.0
     return total
 

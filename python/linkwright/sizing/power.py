@@ -17,7 +17,8 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.closure import over_whole_cycle, require_full_turn
+from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 

@@ -17,7 +17,7 @@ from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.zeros import zeros
-from linkwright.linkages.closure import over_whole_cycle
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import directions

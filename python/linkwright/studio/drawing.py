@@ -24,6 +24,7 @@ from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
+from linkwright.kernel.page.numbers import cycle_of_angles
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.centrodes import centrodes_of
 from linkwright.linkages.kinematics import Kinematics
@@ -83,7 +84,7 @@ def _centres(machine: Machine, motion: Kinematics) -> Iterator[tuple[str, dict[s
 
 def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:
     """Angular acceleration of the crank at the angles of the scene [rad/s²]."""
-    within = np.mod(scene["angles"], 2 * np.pi)
+    within = np.mod(scene["angles"], cycle_of_angles(steady.crank_angle))
     along: Floats = np.interp(within, steady.crank_angle, steady.acceleration)
     return along
 
@@ -91,7 +92,7 @@ def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:
 def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dict[str, Any]]:
     """Forces of pins at their points, over the angles of the scene."""
     points = {name: pair.point for name, pair in structure(machine.linkage).pairs.items()}
-    within = np.mod(scene["angles"], 2 * np.pi)
+    within = np.mod(scene["angles"], cycle_of_angles(acting.crank_angle))
     forces = []
     for name, pair in acting.pairs.items():
         if pair.kind in ("pin", "guide") and points.get(name) in scene["points"]:

@@ -44,9 +44,7 @@ class FunctionGenerator(TransmissionResult):
 
     type: Annotated[str, About("Which links turn fully.")]
     frame: Annotated[float, Label("length of the frame", "", "m")]
-    crank: Annotated[
-        float, Label("length of the crank", "", "m", "Negative where it points against its angle.")
-    ]
+    crank: Annotated[float, Label("length of the crank", "", "m")]
     coupler: Annotated[float, Label("length of the coupler", "", "m")]
     rocker: Annotated[float, Label("length of the rocker", "", "m")]
     crank_start: Annotated[
@@ -55,7 +53,12 @@ class FunctionGenerator(TransmissionResult):
     rocker_start: Annotated[
         float, Label("rocker angle at the start of the range", "ψ_0", "rad", "From the frame.")
     ]
+    crank_opposite: Annotated[bool, About("Whether the link ``A`` points against the crank angle.")]
     rocker_opposite: Annotated[bool, About("Whether the link ``B.rocker`` points against the rocker angle.")]
+    assembly: Annotated[
+        str,
+        About("Side of the joint, seen from the crank's pin to the rocker's pivot, as in the machine file."),
+    ]
     residual: Annotated[
         float,
         Label(
@@ -195,7 +198,7 @@ def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
             f"{np.degrees(task.transmission_angle_min):.4g}°)"
         )
     name = task.name or f"Function generator, {task.function or 'table'}"
-    made = _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), b < 0, mu)
+    made = _analysed(scale, fit, bar, bar.machine(name, source=SOURCE), (r < 0, b < 0), mu)
     if len(scale.points) == task.unknowns:
         # As many points as unknowns are met exactly.
         require_met("an error at its points", 0.0, made.angle_error_points, "rad", size=1.0)
@@ -215,10 +218,10 @@ def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: floa
 
 
 def _analysed(
-    scale: Scale, fit: Fit, bar: FourBar, machine: Machine, opposite: bool, mu: float
+    scale: Scale, fit: Fit, bar: FourBar, machine: Machine, opposite: tuple[bool, bool], mu: float
 ) -> FunctionGenerator:
-    """The machine analysed again over the range and at the points."""
-    start = fit.rocker_start + (np.pi if opposite else 0.0)
+    """The machine analysed again over the range and at the points; `opposite`: crank and rocker."""
+    start = fit.rocker_start + (np.pi if opposite[1] else 0.0)
     over = _rocker_angles(machine, scale.crank_over) - start
     errors = np.angle(np.exp(1j * (over - scale.rocker_over)))
     at_points = _rocker_angles(machine, scale.crank) - start - scale.rocker
@@ -230,7 +233,9 @@ def _analysed(
         rocker=float(bar.rocker),
         crank_start=fit.crank_start,
         rocker_start=fit.rocker_start,
-        rocker_opposite=bool(opposite),
+        crank_opposite=bool(opposite[0]),
+        rocker_opposite=bool(opposite[1]),
+        assembly=bar.assembly,
         residual=fit.residual if fit.residual > EXACT else 0.0,
         angle_error_max=float(np.abs(errors).max()),
         angle_error_rms=float(np.sqrt(np.mean(errors**2))),

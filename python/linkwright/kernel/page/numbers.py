@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 import sys
+from typing import TYPE_CHECKING
 
 from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
+
+if TYPE_CHECKING:
+    from linkwright.kernel.arrays import Floats
 
 # Share of what it belongs to below which a number is rounding: sums of some ten thousand doubles.
 NOISE = 1e-12
@@ -115,16 +119,26 @@ def measured(
     )
 
 
-def crank_angle(angle: float | None, before: str = "") -> str:
-    """A crank angle [rad] within a revolution, from 0° on; a full revolution is 0°. It is counted from the
-    dead centre that the reader wants.
+def crank_angle(angle: float | None, before: str = "", cycle: float = 2 * math.pi) -> str:
+    """A crank angle [rad] within a cycle [rad], from 0° on; its end is 0°. It is counted from the dead centre
+    that the reader wants.
     """
     if angle is None or not math.isfinite(angle):
         return "–"
     counted = zero_shown().counted(angle)
     text = degrees(0.0 if abs(counted) < _PLACE else counted)
-    number_text = "0°" if text == "360°" else text
+    number_text = "0°" if text == degrees(cycle) else text
     return _marked(before + number_text, angle, "rad", 5, before, is_crank_angle=True)
+
+
+# Share of a revolution by which angles may exceed whole ones: rounding.
+_WHOLE = 1e-6
+
+
+def cycle_of_angles(angles: Floats) -> float:
+    """The cycle that crank angles (n,) run through [rad]: whole revolutions, at least one."""
+    turns = float(angles[-1] - angles[0]) / (2 * math.pi)
+    return 2 * math.pi * max(math.ceil(turns - _WHOLE), 1)
 
 
 def zero_words(zero: Zero) -> str:

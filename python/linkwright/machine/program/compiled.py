@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from linkwright import _core
 from linkwright.kernel.arrays import Bools, Floats, Integers
 from linkwright.kernel.description.place import arrays, join
-from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
+from linkwright.kernel.errors import AssemblyError, InputError, MachineError, Problem, ShapeError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
@@ -103,8 +103,8 @@ class CompiledMachine:
     links: dict[str, int]
     slides: dict[str, int]
     dyads: tuple[str, ...]  # names of the elements that must close
-    # (1,): machines in which a dyad passes an odd number of change points, so that it repeats after two
-    # revolutions.
+    # (1,) or (n,): machines in which a dyad passes an odd number of change points, so that it repeats after
+    # two revolutions.
     two_turns: Bools
     # Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     one_turn: bool
@@ -120,6 +120,10 @@ class CompiledMachine:
     ground: tuple[_core.GroundPoint, ...] = ()  # points at rest
     # The core's program in build order: indices of what each makes and hangs on, slots of its numbers.
     elements: tuple[_core.Element, ...] = ()
+    # Whether the mechanism itself varies from row to row, not masses, loads and drive alone.
+    motion_varies: bool = False
+    # What is wrong with a driver's law that has no value at some crank angles.
+    law_gap: AssemblyError | None = None
     # What has been found out about the machine once and for all, by name.
     kept: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
@@ -147,6 +151,16 @@ class CompiledMachine:
         if self.n_rows == 1 and not len(self.slots):
             return self
         return replace(self, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
+
+    def row(self, k: int) -> CompiledMachine:
+        """One machine of a batch alone."""
+        q = self.parameters.copy()
+        q[self.slots] = self.values[:, k]
+        return replace(self, parameters=q, slots=np.empty(0, dtype=np.int32), values=np.empty((0, 1)))
+
+    def rows(self, members: Integers) -> CompiledMachine:
+        """Some machines of a batch, by their places in it."""
+        return replace(self, values=np.ascontiguousarray(self.values[:, members]))
 
     @property
     def one(self) -> Floats:
@@ -360,6 +374,8 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine
         resisting=assembly.plan.without_conservative(),
         ground=tuple(program.ground),
         elements=tuple(program.elements),
+        motion_varies=assembly.motion_varies,
+        law_gap=assembly.law_gap,
     )
 
 

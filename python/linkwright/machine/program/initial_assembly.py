@@ -27,7 +27,7 @@ from linkwright.machine.program.mechanism import MechanismProgram
 from linkwright.machine.program.motion import WIDTHS, link_motion, motion, point_motion
 from linkwright.machine.program.numbers import table
 from linkwright.machine.program.places import Continuous, Foldable, Pending, PendingGroup, Side
-from linkwright.machine.program.smooth_laws import LOOK, require_smooth
+from linkwright.machine.program.smooth_laws import LOOK, gap_in_law
 
 # First row of all parameters, which of them vary, and their values over the rows.
 Columns = tuple[Floats, Integers, Floats]
@@ -49,6 +49,11 @@ _SAME_PLACE = 1e-6
 # A whole number of revolutions is one to this.
 _WHOLE = 1e-6
 
+# Most revolutions after which a link is looked for to be back, at angles whose differences no symmetry hides
+# [rad], and the difference of directions that is rounding.
+_CYCLE_MAX, _REPEATS = 24, 1e-9
+_UNEVEN = np.array([0.317, 1.291, 2.053, 3.371, 4.423, 5.687])
+
 # Difference in length of a redundant bar, over its length, that counts as rounding.
 _FITS = 1e-9
 
@@ -68,6 +73,8 @@ class InitialAssembly:
         self.given_at: dict[int, float] = {}
         # Machines in which a dyad passes an odd number of change points: their motion takes two revolutions.
         self.odd = np.zeros(1, dtype=np.bool_)
+        # What is wrong with the first law that has no value at some crank angles.
+        self.law_gap: AssemblyError | None = None
 
     def run(self) -> None:
         """Settles all that is pending, in build order.
@@ -76,9 +83,13 @@ class InitialAssembly:
         link turns irregularly, or a redundant bar does not fit.
         """
         self._check_laws()
-        for pending in self.program.pending:
-            self._fill_in(pending)
-        self._check_redundant()
+        try:
+            for pending in self.program.pending:
+                self._fill_in(pending)
+            self._check_redundant()
+        except AssemblyError as error:
+            # What hangs on a law cannot be followed where that has no value.
+            raise (self.law_gap or error) from None
 
     def _fill_in(self, pending: Pending) -> None:
         match pending:
@@ -92,13 +103,14 @@ class InitialAssembly:
                 self._follow(pending)
 
     def _check_laws(self) -> None:
-        """A driver's law must have a value everywhere, and no jump."""
+        """A driver's law must have values, and no jump; where it has none is known from then on."""
         mechanism = self.program.mechanism
         laws = {name: crank.law for name, crank in mechanism.cranks.items()}
         laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
         for name, law in laws.items():
             if law is not None:
-                require_smooth(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
+                gap = gap_in_law(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
+                self.law_gap = self.law_gap or gap
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""
@@ -164,29 +176,50 @@ class InitialAssembly:
     # -- continuous angles -------------------------------------------------------------------------------
 
     def _continuous(self, angle: Continuous) -> None:
-        """Turns a revolution of the crank, and the middle of the swing about them."""
-        angles = np.linspace(0.0, 2 * np.pi, LOOK + 1)
-        cos, sin = self._direction(angle.link, angles)
+        """Turns a revolution of the crank, and the middle of the swing about them, in every machine."""
+        looks = (2 * np.pi * np.arange(_CYCLE_MAX + 1)[:, None] + _UNEVEN).ravel()
+        rows = self._directions(angle.link, looks)
+        near = np.broadcast_to(np.ravel(primal(angle.near)), len(rows))
+        windings = np.array([self._winding(angle, k, _cycle(row), near[k]) for k, row in enumerate(rows)])
+        for slot, column in zip((angle.winding, angle.centre), windings.T, strict=True):
+            if len(column) == 1 or (column == column[0]).all():
+                if np.isfinite(column[0]):
+                    self.parameters[slot] = column[0]
+            else:
+                self._change(slot, column)
+
+    def _winding(self, angle: Continuous, k: int, cycle: int, near: float) -> tuple[float, float]:
+        """Turns of a link per revolution of the crank, and the middle of its swing, in a machine; or NaN."""
+        angles = np.linspace(0.0, 2 * np.pi * cycle, LOOK * cycle + 1)
+        cos, sin = self._directions(angle.link, angles, k)[0]
         closes = np.isfinite(cos)
         if not closes.any():
-            return
+            return np.nan, np.nan
         psi = np.unwrap(np.arctan2(sin[closes], cos[closes]))
-        at = angles[closes]
         winding = 0.0
         if closes.all():
-            winding = (psi[-1] - psi[0]) / (2 * np.pi)
-            winding = round(winding) if abs(winding - round(winding)) < _WHOLE else winding
-        rest = psi - winding * at
+            turned = (psi[-1] - psi[0]) / (2 * np.pi)
+            winding = (round(turned) if abs(turned - round(turned)) < _WHOLE else turned) / cycle
+        rest = psi - winding * angles[closes]
+        if np.ptp(rest) > _SWING_MAX and self.values.shape[1] > 1:
+            # A machine of a batch that has no answer, and shows it.
+            return np.nan, np.nan
         if np.ptp(rest) > _SWING_MAX:
             raise AssemblyError(
                 f"the link {angle.name} swings by {np.degrees(np.ptp(rest)):.0f}° about its mean rotation; "
                 "beyond 356° the position of a gear, a rack or a cable on it is ambiguous",
                 element=angle.name,
             )
-        near = _first(angle.near)
         turns = np.round((near - psi[0]) / (2 * np.pi))
-        self.parameters[angle.winding] = winding
-        self.parameters[angle.centre] = 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+        return winding, 0.5 * (rest.min() + rest.max()) + 2 * np.pi * turns
+
+    def _directions(self, link: int, angles: Floats, row: int | None = None) -> Floats:
+        """Cosine and sine of a link's angle in every mechanism, or in that of one row, (rows, 2, n)."""
+        slots, values = self._mechanisms()
+        values = values if row is None else np.ascontiguousarray(values[:, row : row + 1])
+        out = np.empty((values.shape[1], WIDTHS[_core.Channel.Link], len(angles)))
+        _core.motions(self.plan, self.parameters, slots, values, angles, [_core.Channel.Link(link)], out)
+        return out[:, :2]
 
     # -- change points -----------------------------------------------------------------------------------
 
@@ -208,9 +241,14 @@ class InitialAssembly:
                 line[row], signs[row] = [], np.nan
         self._give_change_points(dyad, line, signs)
 
+    @property
+    def motion_varies(self) -> bool:
+        """Whether the mechanism varies from machine to machine."""
+        return any(slot < self.program.n_own or slot >= self.n_described for slot in self.slots)
+
     def _mechanisms(self) -> tuple[Integers, Floats]:
         """What varies from one mechanism to the next: where masses and the like vary, nothing."""
-        if any(slot < self.program.n_own or slot >= self.n_described for slot in self.slots):
+        if self.motion_varies:
             return self.slots, self.values
         return np.empty(0, dtype=np.int32), np.empty((0, 1))
 
@@ -356,6 +394,13 @@ class InitialAssembly:
                 element=name,
                 crank_angle=float(angles[worst]),
             )
+
+
+def _cycle(directions: Floats) -> int:
+    """Revolutions after which a link has its directions (2, n) at `_UNEVEN` angles again; 1 if none do."""
+    turns = np.nan_to_num(directions).reshape(2, _CYCLE_MAX + 1, -1)
+    same = np.flatnonzero(np.abs(turns[:, 1:] - turns[:, :1]).max(axis=(0, 2)) <= _REPEATS)
+    return int(same[0]) + 1 if len(same) else 1
 
 
 def _first(value: Any) -> float:

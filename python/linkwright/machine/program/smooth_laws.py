@@ -17,32 +17,39 @@ LOOK = 720
 _DIFFERS = 1e-4
 
 # Beyond this a sine has no digits left that mean anything [rad, m, and their slopes].
-_LARGEST = 1e6
+LARGEST = 1e6
 
 # Halvings of an interval after which what is left of a rise is a jump: half a degree is then 1e-11 rad.
 _HALVINGS = 30
 
 
-def require_smooth(name: str, text: str, law: Callable[[Floats], Floats]) -> None:
-    """Raise if a law has no value at some crank angle, or jumps.
+def gap_in_law(name: str, text: str, law: Callable[[Floats], Floats]) -> AssemblyError | None:
+    """What is wrong with a law that has no value at some crank angles; None if it has one at all.
 
-    `law`: crank angles (n,) [rad] → the law and its slope, (2, n).
+    `law`: crank angles (n,) [rad] → the law and its slope, (2, n). Raises `AssemblyError` if it has no value
+    at any angle, or jumps.
     """
     phi = np.linspace(0.0, 2 * np.pi, LOOK + 1)
     value, slope = law(phi)
-    known = (np.abs(value) < _LARGEST) & (np.abs(slope) < _LARGEST)
+    known = (np.abs(value) < LARGEST) & (np.abs(slope) < LARGEST)
     if not known.all():
         at = float(phi[int(np.argmin(known))])
         remedy = "look for a division by zero, a root or a logarithm"
-        raise _error(name, text, at, "has no usable value or slope", remedy)
+        gap = _error(name, text, at, "has no usable value or slope", remedy)
+        if not known.any():
+            raise gap
+    else:
+        gap = None
+    value, slope = np.where(known, (value, slope), np.nan)
     rise = np.diff(value) - 0.5 * (slope[1:] + slope[:-1]) * np.diff(phi)
-    size = float(np.ptp(value))
+    size = float(np.nanmax(value) - np.nanmin(value))
     for interval in np.flatnonzero(np.abs(rise) > _DIFFERS * size):
         jump = _jump(law, float(phi[interval]), float(phi[interval + 1]), _DIFFERS * size)
         if jump is not None:
             raise _error(
                 name, text, jump, "jumps", "nothing can follow a jump: write a law that is continuous"
             )
+    return gap
 
 
 def _jump(law: Callable[[Floats], Floats], low: float, high: float, least: float) -> float | None:

@@ -37,7 +37,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import RANGES
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units import SPEED, positive
-from linkwright.linkages.closure import over_whole_cycle, require_full_turn
+from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.excitation.harmonics import Source
