@@ -112,7 +112,7 @@ def with_own_names(drawn: str, name: str) -> str:
 
 
 def identifier(name: str) -> str:
-    """A name as the identifier of an element: what is no letter, digit or ``-`` as its code; no two the same."""
+    """A name as an identifier, no two the same: what is no letter, digit or ``-`` stands by its code."""
     return re.sub(r"[^\w-]", lambda letter: f".{ord(letter[0]):x}.", name)
 
 

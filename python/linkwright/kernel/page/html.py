@@ -1,7 +1,7 @@
 """What the pages of all reports share: templates by Jinja2, figures and data inside the page.
 
-A file may come from a stranger: its names and texts are escaped wherever they stand, and the page's own policy lets no
-script run but those of the templates.
+A file may come from a stranger: its names and texts are escaped wherever they stand, and the page's own
+policy lets no script run but those of the templates.
 
 Source: W3C, *Content Security Policy Level 3*, 2.3.1 (hashes of inline scripts and styles).
 """
