@@ -23,6 +23,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES, ROWS
 from linkwright.kernel.units import NUMBER, Kind, parse, show
@@ -70,34 +71,11 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
     for place, table in _tables(tables, ()):
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
             name, key = table.pop("file"), join((*place, "file"))
-            path = folder / name
-            require_below(path, folder, name, key, allow_outside=allow_outside)
+            path = named_file(name, folder, key, allow_outside=allow_outside)
             lists, lines = columns_of(path, key, table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
-
-
-def require_below(path: Path, folder: Path, name: str, key: str, *, allow_outside: bool) -> None:
-    """Raise MachineFileError for a file that an entry names and that lies outside of a folder."""
-    if not (allow_outside or _is_below(path, folder)):
-        raise MachineFileError([_outside(name, key)])
-
-
-def _is_below(path: Path, folder: Path) -> bool:
-    """Whether a file lies in a folder or below it, links followed."""
-    try:
-        return path.resolve().is_relative_to(folder.resolve())
-    except (OSError, ValueError, RuntimeError):
-        # A name that no file has, or links in a circle: reading it tells what is wrong.
-        return True
-
-
-def _outside(name: str, key: str) -> Problem:
-    """A machine file from somebody else shall not read whatever it likes."""
-    expected = "a file in the folder of the machine file, or below it"
-    remedy = "move it there, or allow it: --allow-outside, or allow_outside=True in Python"
-    return Problem(key, show(name), expected, remedy)
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
