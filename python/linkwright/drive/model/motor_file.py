@@ -66,8 +66,8 @@ _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "
 _WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
 
 # A number with a unit behind it, no power of ten.
-_WITH_UNIT = re.compile(r"[-+.,\d]*\d\s*(?![eE][-+\d])[A-Za-z%°].*")
-_HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_WITH_UNIT = re.compile(r"[-+.,\d]*+(?<=\d)\s*+(?![eE][-+\d])[A-Za-z%°].*")
+_HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
 
 
 def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:

@@ -7,7 +7,6 @@ import re
 import sys
 import warnings
 from collections.abc import Callable
-from contextlib import suppress
 from functools import cache, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 
@@ -104,8 +103,10 @@ def load_matplotlib() -> None:
         if backend is not None:
             os.environ["MPLBACKEND"] = backend
     if backend:
-        with suppress(ValueError):
+        try:
             matplotlib.rcParams["backend"] = backend
+        except ValueError:
+            return
 
 
 def styled(draw: Callable[P, R]) -> Callable[P, R]:

@@ -108,7 +108,7 @@ _BEFORE_NAME = re.compile(r'(\bid="|href="#|url\(#)')
 def with_own_names(drawn: str, name: str) -> str:
     """A drawing whose elements have names that no other figure of the page has."""
     before = identifier(name)
-    return _BEFORE_NAME.sub(lambda found: f"{found[0]}{before}-", drawn)
+    return _BEFORE_NAME.sub(lambda mark: f"{mark[0]}{before}-", drawn)
 
 
 def identifier(name: str) -> str:

@@ -11,6 +11,7 @@ import csv
 import math
 import os
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import StringIO
@@ -38,7 +39,7 @@ _EXAMPLES = {
 }
 
 
-_HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,13 +110,14 @@ def columns_of(
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )
     names = [head[1] for head in heads if head is not None]
-    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    twice = next((name for name, n in Counter(names).items() if n > 1), None)
     if twice is not None:
         found, line = show(",".join(lines[0][1])), lines[0][0]
         remedy = f'"{twice}" stands there twice'
         raise MachineFileError([Problem(key, found, "each column once", remedy, str(path), line)])
+    wanted = frozenset(names if numbers is None else numbers)
     for line, row in lines[1:]:
-        for problem in _row_problems(key, names, row, names if numbers is None else numbers):
+        for problem in _row_problems(key, names, row, wanted):
             raise MachineFileError([replace(problem, path=str(path), line=line)])
     columns = {
         head[1]: [

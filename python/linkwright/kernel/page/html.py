@@ -155,5 +155,5 @@ def policy(*, scripts: Iterable[str] = (), styles: Iterable[str] = ()) -> str:
 
 def _sources(texts: Iterable[str]) -> str:
     """Hashes of inline elements."""
-    hashes = (b64encode(sha256(text.encode()).digest()).decode() for text in texts)
-    return " ".join(f"'sha256-{each}'" for each in hashes) or "'none'"
+    digests = (b64encode(sha256(text.encode()).digest()).decode() for text in texts)
+    return " ".join(f"'sha256-{digest}'" for digest in digests) or "'none'"
