@@ -51,12 +51,8 @@ class Column:
     head: int  # its line with the names of the columns
     lines: tuple[int, ...]  # the line of each value
 
-    def holds(self, key: tuple[str, ...]) -> bool:
-        """Whether an entry is the list, or one of its values."""
-        return key[: len(self.place)] == self.place
-
     def line(self, key: tuple[str, ...]) -> int:
-        """The line of an entry that it holds."""
+        """The line of an entry that is the list, or one of its values."""
         below = key[len(self.place) :]
         return self.lines[int(below[0])] if below and below[0].isdigit() else self.head
 
