@@ -77,7 +77,7 @@ def swept(n: int) -> tuple[float, float]:
     """Seconds and largest memory [MB] of the command."""
     with tempfile.TemporaryDirectory() as folder:
         study = Path(folder) / "study.toml"
-        study.write_text(STUDY.format(machine=machines.TWO_CARTS, rows=n, chunk=CHUNK))
+        study.write_text(STUDY.format(machine="roller_two_carts", rows=n, chunk=CHUNK))
         command = [
             sys.executable,
             "-m",

@@ -1,4 +1,4 @@
-"""``python -m linkwright``, for where the console script is not installed."""
+"""``python -P -m linkwright``, without the console script; -P imports nothing from the present folder."""
 
 from linkwright.app import main
 

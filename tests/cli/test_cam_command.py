@@ -166,3 +166,12 @@ def test_a_search_shows_the_units_of_the_reader() -> None:
     assert done.exit_code == 0, done.output
     assert "10 in" in done.stdout
     assert "mm" not in done.stdout
+
+
+def test_backslashes_in_a_name_are_letters(tmp_path: Path) -> None:
+    """They were references of the expression that names the elements of a figure."""
+    text = GROOVE.replace("shuttle", "'a\\input'")
+    (tmp_path / "cam.toml").write_text(text, encoding="utf-8")
+    done = run(str(tmp_path / "cam.toml"), "--out", str(tmp_path / "o"))
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "o" / "a_input.dxf").is_file()

@@ -9,8 +9,8 @@ import pytest
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
-STUDY = f"""
-machine = "{MACHINES / "roller_two_carts.toml"}"
+STUDY = """
+machine = "roller_two_carts"
 
 [variables.phase]
 address = "mechanism.cranks.A2.phase"
@@ -23,15 +23,15 @@ range = ["900 kg", "1100 kg"]
 steps = 3
 
 [derived]
-half = {{ formula = "mass/2" }}
+half = { formula = "mass/2" }
 
 [responses]
 delta = "steady_state.unevenness"
 H = "steady_state.dynamism"
-k_p = {{ formula = "delta^2 + H" }}
+k_p = { formula = "delta^2 + H" }
 
 [constraints]
-delta = {{ max = 0.3 }}
+delta = { max = 0.3 }
 
 [sweep]
 chunk = 4

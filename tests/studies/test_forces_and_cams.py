@@ -15,8 +15,8 @@ from linkwright.studies.slopes import slopes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
-FORCES = f"""
-machine = "{EXAMPLES}/four_bar_counterweights/machine.toml"
+FORCES = """
+machine = "four_bar_counterweights"
 [variables.coupler]
 address = "bodies.\\"R.coupler\\".mass"
 range = ["1 kg", "2 kg"]
@@ -29,8 +29,8 @@ pin = "forces.reaction_max.A"
 shaking = "forces.shaking_force_max"
 """
 
-CAM = f"""
-machine = "{EXAMPLES}/cam_oscillating_valve/machine.toml"
+CAM = """
+machine = "cam_oscillating_valve"
 [variables.base]
 address = "mechanism.cams.finger.base_radius"
 range = ["12 mm", "24 mm"]
@@ -38,7 +38,7 @@ range = ["12 mm", "24 mm"]
 base_radius = "cam.finger.base_radius"
 steepest = "cam.finger.pressure_angle_max"
 [constraints]
-steepest = {{ max = "30 deg" }}
+steepest = { max = "30 deg" }
 [goals]
 base_radius = "minimise"
 """

@@ -24,19 +24,19 @@ from linkwright.studies.plan import StudyPlan
 MACHINE = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
 # Two lengths add up; a third response is their product. σ = 1 mm and 2 mm.
-TEXT = f"""
-machine = "{MACHINE}"
+TEXT = """
+machine = "roller_two_carts"
 [variables.a]
 address = "mechanism.sliders.cart1.rod"
-distribution = {{ kind = "normal", mean = "0.8 m", deviation = "1 mm" }}
+distribution = { kind = "normal", mean = "0.8 m", deviation = "1 mm" }
 [variables.b]
 address = "mechanism.sliders.cart2.rod"
-distribution = {{ kind = "normal", mean = "0.8 m", deviation = "2 mm" }}
+distribution = { kind = "normal", mean = "0.8 m", deviation = "2 mm" }
 [responses]
-sum = {{ formula = "3*a + b" }}
-square = {{ formula = "1e6*(a - 0.8)^2" }}
+sum = { formula = "3*a + b" }
+square = { formula = "1e6*(a - 0.8)^2" }
 [constraints]
-sum = {{ max = 3.205 }}
+sum = { max = 3.205 }
 """
 
 
@@ -209,7 +209,7 @@ def test_limits_beyond_the_range_of_an_entry_are_refused(
     first, _, end = key.partition(".")
     value = f'{{ kind = "normal", mean = 0.9, deviation = 1, {end} = {given} }}' if end else given
     text = f"""
-machine = "{MACHINE}"
+machine = "roller_two_carts"
 [variables.x]
 address = "{entry}"
 {first} = {value}

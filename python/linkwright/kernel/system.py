@@ -29,6 +29,9 @@ _QUERY_LIMITED_INFORMATION, _INVALID_PARAMETER, _STILL_ACTIVE = 0x1000, 87, 259
 # Of winbase.h; `subprocess` has it on Windows only.
 _NEW_PROCESS_GROUP = 0x200
 
+# As the option -P of Python.
+_SAFE_PATH = "PYTHONSAFEPATH"
+
 # How often and how long to wait for a scanner or an indexer that looks at a new file [s].
 _TRIES, _PAUSE = 20, 0.05
 
@@ -97,6 +100,36 @@ def _console_deaf() -> Iterator[None]:
         yield
     finally:
         kernel.SetConsoleCtrlHandler(None, False)
+
+
+@contextmanager
+def safe_path() -> Iterator[None]:
+    """Let Pythons that are started within it import nothing from the present folder.
+
+    It may be that of a stranger's machine file, with a module of the name of one of the library beside it.
+    """
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before
+
+
+@contextmanager
+def away_from(settings: str) -> Iterator[None]:
+    """Be elsewhere if the present folder has a file with settings of a library, which is imported within."""
+    here = Path.cwd() if os.path.lexists(settings) else None
+    if here is not None:
+        os.chdir(Path(__file__).parent)
+    try:
+        yield
+    finally:
+        if here is not None:
+            os.chdir(here)
 
 
 def apart() -> dict[str, Any]:

@@ -75,10 +75,10 @@ PRESSED = {
 _FINE = {"K": 8, "M": 8, "N": 8, "P": 7, "R": 7, "S": 7}
 
 # "H7", "25 H7", "25 mm H7": nominal size in mm, letter, grade.
-CODE = re.compile(r"\s*(?:([\d.]+)\s*(?:mm)?\s+)?([A-Za-z]{1,2})(\d{1,2})\s*")
+CODE = re.compile(r"\s*(?:([\d.]++)(?:\s*+mm)?\s++)?([A-Za-z]{1,2})(\d{1,2})\s*")
 
 # "25 H7/g6": nominal size in mm, hole, pin.
-FIT = re.compile(r"\s*([\d.]+)\s*(?:mm)?\s+([A-Za-z]{1,2})(\d{1,2})\s*/\s*([A-Za-z]{1,2})(\d{1,2})\s*")
+FIT = re.compile(r"\s*+([\d.]++)(?:\s*+mm)?\s++([A-Za-z]{1,2})(\d{1,2})\s*/\s*([A-Za-z]{1,2})(\d{1,2})\s*")
 
 # What is known, for messages.
 KNOWN = "d to h, js, k, m, n, p, r, s of shafts or D to H, JS, K, M, N, P, R, S of holes, with grades 5 to 14"

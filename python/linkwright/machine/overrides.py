@@ -9,6 +9,7 @@ from typing import Any
 
 from linkwright.kernel.description.place import keys, split
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.files.text_file import deep_line
 from linkwright.kernel.units import show
 from linkwright.machine.address import resolve
 
@@ -88,6 +89,8 @@ def _of(address: str, value: Any, text: str = "") -> Override:
 
 def _value(text: str) -> Any:
     """The value as TOML, or the text itself."""
+    if deep_line(f"value = {text}") is not None:
+        return text
     try:
         tables = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):

@@ -254,9 +254,10 @@ def _of_columns(
     """Problems of lists from files of points, each kind of them once a column; and all others."""
     others: list[Problem] = []
     first: dict[tuple[object, ...], Problem] = {}
+    known = {column.place: column for column in columns}
     for problem in problems:
         key = split(problem.key) if problem.key else ()
-        column = next((one for one in columns if one.holds(key)), None)
+        column = next((known[key[:n]] for n in range(len(key) + 1) if key[:n] in known), None)
         if column is None:
             others.append(problem)
         else:

@@ -16,21 +16,22 @@ from linkwright.machine import iso286
 
 # "± 0.2 mm"; "+0.1 -0.3 mm" or "+0.1/-0.3 mm", in either order; before it there may be the size,
 # "0.8 m ± 0.2 mm". A comma belongs to the number, so that it is that which is refused.
-_AND = r"(?:\s*/\s*|\s+)"
+_AND = r"(?:\s*+/\s*+|\s++)"
 # One of two limits: with its sign, or 0, as drawings write it.
-_SIGNED, _ZERO = r"[+-]\s*[\d.,]+(?:[eE][+-]?\d+)?", r"0(?:[.,]0*)?"
+_SIGNED, _ZERO = r"[+-]\s*+[\d.,]++(?:[eE][+-]?\d++)?", r"0(?:[.,]0*+)?"
 _LIMIT = rf"(?:{_SIGNED}|{_ZERO})"
-_SIZED = re.compile(
-    r"\s*(-?[\d.,]+(?:[eE][+-]?\d+)?[^±+-]*?)"
-    rf"\s*((?:±|\+/-|{_SIGNED}{_AND}{_LIMIT}|(?<=\s){_ZERO}{_AND}{_SIGNED}).*)",
-    re.DOTALL,
-)
-_EVEN = re.compile(r"\s*(?:±|\+/-)\s*([\d.,]+(?:[eE][+-]?\d+)?)\s*(.*)", re.DOTALL)
-_UNEVEN = re.compile(rf"\s*({_LIMIT}){_AND}({_LIMIT})\s*(.*)", re.DOTALL)
+_SIZE = re.compile(r"\s*+-?[\d.,]++(?:[eE][+-]?\d++)?")
+_SIGN = re.compile(r"[±+-]")
+_ZERO_FIRST = re.compile(rf"(?<=\s){_ZERO}{_AND}\Z")
+_LIMITS = re.compile(rf"±|\+/-|{_SIGNED}{_AND}{_LIMIT}|{_ZERO}{_AND}{_SIGNED}")
+_EVEN = re.compile(r"\s*+(?:±|\+/-)\s*+([\d.,]++(?:[eE][+-]?\d++)?)\s*+(.*)", re.DOTALL)
+_UNEVEN = re.compile(rf"\s*+({_LIMIT}){_AND}({_LIMIT})\s*+(.*)", re.DOTALL)
 # A number and its unit.
-_MEASURE = re.compile(rf"({NUMBER.pattern})\s*(.*)", re.DOTALL)
+_MEASURE = re.compile(rf"({NUMBER.pattern})\s*+(.*)", re.DOTALL)
 # A size and its class, "25 H7", "25 mm H7", "0.2 m H7": grades are no powers of a unit.
-_CODED = re.compile(rf"\s*({NUMBER.pattern})\s*([A-Za-zµ]*)\s+([A-Za-z]{{1,2}}(?:[5-9]|1\d))\s*")
+_CODED = re.compile(
+    rf"\s*+({NUMBER.pattern})(?:\s*+([A-Za-zµ]++)(?=\s))?\s++([A-Za-z]{{1,2}}(?:[5-9]|1\d))\s*+"
+)
 
 
 def problem(key: str, found: str, expected: str, remedy: str = "") -> MachineError:
@@ -58,12 +59,24 @@ def is_bare(text: str) -> bool:
 
 def _divided(text: str) -> tuple[str, str, str] | None:
     """Size, tolerance and its unit of a text with a size and limits about it."""
-    sized = _SIZED.fullmatch(text.replace("−", "-"))
-    if sized is None or not _MEASURE.fullmatch(sized[1].strip()):
+    sized = _sized(text.replace("−", "-"))
+    if sized is None or not _MEASURE.fullmatch(sized[0]):
         return None
-    size, limits = sized[1].strip(), sized[2].strip()
+    size, limits = sized
     match = _EVEN.fullmatch(limits) or _UNEVEN.fullmatch(limits)
     return None if match is None else (size, limits, match[match.re.groups].strip())
+
+
+def _sized(text: str) -> tuple[str, str] | None:
+    """The size and what follows it, from the first sign or the zero before it; None of another text."""
+    size = _SIZE.match(text)
+    sign = _SIGN.search(text, size.end()) if size else None
+    if size is None or sign is None:
+        return None
+    zero = _ZERO_FIRST.search(text, size.end(), sign.start())
+    places = (zero.start(), sign.start()) if zero else (sign.start(),)
+    at = next((place for place in places if _LIMITS.match(text, place)), None)
+    return None if at is None else (text[:at].strip(), text[at:].strip())
 
 
 def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, float]:
@@ -73,10 +86,9 @@ def toleranced(key: str, value: object, text: str, kind: Kind) -> tuple[float, f
     stripped = text.replace("−", "-")
     # Behind a value the size may have another unit than millimetres.
     coded = _CODED.fullmatch(stripped)
-    if code := iso286.CODE.fullmatch(coded[3] if coded and coded[2] not in ("", "mm") else stripped):
+    if code := iso286.CODE.fullmatch(coded[3] if coded and coded[2] not in (None, "mm") else stripped):
         return _coded(key, float(value), text, code, kind)
-    sized = _SIZED.fullmatch(stripped)
-    size, limits = sized.groups() if sized else (None, stripped)
+    size, limits = _sized(stripped) or (None, stripped)
     parts, unit = _parts(key, text, limits)
     if _is_share(unit):
         shares = [_measure(key, text, part, unit, RATIO) for part in parts]

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.kernel.figure.svg import svg
+from linkwright.kernel.figure.svg import svg, with_own_names
+from linkwright.kernel.page.html import inline, policy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -129,7 +130,12 @@ def page(paper: Paper, figures: Mapping[str, Figure]) -> str:
     template = files("linkwright.papers").joinpath("paper.html").read_text(encoding="utf-8")
     captions = {name: filled(text, paper.values) for name, text in paper.published["captions"].items()}
     drawn = [(captions[name], _drawing(figure, name)) for name, figure in figures.items()]
-    text: str = Environment(autoescape=True).from_string(template).render(paper=paper, figures=drawn)
+    style = files("linkwright.papers").joinpath("paper.css").read_text(encoding="utf-8")
+    text: str = (
+        Environment(autoescape=True)
+        .from_string(template)
+        .render(paper=paper, figures=drawn, style=inline("style", style), policy=policy(styles=[style]))
+    )
     return text
 
 
@@ -137,4 +143,4 @@ def _drawing(figure: Figure, name: str) -> str:
     """A figure as markup, with names inside that no other of the page has."""
     from markupsafe import Markup
 
-    return Markup(re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", svg(figure)))
+    return Markup(with_own_names(svg(figure), name))

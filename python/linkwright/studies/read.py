@@ -15,7 +15,8 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem, show
 from linkwright.kernel.files.library import library, studies
 from linkwright.kernel.files.lines import located
-from linkwright.kernel.files.points import read_columns, require_below
+from linkwright.kernel.files.named_file import named_file
+from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
@@ -51,7 +52,7 @@ def read_study(
         Entries that replace or add to those of the machine, texts ``PATH=VALUE`` or path → value; those that
         begin with ``study.`` are of the study.
     allow_outside : bool
-        Whether an entry `file` may lead out of the folder of the machine file.
+        Whether entries `machine` and `file` may lead out of the folder of the file that they stand in.
 
     Returns
     -------
@@ -78,7 +79,7 @@ def read_study(
     at = (TABLE,) if is_machine else ()
     try:
         study = StudyFile.model_validate(given)
-        source = place if is_machine else _machine_of(place, study)
+        source = place if is_machine else _machine_of(place, study, allow_outside=allow_outside)
         options = {path.address: path.value for path in of_machine}
         described = read(source, options, allow_outside=allow_outside)
         # Results are those of the machine and of this study, whatever other study stands in its file.
@@ -150,12 +151,12 @@ def _divided(changes: Sequence[Override]) -> tuple[list[Override], list[Override
     return own, [change for change in changes if not change.address.startswith(mark)]
 
 
-def _machine_of(path: Path, study: StudyFile) -> Path:
+def _machine_of(path: Path, study: StudyFile, *, allow_outside: bool) -> Path:
     """The machine file that a study names."""
     if study.machine is None:
         remedy = 'machine = "FILE", or a table [study] in the machine file'
         raise MachineError([Problem("machine", "nothing", "the machine file", remedy)])
-    beside = path.parent / study.machine
+    beside = named_file(study.machine, path.parent, "machine", allow_outside=allow_outside, document="study")
     if beside.exists():
         return beside
     # A name alone may be one of the library.
@@ -170,8 +171,7 @@ def _listed(path: Path, machine: Machine, study: StudyFile, *, allow_outside: bo
     """Rows of a list in SI, (n, variables)."""
     if study.sweep.file is None:
         return None
-    place = path.parent / study.sweep.file
-    require_below(place, path.parent, study.sweep.file, "sweep.file", allow_outside=allow_outside)
+    place = named_file(study.sweep.file, path.parent, "sweep.file", allow_outside=allow_outside)
     if not place.exists():
         found = f"{show(study.sweep.file)}, no such file"
         raise MachineError(

@@ -30,7 +30,7 @@ from linkwright import __version__
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.extras import require
-from linkwright.kernel.system import deaf
+from linkwright.kernel.system import deaf, safe_path
 from linkwright.studies.engine import evaluate
 from linkwright.studies.folder import SweepFolder, plan_of
 from linkwright.studies.parquet import encoded
@@ -70,11 +70,13 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
     """The same until a process is lost."""
     given = (folder.path, folder.manifest, ready.listed, workers)
     others = active_children()
-    # Started afresh: a copy of a process with threads may hang.
-    with ProcessPoolExecutor(workers, get_context("spawn"), initializer=_begin, initargs=given) as pool:
+    with safe_path():
+        # Started afresh: a copy of a process with threads may hang.
+        pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=_begin, initargs=given)
+    with pool:
         try:
             # An interrupt ends this process, and it them: told themselves, they would end in a traceback.
-            with deaf():
+            with deaf(), safe_path():
                 waiting = {pool.submit(_compute, number): number for number in numbers}
             for done in as_completed(waiting):
                 done.result()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -66,7 +65,7 @@ def write_study(
     Returns
     -------
     list of Path
-        What was written: the study, and the machine if the source describes another one.
+        What was written: the study, and the machine if the source describes another one or lies elsewhere.
 
     Raises
     ------
@@ -100,13 +99,11 @@ def _alike(described: Machine, machine: Machine) -> bool:
 
 
 def _source(place: Path, source: Path) -> str:
-    """How a study at a place names the file of its machine."""
+    """How a study at a place names the file of its machine; empty if it may not: only what lies below it."""
     if not source.exists():  # a name of the library
         return str(source)
-    if os.path.splitdrive(source.resolve())[0] != os.path.splitdrive(place.resolve())[0]:
-        return source.resolve().as_posix()
-    # Where the folder of the study is a link, the way back begins at its true place.
-    return Path(os.path.relpath(source.resolve(), place.parent.resolve())).as_posix()
+    path, folder = source.resolve(), place.parent.resolve()
+    return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else ""
 
 
 def _variable(plan: StudyPlan, name: str, given: Mapping[str, Any]) -> dict[str, Any]:

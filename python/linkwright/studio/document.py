@@ -23,7 +23,7 @@ from linkwright.machine.read import loads
 from linkwright.machine.size_limits import size_and_limits
 
 # A number and what stands behind it.
-_WRITTEN = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(.*)", re.DOTALL)
+_WRITTEN = re.compile(r"\s*+[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?\s*+(.*)", re.DOTALL)
 
 # Digits of a number that a slider or a drag gives: far below any tolerance, and short to read.
 _DIGITS = 7

@@ -155,7 +155,8 @@ class Worker:
 
     async def _running(self) -> Process:
         if self._process is None or self._process.returncode is not None:
-            words = (sys.executable, "-m", "linkwright.studio.worker")
+            # Nothing is imported from the folder of the studio, whoever's files lie there.
+            words = (sys.executable, "-P", "-m", "linkwright.studio.worker")
             self._process = await asyncio.create_subprocess_exec(
                 *words, stdin=PIPE, stdout=PIPE, limit=_LINE_BYTES
             )

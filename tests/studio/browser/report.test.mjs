@@ -1,7 +1,7 @@
 // The page of a report in a browser: figures are read and zoomed, and nothing is loaded.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -48,6 +48,27 @@ test("the cursor reads the curves, dragging zooms, a double click shows all of i
   assert.ok(Number(zoomed.split(" ")[2]) < 0.5 * Number(whole.split(" ")[2]));
   await svg.dblclick({ position: { x: 20, y: 20 } });
   assert.equal(await svg.getAttribute("viewBox"), whole);
+});
+
+test("a script in the name of a cam is text, and the drawing moves", async () => {
+  const name = `"><img src=q onerror=with(document)title=7777>`;
+  const text = readFileSync(`${ROOT}machines/roller_cam.toml`, "utf8");
+  const [, cam] = /\[mechanism\.cams\.(\w+)\]/.exec(text);
+  writeFileSync(`${folder}/cam.toml`, text.replaceAll(`cams.${cam}`, `cams.'${name}'`).replaceAll(new RegExp(`^${cam} =`, "gm"), `'${name}' =`).replaceAll(`"${cam}"`, `'${name}'`));
+  execFileSync(`${ROOT}.venv/bin/linkwright`, ["report", "--to", "cam.html", "cam", "cam.toml"], { cwd: folder, timeout: PATIENCE });
+  const other = await browser.newPage();
+  await other.goto(pathToFileURL(`${folder}/cam.html`).href);
+  const pose = () => other.locator("#sketch").innerHTML();
+  const before = await pose();
+  await other.waitForTimeout(500);
+  assert.notEqual(await pose(), before);
+  assert.doesNotMatch(await other.title(), /7777$/);
+  assert.equal(await other.locator("img").count(), 0);
+  // What gets in nevertheless does not run.
+  await other.evaluate(() => document.body.insertAdjacentHTML("beforeend", "<img src=q onerror='document.title = 7777'>"));
+  await other.waitForTimeout(200);
+  assert.doesNotMatch(await other.title(), /7777$/);
+  await other.close();
 });
 
 test("there was no error, and nothing was loaded", () => assert.deepEqual(faults, []));

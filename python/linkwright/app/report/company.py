@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -13,6 +14,8 @@ from linkwright.kernel.description.base import Title
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem
 from linkwright.kernel.files.lines import located
+from linkwright.kernel.files.named_file import named_file
+from linkwright.kernel.files.picture import svg_fault
 from linkwright.kernel.files.text_file import TextError, data_of, text_of
 from linkwright.kernel.limits import FILE_BYTES, LOGO_BYTES
 from linkwright.kernel.page.content import Heading
@@ -75,16 +78,28 @@ def read_heading(path: str | os.PathLike[str]) -> Heading:
     except MachineError as error:
         raise MachineFileError(located(error.problems, text, str(place))) from None
     entries = known.model_dump(exclude={"logo"})
-    return Heading(logo=_picture(place.parent / known.logo) if known.logo else None, **entries)
+    return Heading(logo=_picture(known.logo, place) if known.logo else None, **entries)
 
 
-def _picture(path: Path) -> tuple[str, bytes]:
-    """Ending and bytes of a logo."""
+def _picture(name: str, document: Path) -> tuple[str, bytes]:
+    """Ending and bytes of a logo, which lies in the folder of its company file."""
+    path = _named(name, document)
     ending = path.suffix.lower().removeprefix(".")
     if ending not in _KINDS:
         raise InputError(f"logo: found {path}, expected a picture that ends in {', '.join(_KINDS)}")
     try:
-        return ending, data_of(path, LOGO_BYTES)
+        data = data_of(path, LOGO_BYTES)
     except TextError as error:
         expected = error.expected or "a picture"
         raise InputError(f"logo: {path}: found {error.found}, expected {expected}") from None
+    if ending == "svg" and (fault := svg_fault(data)):
+        raise InputError(f"logo: {path}: found {fault}, expected a picture without scripts and links")
+    return ending, data
+
+
+def _named(name: str, document: Path) -> Path:
+    """The file of a logo; the error for one elsewhere names the company file."""
+    try:
+        return named_file(name, document.parent, "logo", document="company file")
+    except MachineFileError as error:
+        raise MachineFileError([replace(problem, path=str(document)) for problem in error.problems]) from None

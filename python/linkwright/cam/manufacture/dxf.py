@@ -20,6 +20,7 @@ from linkwright.cam.manufacture.outline import Outline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError
+from linkwright.kernel.files import dxf
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -45,9 +46,7 @@ _CLOSED = 1e-14
 
 def new_document() -> Document:
     """An empty drawing in millimetres."""
-    from ezdxf.filemanagement import new
-
-    document = new(_VERSION, units=_MILLIMETRE)
+    document = dxf.new_document(_VERSION, units=_MILLIMETRE)
     document.header["$MEASUREMENT"] = 1
     return document
 
@@ -111,11 +110,10 @@ def _add_notes(document: Document, drawing: Drawing, notes: tuple[str, ...]) -> 
 
 def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
     """Read the outlines of a DXF file."""
-    from ezdxf.filemanagement import readfile
     from ezdxf.lldxf.const import DXFError
 
     try:
-        document = readfile(file)
+        document = dxf.read_document(file)
     except (OSError, DXFError) as error:
         raise ExchangeError(f"{file}: is not a DXF file that can be read ({error})") from None
     faults = document.audit().errors

@@ -18,7 +18,8 @@ from linkwright.drive.model.catalogue import CatalogueMotor
 from linkwright.drive.model.motor import with_rated_point
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
-from linkwright.kernel.files.points import lines_of, require_below
+from linkwright.kernel.files.named_file import named_file
+from linkwright.kernel.files.points import lines_of
 from linkwright.kernel.public import public
 from linkwright.kernel.units import (
     INERTIA,
@@ -65,8 +66,8 @@ _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "
 _WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
 
 # A number with a unit behind it, no power of ten.
-_WITH_UNIT = re.compile(r"[-+.,\d]*\d\s*(?![eE][-+\d])[A-Za-z%°].*")
-_HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_WITH_UNIT = re.compile(r"[-+.,\d]*+(?<=\d)\s*+(?![eE][-+\d])[A-Za-z%°].*")
+_HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
 
 
 def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
@@ -80,9 +81,7 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
     if not isinstance(motor, dict) or not isinstance(motor.get("file"), str):
         return
     name, wanted = motor.pop("file"), motor.pop("catalogue", None)
-    path = folder / name
-    require_below(path, folder, name, _KEY, allow_outside=allow_outside)
-    rows = _Rows(path)
+    rows = _Rows(named_file(name, folder, _KEY, allow_outside=allow_outside))
     row = rows.entries(rows.known(wanted))
     kind = rows.kind(str(wanted), row)
     for key, value in row.items():

@@ -50,7 +50,8 @@ Curves = Annotated[bool, Option("--curves", help="With --json: include curves.")
 Outside = Annotated[
     bool,
     Option(
-        "--allow-outside", help="Let entries `file` of the machine file lead out of the folder that it is in."
+        "--allow-outside",
+        help="Let entries `file` and `machine` of a file lead out of the folder that it is in.",
     ),
 ]
 Json = Annotated[bool, Option("--json", help="Print one JSON object in SI units.")]

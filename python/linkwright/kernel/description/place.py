@@ -18,7 +18,7 @@ from pydantic import BaseModel
 
 from linkwright.kernel.errors import InputError
 
-_PART = re.compile(r"""\s*(?:"([^"]*)"|'([^']*)'|([^."'\s][^."']*?))\s*(\.|$)""")
+_PART = re.compile(r"""\s*+(?:"([^"]*+)"\s*+|'([^']*+)'\s*+|([^."'\s][^."']*+))(\.|$)""")
 # What TOML calls a bare key; every other key needs quotes.
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -35,7 +35,7 @@ def split(address: str) -> tuple[str, ...]:
         match = _PART.match(address, position)
         if match is None:
             raise InputError(f'"{address}" is not an address: expected keys with points between them')
-        parts.append(match[1] or match[2] or match[3] or "")
+        parts.append(match[1] or match[2] or (match[3] or "").rstrip())
         position, more = match.end(), match[4] == "."
     return tuple(parts)
 
@@ -86,7 +86,9 @@ def look(node: object, key: str) -> Any:
     if isinstance(node, Mapping):
         return node.get(key)
     if isinstance(node, list | tuple):
-        return node[int(key)] if key in keys(node) else None
+        # A list may have very many entries: its places are not written out to look for one.
+        place = int(key) if key.isdecimal() and len(key) <= len(str(len(node))) else len(node)
+        return node[place] if place < len(node) and str(place) == key else None
     return None
 
 

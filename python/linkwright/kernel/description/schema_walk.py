@@ -62,6 +62,7 @@ def models_in(annotation: Any) -> list[type[BaseModel]]:
     return models
 
 
+@cache
 def kinds_of(model: type[BaseModel]) -> tuple[str, ...]:
     """The words for ``kind`` that choose a model."""
     field = model.model_fields.get("kind")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 import warnings
 from collections.abc import Callable
 from functools import cache, wraps
@@ -13,6 +15,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.system import away_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,11 +87,34 @@ STYLE: Any = {
 }
 
 
+@cache
+def load_matplotlib() -> None:
+    """Import matplotlib as it is installed: settings beside a machine file are not those of the user.
+
+    A backend of the environment that does not exist is left out: figures are written, and need none.
+    """
+    if "matplotlib" in sys.modules:
+        return
+    backend = os.environ.pop("MPLBACKEND", None)
+    try:
+        with away_from("matplotlibrc"):
+            import matplotlib
+    finally:
+        if backend is not None:
+            os.environ["MPLBACKEND"] = backend
+    if backend:
+        try:
+            matplotlib.rcParams["backend"] = backend
+        except ValueError:
+            return
+
+
 def styled(draw: Callable[P, R]) -> Callable[P, R]:
     """Let a function draw in the style of all figures, with axes in the units that the reader wants."""
 
     @wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> R:
+        load_matplotlib()
         from matplotlib import rc_context
 
         with rc_context(STYLE), warnings.catch_warnings():

@@ -90,8 +90,7 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     `name`: what the names inside begin with, so that figures of one page do not share them; `text`: what the
     figure shows, for those who cannot see it.
     """
-    drawn = svg(figure, transparent=True)
-    drawn = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", drawn)
+    drawn = with_own_names(svg(figure, transparent=True), name)
     for colour, variable in _COLOURS.items():
         drawn = drawn.replace(colour, f"var({variable})")
     # The page's own size counts; names of other vocabularies are no use in HTML.
@@ -100,6 +99,21 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     # A style inside a figure would hold for the whole page; the page has its own.
     drawn = re.sub(r"\s*<style.*?</style>", "", drawn, flags=re.DOTALL)
     return drawn.replace("xlink:href", "href")
+
+
+# What stands before the name of an element, and before its use.
+_BEFORE_NAME = re.compile(r'(\bid="|href="#|url\(#)')
+
+
+def with_own_names(drawn: str, name: str) -> str:
+    """A drawing whose elements have names that no other figure of the page has."""
+    before = identifier(name)
+    return _BEFORE_NAME.sub(lambda mark: f"{mark[0]}{before}-", drawn)
+
+
+def identifier(name: str) -> str:
+    """A name as an identifier, no two the same: what is no letter, digit or ``-`` stands by its code."""
+    return re.sub(r"[^\w-]", lambda letter: f".{ord(letter[0]):x}.", name)
 
 
 # Points of a curve that a page reads, and steps across the axes in which they are given.

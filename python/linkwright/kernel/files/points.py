@@ -11,6 +11,7 @@ import csv
 import math
 import os
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import StringIO
@@ -23,6 +24,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES, ROWS
 from linkwright.kernel.units import NUMBER, Kind, parse, show
@@ -37,7 +39,7 @@ _EXAMPLES = {
 }
 
 
-_HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +51,8 @@ class Column:
     head: int  # its line with the names of the columns
     lines: tuple[int, ...]  # the line of each value
 
-    def holds(self, key: tuple[str, ...]) -> bool:
-        """Whether an entry is the list, or one of its values."""
-        return key[: len(self.place)] == self.place
-
     def line(self, key: tuple[str, ...]) -> int:
-        """The line of an entry that it holds."""
+        """The line of an entry that is the list, or one of its values."""
         below = key[len(self.place) :]
         return self.lines[int(below[0])] if below and below[0].isdigit() else self.head
 
@@ -70,34 +68,11 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
     for place, table in _tables(tables, ()):
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
             name, key = table.pop("file"), join((*place, "file"))
-            path = folder / name
-            require_below(path, folder, name, key, allow_outside=allow_outside)
+            path = named_file(name, folder, key, allow_outside=allow_outside)
             lists, lines = columns_of(path, key, table["kind"])
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
-
-
-def require_below(path: Path, folder: Path, name: str, key: str, *, allow_outside: bool) -> None:
-    """Raise MachineFileError for a file that an entry names and that lies outside of a folder."""
-    if not (allow_outside or _is_below(path, folder)):
-        raise MachineFileError([_outside(name, key)])
-
-
-def _is_below(path: Path, folder: Path) -> bool:
-    """Whether a file lies in a folder or below it, links followed."""
-    try:
-        return path.resolve().is_relative_to(folder.resolve())
-    except (OSError, ValueError, RuntimeError):
-        # A name that no file has, or links in a circle: reading it tells what is wrong.
-        return True
-
-
-def _outside(name: str, key: str) -> Problem:
-    """A machine file from somebody else shall not read whatever it likes."""
-    expected = "a file in the folder of the machine file, or below it"
-    remedy = "move it there, or allow it: --allow-outside, or allow_outside=True in Python"
-    return Problem(key, show(name), expected, remedy)
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
@@ -131,13 +106,14 @@ def columns_of(
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )
     names = [head[1] for head in heads if head is not None]
-    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    twice = next((name for name, n in Counter(names).items() if n > 1), None)
     if twice is not None:
         found, line = show(",".join(lines[0][1])), lines[0][0]
         remedy = f'"{twice}" stands there twice'
         raise MachineFileError([Problem(key, found, "each column once", remedy, str(path), line)])
+    wanted = frozenset(names if numbers is None else numbers)
     for line, row in lines[1:]:
-        for problem in _row_problems(key, names, row, names if numbers is None else numbers):
+        for problem in _row_problems(key, names, row, wanted):
             raise MachineFileError([replace(problem, path=str(path), line=line)])
     columns = {
         head[1]: [

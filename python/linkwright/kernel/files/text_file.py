@@ -96,9 +96,9 @@ _ENOUGH = 100
 _WHOLE = 2**63
 
 # A key with too many parts, where a key may stand: tomllib takes the square of their number.
-_PART = r"""[ \t]*(?:"[^"\n]*"|'[^'\n]*'|[A-Za-z0-9_-]+)[ \t]*"""
+_PART = r"""[ \t]*+(?:"[^"\n]*+"|'[^'\n]*+'|[A-Za-z0-9_-]++)[ \t]*+"""
 _DEEP_KEY = re.compile(rf"(?:^|[\n{{,\[])(?:{_PART}\.){{{DEPTH.most}}}")
-_BRACKETS = re.compile(rf"(?:[\[{{]\s*(?:{_PART}=\s*)?){{{DEPTH.most + 1}}}")
+_BRACKETS = re.compile(rf"(?:[\[{{]\s*+(?:{_PART}=\s*+)?){{{DEPTH.most + 1}}}")
 
 # Digits of a number that Python still reads.
 _DIGITS = re.compile(r"[0-9_]{1001}")

@@ -1,14 +1,23 @@
-"""What the pages of all reports share: templates by Jinja2, figures and data inside the page."""
+"""What the pages of all reports share: templates by Jinja2, figures and data inside the page.
+
+A file may come from a stranger: its names and texts are escaped wherever they stand, and the page's own
+policy lets no script run but those of the templates.
+
+Source: W3C, *Content Security Policy Level 3*, 2.3.1 (hashes of inline scripts and styles).
+"""
 
 from __future__ import annotations
 
 import json
 import re
 from base64 import b64encode
+from collections.abc import Iterable
+from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.kernel.figure.svg import inline_svg, readout
+from linkwright.kernel.figure.svg import identifier, inline_svg, readout
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.formulas import mathml
 from linkwright.kernel.result import finite
@@ -35,6 +44,7 @@ def html(content: Content) -> str:
         content=content,
         words=content.language,
         page_words=_page_words(content),
+        policy=_policy(),
         version=linkwright.__version__,
     )
 
@@ -93,10 +103,12 @@ def environment() -> Environment:
     environment.filters["index"] = with_index
     environment.filters["mathml"] = lambda text: _as_markup(mathml(text))
     environment.filters["embedded"] = _embedded
+    environment.filters["identifier"] = identifier
     environment.filters["logo"] = _logo
     environment.globals["picture"] = _picture
     environment.globals["axes_of"] = _axes
-    environment.globals["include_raw"] = _raw
+    environment.globals["script"] = lambda name: inline("script", _raw(name))
+    environment.globals["style"] = lambda name: inline("style", _raw(name))
     return environment
 
 
@@ -114,6 +126,34 @@ def _as_markup(text: str) -> Markup:
     return Markup(text)
 
 
-def _raw(name: str) -> Markup:
+def _raw(name: str) -> str:
     """A file of the templates, as it is."""
-    return _as_markup((_FOLDER / name).read_text(encoding="utf-8"))
+    return (_FOLDER / name).read_text(encoding="utf-8")
+
+
+def inline(tag: str, text: str) -> Markup:
+    """A script or style of this package inside a page."""
+    return _as_markup(f"<{tag}>{text}</{tag}>")
+
+
+@cache
+def _policy() -> str:
+    """The policy of the page of a report: of all templates, so that it is the same for every report."""
+    return policy(
+        scripts=[_raw(path.name) for path in sorted(_FOLDER.glob("*.js"))], styles=[_raw("report.css")]
+    )
+
+
+def policy(*, scripts: Iterable[str] = (), styles: Iterable[str] = ()) -> str:
+    """What a page may do: run these scripts, use these styles, show pictures that are in it, load nothing."""
+    return (
+        f"default-src 'none'; img-src data:; script-src {_sources(scripts)}; style-src {_sources(styles)}; "
+        # Attributes of figures: they run nothing, and load nothing that `img-src` does not allow.
+        "style-src-attr 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+    )
+
+
+def _sources(texts: Iterable[str]) -> str:
+    """Hashes of inline elements."""
+    digests = (b64encode(sha256(text.encode()).digest()).decode() for text in texts)
+    return " ".join(f"'sha256-{digest}'" for digest in digests) or "'none'"

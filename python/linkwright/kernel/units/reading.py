@@ -16,14 +16,16 @@ from linkwright.kernel.errors import Problem, UnitError, show
 from linkwright.kernel.units.kinds import ANGLE, OF_ANY_KIND, Kind, range_words
 from linkwright.kernel.units.spellings import factor_of, fits, other_quantity, unknown
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+# Repetitions that never give back what they took (`++`): a text of any length is read once.
+_NUMBER = r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?"
 # A number without a unit: digits, a point, an exponent.
 NUMBER = re.compile(_NUMBER, re.ASCII)
 _VALUE = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
-_VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]+{_NUMBER})*)\s*(.*)", re.DOTALL)
+_VALUES = re.compile(rf"({_NUMBER}(?:[\s,;]++{_NUMBER})*)\s*(.*)", re.DOTALL)
 # 0,5 kN; 1,000.5 mm; 1.000,5 mm: what a comma means there depends on the country.
 _DECIMAL_COMMA = re.compile(
-    r"[+-]?(?:\d+(?:,\d+)+(?:\.\d*)?|\d+(?:\.\d+)+,\d+)(?:[eE][+-]?\d+)?(?:\s*[^\d\s,;].*)?", re.DOTALL
+    r"[+-]?(?:\d++(?:,\d++)++(?:\.\d*+)?|\d++(?:\.\d++)++,\d++)(?:[eE][+-]?\d++)?(?:\s*+[^\d\s,;].*)?",
+    re.DOTALL,
 )
 # 1 000 mm, 1'000 mm: thousands by a space or an apostrophe.
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[ '’\u00a0\u202f]\d{3})+(?![\d^/]).*", re.DOTALL)

@@ -144,7 +144,8 @@ _FACTORS = {
 }
 
 # Longer texts are no unit; the limit keeps pint's parser away from them.
-_UNIT = re.compile(r"[A-Za-z_%0-9^/() .-]{1,60}")
+_UNIT_LETTERS = 60
+_UNIT = re.compile(rf"[A-Za-z_%0-9^/() .-]{{1,{_UNIT_LETTERS}}}")
 # "N/m s": is the second inside the denominator? Readers, and programs, disagree.
 _TWO_READINGS = re.compile(r"/\s*[^\s/()]+\s+[^\s/]")
 # A power belongs to a unit and is a digit or two, once: pint would work out 9^9^9, and with it a day.
@@ -212,6 +213,8 @@ def _product(word: str, symbols: dict[str, str]) -> str:
 
 def factor_of(unit: str) -> tuple[float, Dimension] | None:
     """Factor to SI and dimension of a unit; None if nobody knows it."""
+    if len(unit) > _UNIT_LETTERS:
+        return None
     text = normal(unit)
     return _FACTORS.get(text) or _from_pint(text)
 
@@ -269,6 +272,8 @@ def unknown(unit: str) -> str:
             "a tolerance belongs behind the value of an entry of the machine file, "
             '"0.2 m ± 0.2 mm" or "200 H7", or into [study.variables.NAME]'
         )
+    if len(unit) > _UNIT_LETTERS:
+        return f"{show(unit)} is not a known unit"
     text = normal(unit)
     if _OTHER_ZERO.fullmatch(text):
         return (

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.files.dxf import read_document
+from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, data_of
 from linkwright.kernel.limits import POINT_BYTES
 from linkwright.kernel.units import LENGTH, parse
@@ -37,11 +39,7 @@ def with_dxf_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool
     drawing = tables.get("drawing")
     if not isinstance(drawing, dict) or not isinstance(drawing.get("file"), str):
         return
-    from linkwright.kernel.files.points import require_below
-
-    name = drawing["file"]
-    path = folder / name
-    require_below(path, folder, name, "drawing.file", allow_outside=allow_outside)
+    path = named_file(drawing["file"], folder, "drawing.file", allow_outside=allow_outside)
     drawing["file"] = _places(path, drawing.pop("unit", None))
 
 
@@ -72,14 +70,12 @@ def _apart(group: list[tuple[float, float]], same: float) -> Iterator[tuple[floa
 
 def _read(path: Path) -> tuple[list[tuple[str, tuple[float, float]]], int]:
     """Layers with their places, and the code of the unit; ezdxf raises any error for a damaged file."""
-    from ezdxf.filemanagement import readfile
-
     try:
         data_of(path, POINT_BYTES)
     except TextError as error:
         raise _wrong(path, error.found, error.expected or "a DXF file", error.remedy) from None
     try:
-        document = readfile(path)
+        document = read_document(path)
         return list(_drawn(document)), int(document.header.get("$INSUNITS", 0))
     except Exception as error:
         words = " ".join(str(error).split()) or type(error).__name__

@@ -135,7 +135,7 @@ def _value(text: str) -> float | str:
 def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: bool) -> Path:
     """The file of the record; one that a study names lies in its folder."""
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.files.points import require_below
+    from linkwright.kernel.files.named_file import named_file
     from linkwright.studies.read import study_file
 
     if record is not None:
@@ -144,8 +144,7 @@ def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: 
     if own is None:
         raise InputError("--record: found nothing, expected a file with what was measured")
     folder = study_file(file).parent
-    require_below(folder / own, folder, own, "fit.record", allow_outside=allow_outside)
-    return folder / own
+    return named_file(own, folder, "fit.record", allow_outside=allow_outside)
 
 
 def _head(name: str, fitted: Fit) -> str:

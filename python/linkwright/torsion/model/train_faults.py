@@ -24,7 +24,7 @@ from linkwright.torsion.model.whole_train import (
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")
-_NUMBERS = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_NUMBERS = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
 _ON = ("dampers", "loads", "excitations", "drivers")
 
 
