@@ -34,10 +34,10 @@ from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.cautions import linkage_cautions
-from linkwright.linkages.closure import over_whole_cycle
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions, shaft_of_laws
+from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia

@@ -72,8 +72,9 @@ def shaft_of_laws(machine: Machine) -> Iterator[str]:
     names = ", ".join(drivers_with_laws(machine))
     if names and (machine.bodies or machine.loads):
         yield (
-            f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the shaft "
-            "in front of the law; a motor that makes the motion itself needs the torque of the drive behind it"
+            f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the "
+            "shaft in front of the law; a motor that makes the motion itself needs the torque of the drive "
+            "behind it"
         )
 
 
