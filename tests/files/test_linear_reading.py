@@ -3,8 +3,9 @@
 Texts are those that made expressions go back and forth: runs of blanks, digits and brackets, many columns.
 """
 
-from __future__ import contextlib
+from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Callable
 from pathlib import Path
