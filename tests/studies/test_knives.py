@@ -91,7 +91,10 @@ def test_a_study_names_the_machine_file_that_is_as_it_is(tmp_path: Path) -> None
     folder = tmp_path / "folder"
     folder.mkdir()
     assert run(*words, str(folder / "same.toml")).exit_code == 0
-    assert 'machine = "../topper.toml"\n' in (folder / "same.toml").read_text()
+    # A study names files of its own folder alone.
+    assert 'machine = "same_machine.toml"\n' in (folder / "same.toml").read_text()
+    assert run(*words, str(tmp_path / "same.toml")).exit_code == 0
+    assert 'machine = "topper.toml"\n' in (tmp_path / "same.toml").read_text()
     assert run(*words, str(folder / "other.toml"), "--set", "topper.offset=30 mm").exit_code == 0
     assert 'machine = "other_machine.toml"\n' in (folder / "other.toml").read_text()
     assert get(lw.read(folder / "other_machine.toml"), "topper.offset") == 0.03
