@@ -100,7 +100,7 @@ def test_a_study_names_the_machine_file_that_is_as_it_is(tmp_path: Path) -> None
     assert get(lw.read(folder / "other_machine.toml"), "topper.offset") == 0.03
     assert run(*words, str(folder / "seeded.toml"), "--seed", "9").exit_code == 0
     assert get(lw.read(folder / "seeded_machine.toml"), "topper.field.seed") == 9
-    assert len(list(folder.iterdir())) == 5
+    assert len(list(folder.iterdir())) == 6
 
 
 def test_a_study_is_not_written_over_a_file(tmp_path: Path) -> None:
