@@ -53,7 +53,15 @@ class Centrodes(Result):
             "instant centre along the link", "u_C", "m", "On the moving centrode, from the start of the link."
         ),
     ]
-    across: Annotated[Floats, Label("instant centre across the link", "v_C", "m", "To the left of the link.")]
+    across: Annotated[
+        Floats,
+        Label(
+            "instant centre across the link",
+            "v_C",
+            "m",
+            "Distance from the line of the link, positive to the left.",
+        ),
+    ]
     link: Annotated[str, About("Name of the link.")]
 
 

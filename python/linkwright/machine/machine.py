@@ -74,8 +74,8 @@ class Machine(WholeDescription):
     drive: Drive | None = Field(None, description="Drive of the crankshaft.")
     drawing: DrawingPoints | None = Field(
         None,
-        description="Coordinates of points, from which lengths and places follow that the mechanism leaves "
-        "open; a machine that was read has these in its place.",
+        description="Coordinates of points; they give the lengths and positions that the mechanism does "
+        "not. Reading replaces the drawing by these entries.",
     )
     mechanism: Mechanism = Field(
         default_factory=Mechanism,
@@ -86,7 +86,7 @@ class Machine(WholeDescription):
     )
     rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
     topper: Topper | None = Field(None, description="Knife that slices the heads of roots in a row.")
-    train: Train | None = Field(None, description="Torsional train: discs, shafts and gears.")
+    train: Train | None = Field(None, description="Torsional system: discs, shafts and gears.")
     turning_moment: TurningMoment | None = Field(
         None, description="Turning-moment diagram of a shaft: torques over the angle, and a flywheel."
     )
@@ -96,7 +96,8 @@ class Machine(WholeDescription):
     units: ShownUnits | None = Field(None, description="Units of tables, figures and CSV.")
     tolerances: dict[str, str] = Field(
         default_factory=dict,
-        description='Tolerances by the address of their entry; also behind the value, "0.2 m ± 0.2 mm".',
+        description='Tolerances by the address of the entry; a tolerance may also follow the value, "0.2 '
+        'm ± 0.2 mm".',
     )
     study: StudyFile | None = Field(None, description="Study of variants: variables and responses.")
 

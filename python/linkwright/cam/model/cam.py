@@ -64,16 +64,16 @@ class SecondFollower(Description):
     shown_with_part: ClassVar[bool] = True
 
     roller_radius: PositiveLength | None = Field(
-        None, description="Of its roller. Default: that of the first."
+        None, description="Radius of the second roller. Default: that of the first."
     )
     distance: PositiveLength | None = Field(
-        None, description="Of a translating follower: between the two rollers along its line."
+        None, description="Translating follower: distance between the two rollers along the line of motion."
     )
     arm_length: PositiveLength | None = Field(
-        None, description="Of an oscillating follower: length of its arm. Default: that of the first."
+        None, description="Oscillating follower: length of the second arm. Default: that of the first."
     )
     angle: Annotated[float, Quantity(ANGLE)] | None = Field(
-        None, description="Of an oscillating follower: between the two arms, across the cam."
+        None, description="Oscillating follower: angle between the two arms, across the cam."
     )
 
 
@@ -81,15 +81,16 @@ class Cam(CheckedDescription):
     """A cam on the crankshaft, and its follower."""
 
     follower: Literal["translating", "oscillating"] = Field(
-        "translating", description="Whether the follower moves along a line or about a pivot."
+        "translating", description="Translating or oscillating follower."
     )
     contact: Literal["roller", "point", "flat"] = Field(
-        "roller", description="Follower contact: a roller, a knife edge, or a flat face."
+        "roller", description="Contact of the follower: roller, knife edge or flat face."
     )
     closure: Literal["spring", "groove", "conjugate", "constant_diameter", "constant_breadth"] = Field(
         "spring",
-        description="Closure that keeps the follower on the cam: a force, a groove, a second cam for a "
-        "second follower, or the same cam between two followers (points or rollers; flat faces).",
+        description="Joint closure: by force (spring), by a groove, by a conjugate cam with a second "
+        "follower, or by one cam between two followers (constant diameter: points or rollers; constant "
+        "breadth: flat faces).",
     )
     sections: tuple[MotionSection, ...] = Field(
         description="Motion programme of the follower over one revolution."
@@ -97,36 +98,41 @@ class Cam(CheckedDescription):
     phase: Angle = Field(0.0, description="Crank angle at which the first section begins.")
     rotation: Literal["same", "opposite"] = Field(
         "same",
-        description="Whether the cam rotates with the crankshaft or opposite to it, at the same speed.",
+        description="Sense of rotation of the cam relative to the crankshaft; the speed is the same.",
     )
-    pivot: str | None = Field(None, description="Fixed point that the cam turns about. Default: the origin.")
+    pivot: str | None = Field(None, description="Fixed pivot of the cam. Default: the origin.")
     base_radius: PositiveLength | None = Field(
-        None, description="Of the cam where the lift is smallest. Default: from the breadth."
+        None, description="Base radius, at minimum lift. Default: from the breadth."
     )
     breadth: PositiveLength | None = Field(
         None,
-        description="Between two followers on opposite sides of one cam: edges, roller centres or faces.",
+        description="Distance between two followers on opposite sides of one cam: edges, roller centres "
+        "or faces.",
     )
-    roller_radius: PositiveLength | None = Field(None, description="Of the roller.")
-    direction: Angle = Field(0.0, description="Of the follower's line, outwards, from x.")
+    roller_radius: PositiveLength | None = Field(None, description="Radius of the roller.")
+    direction: Angle = Field(
+        0.0, description="Direction of the follower's motion, outwards, measured from the x axis."
+    )
     offset: Length = Field(
         0.0,
-        description="Of the follower's line to the left of the cam's centre; of an oscillating face, from "
-        "its pivot to the cam.",
+        description="Offset of the follower's line of motion, positive to the left of the cam centre; of "
+        "an oscillating face, from its pivot towards the cam.",
     )
     face_tilt: Annotated[float, Quantity(ANGLE, ACUTE)] = Field(
-        0.0, description="Of a translating face: of its normal from the direction of travel."
+        0.0, description="Inclination of a translating face: angle of its normal to the direction of motion."
     )
-    arm_pivot: str | None = Field(None, description="Fixed point that an oscillating follower turns about.")
-    arm_length: PositiveLength | None = Field(None, description="From that pivot to the roller or edge.")
+    arm_pivot: str | None = Field(None, description="Fixed pivot of an oscillating follower.")
+    arm_length: PositiveLength | None = Field(
+        None, description="Distance from that pivot to the roller centre or edge."
+    )
     side: Literal["left", "right"] = Field(
-        "left", description="Side of the arm, seen from the cam's centre to its pivot."
+        "left", description="Side of the arm, looking from the cam centre to the pivot of the arm."
     )
     second: SecondFollower | None = Field(None, description="Second follower of a conjugate pair.")
     train: FollowerTrain | None = Field(
-        None, description="Elastic train between a translating follower and its load."
+        None, description="Elastic follower train, between a translating follower and its load."
     )
-    cutter_radius: PositiveLength | None = Field(None, description="Of the cutter or grinding wheel.")
+    cutter_radius: PositiveLength | None = Field(None, description="Radius of the cutter or grinding wheel.")
     pressure_angle_limit: Annotated[float, Quantity(ANGLE, _LIMIT)] | None = Field(
         None,
         description="Maximum permitted pressure angle. Default: 30 deg for a translating and 35 deg for an "
@@ -137,15 +143,15 @@ class Cam(CheckedDescription):
     )
     friction: Annotated[float, not_negative(RATIO)] = Field(
         0.0,
-        description="Coefficient of friction of an edge or a face on the cam, which counts in forces and "
-        "not in steady motion.",
+        description="Coefficient of friction of an edge or a face on the cam; used for forces, not for "
+        "steady motion.",
     )
-    width: PositiveLength | None = Field(None, description="Of the cam's face, for the contact pressure.")
+    width: PositiveLength | None = Field(None, description="Face width of the cam, for the contact pressure.")
     elastic_modulus: Annotated[float, positive(PRESSURE)] = Field(
         210e9, description="Young's modulus of cam and roller."
     )
     poisson_ratio: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
-        0.3, description="Poisson's ratio of both."
+        0.3, description="Poisson's ratio of cam and roller."
     )
 
     @property

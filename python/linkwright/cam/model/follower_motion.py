@@ -58,18 +58,20 @@ Ratio = Annotated[float, not_negative(RATIO)]
 class FollowerTrain(CheckedDescription):
     """What vibrates between cam and load: one mass on one stiffness."""
 
-    mass: Annotated[float, positive(MASS)] = Field(description="Of all that moves, reduced to the follower.")
-    stiffness: Annotated[float, positive(STIFFNESS)] = Field(description="Between the cam and the mass.")
-    damping_ratio: Ratio = Field(0.0, description="Of the damper between the cam and the mass.")
-    damping_ratio_frame: Ratio = Field(0.0, description="Of the damper between the mass and the frame.")
+    mass: Annotated[float, positive(MASS)] = Field(description="Moving mass, reduced to the follower.")
+    stiffness: Annotated[float, positive(STIFFNESS)] = Field(description="Stiffness between cam and mass.")
+    damping_ratio: Ratio = Field(0.0, description="Damping ratio of the damper between cam and mass.")
+    damping_ratio_frame: Ratio = Field(0.0, description="Damping ratio of the damper between mass and frame.")
     spring_rate: Annotated[float, not_negative(STIFFNESS)] = Field(
-        0.0, description="Of the spring that closes."
+        0.0, description="Rate of the closing spring."
     )
-    preload: Annotated[float, Quantity(FORCE)] = Field(0.0, description="Of that spring at no lift.")
+    preload: Annotated[float, Quantity(FORCE)] = Field(
+        0.0, description="Preload of the closing spring at zero lift."
+    )
     polydyne_speed: Annotated[float, positive(SPEED)] | None = Field(
         None,
-        description="Speed at which the mass is to move exactly as the sections say: the cam gets the lift "
-        "for it. Without it the cam has the lift of the sections.",
+        description="Speed at which the mass follows the sections exactly (polydyne cam): the lift of the "
+        "cam is corrected for it. Default: the cam has the lift of the sections.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

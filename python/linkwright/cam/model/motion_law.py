@@ -98,7 +98,7 @@ class ModifiedTrapezoidLaw(Law):
 
     kind: Literal["modified_trapezoid"]
     share: Annotated[float, Quantity(RATIO, _TO_QUARTER)] = Field(
-        0.125, description="Of each of the four ramps in the section."
+        0.125, description="Share of each of the four ramps in the section."
     )
 
 
@@ -107,7 +107,7 @@ class ModifiedSineLaw(Law):
 
     kind: Literal["modified_sine"]
     share: Annotated[float, Quantity(RATIO, _TO_HALF)] = Field(
-        0.125, description="Of each of the two quarter sines in the section."
+        0.125, description="Share of each of the two quarter sines in the section."
     )
 
 
@@ -116,11 +116,13 @@ class PolynomialLaw(Law):
 
     kind: Literal["polynomial"]
     continuity_start: Continuity = Field(
-        2, description="Order of the highest derivative set at the start; those above the second are zero."
+        2,
+        description="Order of the highest derivative prescribed at the start; derivatives above the "
+        "second are zero.",
     )
-    continuity_end: Continuity = Field(2, description="The same at the end.")
+    continuity_end: Continuity = Field(2, description="Likewise at the end.")
     powers: tuple[int, ...] | None = Field(
-        None, description="Powers to be used, as many as derivatives are set. Without them, 0, 1, 2, …"
+        None, description="Powers of the polynomial, as many as prescribed derivatives. Default: 0, 1, 2, …"
     )
 
     def over(self, task: Boundary, angle: float, *, swing: bool) -> MotionLaw:
@@ -141,20 +143,20 @@ class OptimalLaw(Law):
 
     kind: Literal["optimal"]
     order: Literal[1, 2, 3, 4, 5] = Field(
-        3, description="Order of that derivative: 2 the acceleration, 3 the jerk."
+        3, description="Order of the minimised derivative: 2 acceleration, 3 jerk."
     )
     free_start: tuple[Order, ...] = Field(
-        (), description="Orders of the derivatives that are free at the start; the others are set."
+        (), description="Orders of the derivatives that are free at the start; the others are prescribed."
     )
-    free_end: tuple[Order, ...] = Field((), description="The same at the end.")
+    free_end: tuple[Order, ...] = Field((), description="Likewise at the end.")
 
 
 class CombinedLaw(Law):
     """Start, constant velocity, braking, from rest to rest."""
 
     kind: Literal["combined"]
-    start: Share = Field(1 / 6, description="Share of the start in the section.")
-    stop: Share = Field(1 / 6, description="Share of the braking.")
+    start: Share = Field(1 / 6, description="Share of the acceleration phase in the section.")
+    stop: Share = Field(1 / 6, description="Share of the deceleration phase in the section.")
     ramp: Literal[
         "optimal_jerk",
         "optimal_jerk_free",
@@ -170,8 +172,8 @@ class CombinedLaw(Law):
         "polynomial_4_5_6_7",
     ] = Field(
         "optimal_jerk",
-        description="Course of the velocity over a ramp: of minimum ∫ jerk² over 3/5 of the travel at full "
-        "velocity, the same over free travel, or the first half of a law.",
+        description="Velocity over a ramp: minimum ∫ jerk² over 3/5 of the travel at full velocity, "
+        "minimum ∫ jerk² with free travel, or the first half of a law.",
     )
 
 
@@ -179,18 +181,18 @@ class TrapezoidalVelocityLaw(Law):
     """Constant acceleration, constant velocity, constant deceleration."""
 
     kind: Literal["trapezoidal_velocity"]
-    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
-    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+    start: Share = Field(1 / 3, description="Share of the acceleration phase in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration phase in the section.")
 
 
 class SCurveLaw(Law):
     """Trapezoidal velocity with rounded corners."""
 
     kind: Literal["s_curve"]
-    start: Share = Field(1 / 3, description="Share of the acceleration in the section.")
-    stop: Share = Field(1 / 3, description="Share of the deceleration.")
+    start: Share = Field(1 / 3, description="Share of the acceleration phase in the section.")
+    stop: Share = Field(1 / 3, description="Share of the deceleration phase in the section.")
     rounding: Annotated[float, Quantity(RATIO, _UP_TO_HALF)] = Field(
-        0.25, description="Share of each of the two corners in its ramp."
+        0.25, description="Share of each of the two rounded corners in its ramp."
     )
 
 

@@ -97,10 +97,12 @@ _DEFAULT_LAW: Literal["polynomial_3_4_5"] = "polynomial_3_4_5"
 class MotionSection(Description):
     """A section of a motion programme; without lift and law it is a dwell."""
 
-    angle: Annotated[float, positive(ANGLE)] = Field(description="Angle of the cam over the section.")
-    lift: Length | None = Field(None, description="Change of the lift over the section, with its sign.")
+    angle: Annotated[float, positive(ANGLE)] = Field(description="Cam angle of the section.")
+    lift: Length | None = Field(
+        None, description="Change of the lift over the section; negative for a return."
+    )
     swing: Angle | None = Field(
-        None, description="Change of the angle of an oscillating follower, in place of the lift."
+        None, description="Change of the angle of an oscillating follower, instead of the lift."
     )
     law: AnyLaw | None = Field(
         None,
@@ -108,22 +110,25 @@ class MotionSection(Description):
         "with a lift.",
     )
     velocity_start: LiftVelocity | None = Field(
-        None, description="Lift per cam angle at the start. Default: that of the neighbour, or rest."
+        None,
+        description="First derivative of the lift at the start. Default: that of the neighbouring "
+        "section, or zero.",
     )
-    velocity_end: LiftVelocity | None = Field(None, description="The same at the end.")
+    velocity_end: LiftVelocity | None = Field(None, description="Likewise at the end.")
     acceleration_start: LiftAcceleration | None = Field(
         None,
-        description="Second derivative at the start. Default: that of the neighbour, or what the law has.",
+        description="Second derivative of the lift at the start. Default: that of the neighbouring "
+        "section, or of the law.",
     )
-    acceleration_end: LiftAcceleration | None = Field(None, description="The same at the end.")
+    acceleration_end: LiftAcceleration | None = Field(None, description="Likewise at the end.")
     swing_velocity_start: SwingVelocity | None = Field(
-        None, description="Angle of an oscillating follower per cam angle at the start."
+        None, description="First derivative of the angle of an oscillating follower at the start."
     )
-    swing_velocity_end: SwingVelocity | None = Field(None, description="The same at the end.")
+    swing_velocity_end: SwingVelocity | None = Field(None, description="Likewise at the end.")
     swing_acceleration_start: SwingAcceleration | None = Field(
-        None, description="Second derivative of that angle at the start."
+        None, description="Second derivative of the angle of an oscillating follower at the start."
     )
-    swing_acceleration_end: SwingAcceleration | None = Field(None, description="The same at the end.")
+    swing_acceleration_end: SwingAcceleration | None = Field(None, description="Likewise at the end.")
 
     @property
     def law_name(self) -> str:

@@ -35,12 +35,14 @@ class PointLaw(Law):
 
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists: columns "
-        'angle and lift, or swing, with their units in the head: "angle [deg], lift [mm]".',
+        description="CSV file beside the machine file, instead of the lists; columns angle and lift (or "
+        'swing) with units in the header: "angle [deg], lift [mm]".',
     )
-    angle: Angles = Field((), description="Cam angles from the start of the section to its end, increasing.")
+    angle: Angles = Field((), description="Cam angles from the start to the end of the section, increasing.")
     lift: Lengths | None = Field(None, description="Lift at each angle.")
-    swing: Angles | None = Field(None, description="Angle of an oscillating follower at each, in its place.")
+    swing: Angles | None = Field(
+        None, description="Angle of an oscillating follower at each cam angle, instead of the lift."
+    )
 
     def own_lift(self, angle: float, *, swing: bool) -> float | None:
         values = self._values(swing)
@@ -94,10 +96,12 @@ class FormulaLaw(Law):
     kind: Literal["formula"]
     lift: str | None = Field(
         None,
-        description="Lift in m as a formula in z, the share of the section from 0 to 1, and theta, the cam "
-        "angle from its start in rad; what counts is its change since the start.",
+        description="Lift in m as a formula in z (0 to 1 over the section) and theta (cam angle from its "
+        "start, rad); only the change from the start counts.",
     )
-    swing: str | None = Field(None, description="Angle of an oscillating follower in rad, in its place.")
+    swing: str | None = Field(
+        None, description="Angle of an oscillating follower in rad, instead of the lift."
+    )
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
         default_factory=dict, description="Constants of the formula by name, in any unit."
     )
@@ -167,7 +171,8 @@ class SplineLaw(PointLaw):
     kind: Literal["spline"]
     degree: Literal[3, 5, 7] = Field(
         5,
-        description="Of its polynomials: 3 sets the velocity at the ends, 5 the acceleration, 7 the jerk.",
+        description="Degree of the spline: 3 prescribes the velocity at the ends, 5 also the "
+        "acceleration, 7 also the jerk.",
     )
 
 
@@ -175,4 +180,4 @@ class TableLaw(PointLaw):
     """A table of many points, joined by straight lines or by a cubic spline."""
 
     kind: Literal["table"]
-    degree: Literal[1, 3] = Field(3, description="1 for straight lines, 3 for a cubic spline.")
+    degree: Literal[1, 3] = Field(3, description="1: linear interpolation; 3: cubic spline.")

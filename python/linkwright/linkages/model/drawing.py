@@ -43,13 +43,13 @@ class DrawingPoints(Description):
 
     points: dict[str, Lengths] = Field(
         default_factory=dict,
-        description="x and y by the name of the point, or of a body on a link for its centre of mass.",
+        description="x and y of each point, by name; for a body on a link, of its centre of mass.",
     )
     file: str | None = Field(
-        None, description="DXF file; a layer with the name of a point has it as a point, circle or arc."
+        None, description="DXF file with a point, circle or arc on a layer named after each point."
     )
     unit: Annotated[float, positive(LENGTH)] | None = Field(
-        None, description='Length of a unit of the DXF file, such as "1 mm", where the file does not say it.'
+        None, description='Unit of the DXF file, such as "1 mm", if the file does not state it.'
     )
 
 

@@ -38,8 +38,8 @@ _PARALLEL = 1e-9
 class FixedPoint(Description):
     """A point of the frame."""
 
-    x: Length = Field(0.0, description="To the right of the origin.")
-    y: Length = Field(0.0, description="Above the origin.")
+    x: Length = Field(0.0, description="x coordinate, positive to the right of the origin.")
+    y: Length = Field(0.0, description="y coordinate, positive above the origin.")
 
 
 class Guide(Description):
@@ -49,12 +49,14 @@ class Guide(Description):
 
     through: str | None = Field(
         None,
-        description="Point of the guide's body that it would pass through without offset. "
-        "Default: the start of the link, or the origin.",
+        description="Point on the guide at zero offset, on the body of the guide. Default: the start of "
+        "the link, or the origin.",
     )
     on: str | None = Field(None, description="Link that carries the guide. Default: the frame.")
-    angle: Angle = Field(0.0, description="Direction of the guide, from the link's direction or from x.")
-    offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
+    angle: Angle = Field(
+        0.0, description="Direction of the guide, measured from the direction of the link or from the x axis."
+    )
+    offset: Length = Field(0.0, description="Offset of the guide, positive to the left of its direction.")
 
 
 # Numbers of a formula by name.
@@ -73,14 +75,14 @@ def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDeta
 class Crank(CheckedDescription):
     """A crank; its angle is that of the crankshaft, or follows it by a law."""
 
-    radius: PositiveLength = Field(description="From the pivot to the pin.")
-    phase: Angle = Field(0.0, description="Angle of this crank when the crank angle is zero.")
-    pivot: str | None = Field(None, description="Fixed point that it turns about. Default: the origin.")
+    radius: PositiveLength = Field(description="Distance from pivot to pin.")
+    phase: Angle = Field(0.0, description="Angle of this crank at crank angle zero.")
+    pivot: str | None = Field(None, description="Fixed pivot. Default: the origin.")
     law: str | None = Field(
         None,
-        description="Angle of the crank in rad as a formula in phi, to which the phase is added: "
-        '"0.6*sin(phi)" swings back and forth. phi counts on beyond 2*pi: pi - atan2(sin(phi), -cos(phi)) '
-        "begins anew in every revolution. Default: phi.",
+        description='Angle of the crank in rad as a formula in phi; the phase is added. "0.6*sin(phi)" '
+        "oscillates. phi continues beyond 2*pi; pi - atan2(sin(phi), -cos(phi)) restarts in every "
+        "revolution. Default: phi.",
     )
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
@@ -97,10 +99,10 @@ class Crank(CheckedDescription):
 class LinearDriver(CheckedDescription):
     """A point that the drive moves along a guide, in proportion to the crank angle or by a law."""
 
-    guide: Guide = Field(default_factory=Guide, description="What it moves along.")
-    start: Length = Field(0.0, description="Place along the guide when the crank angle is zero.")
-    per_turn: Length | None = Field(None, description="Distance for a revolution of the crankshaft.")
-    law: str | None = Field(None, description="Distance from the start in m as a formula in phi.")
+    guide: Guide = Field(default_factory=Guide, description="Guide of the motion.")
+    start: Length = Field(0.0, description="Position along the guide at crank angle zero.")
+    per_turn: Length | None = Field(None, description="Travel per revolution of the crankshaft.")
+    law: str | None = Field(None, description="Travel from the start in m as a formula in phi.")
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
     )
@@ -119,31 +121,36 @@ class LinearDriver(CheckedDescription):
 class Slider(Description):
     """A slider on a straight guide, moved through a rod."""
 
-    crank: str = Field(description="Moving point that drives it: the pin of a crank, or another.")
-    rod: PositiveLength = Field(description="From the driving point to the slider.")
-    offset: Length = Field(0.0, description="Of the guide to the left of its direction.")
-    angle: Angle = Field(0.0, description="Direction of the guide, from x or from the link that carries it.")
+    crank: str = Field(description="Driving point: a crank pin or another moving point.")
+    rod: PositiveLength = Field(
+        description="Length of the connecting rod, from the driving point to the slider."
+    )
+    offset: Length = Field(0.0, description="Offset of the guide, positive to the left of its direction.")
+    angle: Angle = Field(
+        0.0, description="Direction of the guide, measured from the x axis or from the link that carries it."
+    )
     through: str | None = Field(
         None,
-        description="Point that the guide would pass through without offset. "
-        "Default: the pivot of the crank, or the origin; on a link, its start.",
+        description="Point on the guide at zero offset. Default: the pivot of the crank, or the origin; "
+        "on a link, its start.",
     )
     on: str | None = Field(None, description="Link that carries the guide. Default: the frame.")
     assembly: Literal["positive", "negative"] = Field(
-        "positive", description="Side of the slider, along the guide, from the driving point."
+        "positive",
+        description="Assembly mode: side of the driving point on which the slider lies, along the guide.",
     )
 
 
 class Rocker(Description):
     """A coupler and a rocker that meet in a joint."""
 
-    crank: str = Field(description="Moving point that drives the coupler.")
-    pivot: str = Field(description="Point that the rocker turns about; it may move.")
-    coupler: PositiveLength = Field(description="From the driving point to the joint.")
-    rocker: PositiveLength = Field(description="From the pivot to the joint.")
+    crank: str = Field(description="Driving point of the coupler.")
+    pivot: str = Field(description="Pivot of the rocker; it may move.")
+    coupler: PositiveLength = Field(description="Length of the coupler, from the driving point to the joint.")
+    rocker: PositiveLength = Field(description="Length of the rocker, from the pivot to the joint.")
     assembly: Literal["left", "right"] = Field(
         "left",
-        description="Side of the joint, seen from the driving point to the pivot; where the mechanism has "
+        description="Assembly mode: side of the joint, looking from the driving point to the pivot; with "
         "change points, at small positive crank angles.",
     )
 
@@ -152,27 +159,29 @@ class SlottedLever(Description):
     """A lever whose slot is moved by a pin, or a cylinder whose rod ends at the pin."""
 
     pin: str = Field(description="Moving point that slides in the slot.")
-    pivot: str = Field(description="Point that the lever turns about; it may move.")
-    offset: Length = Field(0.0, description="Of the slot to the left of the pivot.")
-    length: PositiveLength | None = Field(None, description="Of the lever, for its mass and its picture.")
+    pivot: str = Field(description="Pivot of the lever; it may move.")
+    offset: Length = Field(0.0, description="Offset of the slot, positive to the left of the pivot.")
+    length: PositiveLength | None = Field(
+        None, description="Length of the lever, for its mass and the drawing."
+    )
     assembly: Literal["ahead", "behind"] = Field(
-        "ahead", description="Whether the lever points to the pin or away from it."
+        "ahead", description='Assembly mode: lever towards the pin ("ahead") or away from it ("behind").'
     )
 
 
 class Crossing(Description):
     """A pin that two guides hold."""
 
-    first: Guide = Field(description="One guide.")
-    second: Guide = Field(description="The other.")
+    first: Guide = Field(description="First guide of the pin.")
+    second: Guide = Field(description="Second guide of the pin.")
 
 
 class Yoke(CheckedDescription):
     """A body on a guide, moved by a pin in its slot."""
 
     pin: str = Field(description="Moving point in the slot.")
-    guide: Guide = Field(default_factory=Guide, description="What the body moves along.")
-    slot: Angle = Field(math.pi / 2, description="Direction of the slot, from the guide.")
+    guide: Guide = Field(default_factory=Guide, description="Guide of the body.")
+    slot: Angle = Field(math.pi / 2, description="Direction of the slot, measured from the guide.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if abs(math.sin(self.slot)) < _PARALLEL:
@@ -184,8 +193,8 @@ class RigidPoint(Description):
     """A point fixed to a link."""
 
     link: str = Field(description="Link that carries it.")
-    along: Length = Field(description="From the start of the link along it.")
-    across: Length = Field(0.0, description="To the left of the link.")
+    along: Length = Field(description="Distance along the link from its start.")
+    across: Length = Field(0.0, description="Distance from the line of the link, positive to the left.")
 
 
 class Gear(CheckedDescription):
@@ -193,18 +202,20 @@ class Gear(CheckedDescription):
 
     kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
         "external",
-        description="Teeth outside, one gear inside the other, or a belt or chain; external gears and a "
-        "crossed belt reverse the sense.",
+        description="External gears, internal gears, belt or chain, or crossed belt; external gears and a "
+        "crossed belt reverse the sense of rotation.",
     )
-    pivot: str = Field(description="Point that it turns about.")
-    meshes: str | None = Field(None, description="Link of the other gear. Default: that is at rest.")
+    pivot: str = Field(description="Pivot of the gear.")
+    meshes: str | None = Field(None, description="Link of the other gear. Default: the other gear is fixed.")
     carrier: str | None = Field(
         None,
-        description="Link that carries both pivots, the arm of a planetary train. Default: the frame.",
+        description="Link that carries both pivots: the arm of a planetary gear train. Default: the frame.",
     )
-    size: PositiveNumber = Field(description="Teeth, or radius in any unit that both have.")
-    size_other: PositiveNumber = Field(description="Teeth or radius of the other gear.")
-    phase: Angle = Field(0.0, description="Angle of this gear where the others stand at zero.")
+    size: PositiveNumber = Field(description="Number of teeth, or radius in the unit of `size_other`.")
+    size_other: PositiveNumber = Field(description="Number of teeth or radius of the other gear.")
+    phase: Angle = Field(
+        0.0, description="Angle of this gear when the angles of the other gear and the carrier are zero."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.kind == "internal" and self.size == self.size_other:
@@ -215,12 +226,13 @@ class Gear(CheckedDescription):
 class Rack(Description):
     """A rack moved along its guide by a gear."""
 
-    gear: str = Field(description="Link of the gear.")
+    gear: str = Field(description="Link that carries the gear.")
     radius: PositiveLength = Field(description="Pitch radius of the gear.")
-    guide: Guide = Field(default_factory=Guide, description="What it moves along.")
-    start: Length = Field(0.0, description="Place along the guide when the gear's angle is zero.")
+    guide: Guide = Field(default_factory=Guide, description="Guide of the motion.")
+    start: Length = Field(0.0, description="Position along the guide at gear angle zero.")
     side: Literal["right", "left"] = Field(
-        "right", description="Side of the rack's teeth line, seen from the gear along the guide."
+        "right",
+        description="Side of the gear on which the pitch line of the rack lies, looking along the guide.",
     )
 
 
@@ -228,33 +240,33 @@ class Cable(Description):
     """The end of a cable or belt that runs off an arc about the start of a link."""
 
     link: str = Field(description="Link that carries the arc.")
-    radius: PositiveLength = Field(description="Of the arc about the start of the link.")
-    length: Length = Field(description="Free length when the link stands at the reference angle.")
-    reference: Angle = Field(0.0, description="That angle of the link.")
-    angle: Angle = Field(-math.pi / 2, description="Direction in which the cable runs off.")
+    radius: PositiveLength = Field(description="Radius of the arc, centred at the start of the link.")
+    length: Length = Field(description="Free length of the cable at the reference angle of the link.")
+    reference: Angle = Field(0.0, description="Reference angle of the link.")
+    angle: Angle = Field(-math.pi / 2, description="Direction in which the cable leaves the arc.")
     side: Literal["left", "right"] = Field(
-        "left", description="Side of the link's start on which it runs off, seen in that direction."
+        "left",
+        description="Side of the link's start on which the cable leaves the arc, looking in that direction.",
     )
 
 
 class Joint(Description):
     """A joint held by bars and at most one guide; its place follows from them."""
 
-    x: Length = Field(description="Approximate position at `assembled_at`, to the right.")
-    y: Length = Field(description="Approximate position at `assembled_at`, upwards.")
-    guide: Guide | None = Field(None, description="Guide that it moves on.")
+    x: Length = Field(description="Approximate x coordinate at `assembled_at`.")
+    y: Length = Field(description="Approximate y coordinate at `assembled_at`.")
+    guide: Guide | None = Field(None, description="Guide of the joint.")
 
 
 class Bar(CheckedDescription):
     """A link of given length between two points."""
 
-    start: str = Field(description="Point that it starts at.")
-    end: str = Field(description="Point that it ends at.")
-    length: PositiveLength = Field(description="Between the two.")
+    start: str = Field(description="Point at the start of the bar.")
+    end: str = Field(description="Point at the end of the bar.")
+    length: PositiveLength = Field(description="Distance between the two points.")
     redundant: bool = Field(
         False,
-        description="Whether the mechanism would move alike without it: its length is then checked, "
-        "and not used.",
+        description="Redundant bar: its length is checked but not used.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

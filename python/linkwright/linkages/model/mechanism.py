@@ -73,12 +73,10 @@ class Mechanism(Description):
     gears: dict[Name, Gear] = Field(default_factory=dict, description="Gears and pulleys by name.")
     racks: dict[Name, Rack] = Field(default_factory=dict, description="Racks by name.")
     cables: dict[Name, Cable] = Field(default_factory=dict, description="Cables on arcs, by name.")
-    joints: dict[Name, Joint] = Field(
-        default_factory=dict, description="Joints that bars and guides hold, by name."
-    )
+    joints: dict[Name, Joint] = Field(default_factory=dict, description="Joints of bars and guides, by name.")
     bars: dict[Name, Bar] = Field(default_factory=dict, description="Bars between points, by name.")
     assembled_at: Angle = Field(
-        0.0, description="Crank angle at which the joints are about where they are given."
+        0.0, description="Crank angle to which the approximate positions of the joints refer."
     )
 
     @model_validator(mode="wrap")

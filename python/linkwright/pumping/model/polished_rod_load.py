@@ -66,15 +66,17 @@ class PolishedRodLoad(Description):
         WithJsonSchema(_COUNTERBALANCE_SCHEMA),
     ] = Field(
         "optimal",
-        description="Maximum moment of the counterweights about the crankshaft, or the one with which the "
-        "torques of both strokes have equal peaks. With an air cylinder, use counterbalance_effect.",
+        description='Maximum moment of the counterweights about the crankshaft, or "optimal" for equal '
+        "peak torques in both strokes. With an air cylinder, use counterbalance_effect.",
     )
     phase: Angle = Field(0.0, description="Angle τ by which the counterweights lead the crank.")
     counterbalance_effect: Annotated[float, Quantity(FORCE)] | None = Field(
-        None, description="Force of an air cylinder at the polished rod. Default: that of equal peaks."
+        None,
+        description="Force of an air cylinder at the polished rod. Default: equal peak torques in "
+        "both strokes.",
     )
     efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Of the structure between polished rod and crankshaft."
+        1.0, description="Efficiency of the structure between polished rod and crankshaft."
     )
 
     @model_validator(mode="after")

@@ -54,35 +54,37 @@ class RodRotator(Description):
     """A rotator of the rod string on the hanger of a pumping unit."""
 
     regime: Literal["continuous", "intermittent"] = Field(
-        description="Whether the lever rotates fully in each stroke, or rocks and works through a clutch."
+        description='"continuous": the lever rotates fully in each stroke; "intermittent": it oscillates '
+        "and drives through a clutch."
     )
     pin_distance: PositiveLength = Field(
-        description="Saddle bearing to the link's pin on the front arm, l_3."
+        description="Distance l_3 from saddle bearing to the pin of the link on the front arm."
     )
     link_length: PositiveLength | None = Field(
-        None, description="Length l_4 of the link. Default: that which suits the regime."
+        None, description="Length l_4 of the link. Default: suited to the regime."
     )
     lever_length: PositiveLength | None = Field(
-        None, description="Length l_5 of the lever. Default: that which suits the regime."
+        None, description="Length l_5 of the lever. Default: suited to the regime."
     )
     swing: Annotated[float, Quantity(ANGLE, _SWING)] | None = Field(
         None, description="Required swing of the lever in the intermittent regime. Default: 90 deg."
     )
     assembly: Literal["left", "right"] = Field(
-        "left", description="Side of the joint of link and lever, seen from the pin to the hanger."
+        "left",
+        description="Assembly mode: side of the joint of link and lever, looking from the pin to the hanger.",
     )
     worm_ratio: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Revolutions of the worm for a revolution of the rod string."
+        None, description="Revolutions of the worm per revolution of the rod string."
     )
     worm_efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Of the worm gear, worm driving."
+        1.0, description="Efficiency of the worm gear, worm driving."
     )
     string_torque: Annotated[float, not_negative(TORQUE)] | None = Field(
-        None, description="Torque that it takes to turn the rod string."
+        None, description="Torque required to turn the rod string."
     )
     clutch: Literal["upstroke", "downstroke"] = Field(
         "downstroke",
-        description="Stroke in which the lever takes the worm along, in the intermittent regime.",
+        description="Stroke in which the lever drives the worm, in the intermittent regime.",
     )
 
     @model_validator(mode="after")

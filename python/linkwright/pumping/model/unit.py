@@ -65,12 +65,13 @@ class PumpingUnit(Description):
     geometry: Geometry = Field("conventional", description="Kind of unit.")
     designation: str | None = Field(
         None,
-        description="By API, such as C-114D-133-54: gear in 1000 lbf in, load in 100 lbf, stroke in inches.",
+        description="API designation, such as C-114D-133-54: gearbox rating in 1000 lbf in, structure "
+        "rating in 100 lbf, stroke in inches.",
     )
-    A: PositiveLength = Field(description="Saddle bearing to the polished rod.")
-    C: PositiveLength = Field(description="Saddle bearing to the equalizer bearing.")
+    A: PositiveLength = Field(description="Saddle bearing to polished rod.")
+    C: PositiveLength = Field(description="Saddle bearing to equalizer bearing.")
     I: Length = Field(  # noqa: E741
-        description="Saddle bearing from the crankshaft, horizontally."
+        description="Horizontal distance from saddle bearing to crankshaft."
     )
     P: PositiveLength = Field(description="Pitman.")
     H: Length = Field(description="Saddle bearing above the base.")
@@ -78,7 +79,8 @@ class PumpingUnit(Description):
     R: PositiveLength = Field(description="Crank.")
     rotation: Rotation | None = Field(
         None,
-        description="With the well to the right. Default: clockwise, a Mark II counter-clockwise.",
+        description="Sense of rotation with the well to the right. Default: clockwise; Mark II: "
+        "counter-clockwise.",
     )
     structural_unbalance: Force = Field(
         0.0,
