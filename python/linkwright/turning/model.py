@@ -114,8 +114,8 @@ class CylinderTorque(ShaftTorque):
 
     phases: Angles = Field(
         (),
-        description="Angle at which the diagram of each of several equal cylinders begins; their torques "
-        "add up. Default: one, at 0.",
+        description="Start angles of the diagrams of several equal cylinders, whose torques add up. "
+        "Default: one cylinder, at 0.",
     )
 
     @property
@@ -165,14 +165,14 @@ class TableShaftTorque(CylinderTorque):
     kind: Literal["table"]
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, with "
-        'units in its head: "angle [deg], torque [N m]".',
+        description="CSV file beside the machine file, instead of the lists, with units in the header: "
+        '"angle [deg], torque [N m]".',
     )
     angle: Angles = Field((), description="Shaft angles, increasing, within one cycle.")
     torque: Torques = Field((), description="Torque at each angle.")
     between: Literal["linear", "steps"] = Field(
         "linear",
-        description="What holds between two angles: a straight line, or the torque of the first of them.",
+        description="Interpolation between two angles: linear, or constant at the torque of the first.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -221,21 +221,21 @@ class FlywheelRim(CheckedDescription):
     """The rim of a flywheel, a thin ring: its radius, or the hoop stress that gives it."""
 
     density: Annotated[float, positive(DENSITY)] = Field(
-        description="Density of its material; cast iron has 7200 kg/m^3, steel 7850 kg/m^3."
+        description="Density of the rim: 7200 kg/m^3 for cast iron, 7850 kg/m^3 for steel."
     )
     radius: Annotated[float, positive(LENGTH)] | None = Field(
-        None, description="Mean radius; gives the hoop stress."
+        None, description="Mean radius of the rim; gives the hoop stress."
     )
     stress: Annotated[float, positive(PRESSURE)] | None = Field(
         None,
-        description="In place of the radius: permissible hoop stress at the mean speed, which gives it.",
+        description="Permissible hoop stress at the mean speed, instead of the radius; gives the radius.",
     )
     inertia_share: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
         1.0,
-        description="Share of the flywheel's moment of inertia in the rim; arms and hub have the rest.",
+        description="Share of the flywheel's moment of inertia in the rim; the rest is in arms and hub.",
     )
     width_ratio: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Width of a rectangular cross-section over its thickness; gives both."
+        None, description="Ratio of width to thickness of a rectangular cross-section; gives both."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -256,8 +256,8 @@ class TurningMoment(CheckedDescription):
     )
     cycle: CycleAngle = Field(
         ONE_TURN,
-        description="Angle of a cycle: 360 deg, 720 deg for a four-stroke engine; of a cycle in time, that "
-        "times the mean speed.",
+        description="Shaft angle of one cycle: 360 deg, or 720 deg for a four-stroke engine; for a cycle "
+        "given in time, its duration times the mean speed.",
     )
     driver: AnyShaftTorque | None = Field(
         None, description="Driving torque. Default: constant, the mean of the load."
@@ -267,18 +267,18 @@ class TurningMoment(CheckedDescription):
     )
     areas: Annotated[tuple[float, ...], QuantityList(COUNT)] = Field(
         (),
-        description="In place of driver and load: areas of the diagram between its crossings with the mean, "
-        "in order, positive where the driver is above.",
+        description="Instead of driver and load: areas of the diagram between its crossings with the mean "
+        "torque, in order; positive where the driving torque exceeds the load torque.",
     )
     area_scale: Annotated[float, positive(ENERGY)] = Field(1.0, description="Energy of one unit of area.")
     unevenness: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
         None, description="Required coefficient of speed fluctuation δ; gives the flywheel."
     )
     inertia: Annotated[float, positive(INERTIA)] | None = Field(
-        None, description="Moment of inertia that the shaft has, without the flywheel that is sought."
+        None, description="Moment of inertia of the shaft, without the flywheel to be sized."
     )
     radius_of_gyration: Annotated[float, positive(LENGTH)] | None = Field(
-        None, description="Of the flywheel, for its mass."
+        None, description="Radius of gyration of the flywheel, for its mass."
     )
     rim: FlywheelRim | None = Field(
         None, description="Rim of the flywheel, for its hoop stress, mass and cross-section."

@@ -29,17 +29,17 @@ class RootField(CheckedDescription):
 
     seed: Annotated[Whole, Field(ge=0)] = Field(1, description="Seed of the random generator.")
     root_density: Annotated[float, positive(DENSITY)] | None = Field(
-        None, description="Of the roots, for the mass that is lost."
+        None, description="Density of the roots, for the lost mass."
     )
     cut_height_shift: Length = Field(
-        0.0, description="Added to the height of each slice, as by setting the knife lower."
+        0.0, description="Added to each cut height, as if the knife were set lower."
     )
 
 
 class RandomField(RootField):
     """Roots that scatter."""
 
-    kind: Literal["random"] = Field(description="By distributions.")
+    kind: Literal["random"] = Field(description="Random roots by distributions.")
     roots: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(20_000, description="Number of roots.")
     rows: Annotated[Whole, Field(ge=2, le=ROOTS.most)] = Field(
         100, description="Number of rows; each begins at a random phase of the knife."
@@ -49,16 +49,18 @@ class RandomField(RootField):
     )
     cut_height: AnyScatter | None = Field(
         None,
-        description="Height h_p of the slice, likewise; 0 or less where the knife passes above.",
+        description="Cut height h_p, a length or a table; 0 or less where the knife passes above the "
+        "head. Default: that of [topper].",
     )
     offset: AnyScatter | None = Field(
         None,
-        description="Axis of the root left of the row. Default: evenly within ± that of [topper].",
+        description="Offset of the root's axis to the left of the row. Default: uniform within ± that of "
+        "[topper].",
     )
     spacing: AnyScatter | None = Field(
         None,
-        description="Distance of neighbours along the row, from which phases of the knife follow. Without "
-        "it, phases are independent and uniform.",
+        description="Distance between neighbouring roots along the row; gives the phases of the knife. "
+        "Default: phases are independent and uniform.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -87,24 +89,26 @@ def _below_zero(key: str, scatter: Scatter) -> InitErrorDetails:
 class MeasuredField(RootField):
     """Roots that were measured; each is looked at in many phases of the knife."""
 
-    kind: Literal["measured"] = Field(description="From a measurement.")
+    kind: Literal["measured"] = Field(description="Measured roots.")
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, its "
-        'head with units: "root_diameter [mm], cut_height [mm], offset [mm]".',
+        description="CSV file beside the machine file, instead of the lists, with units in the header: "
+        '"root_diameter [mm], cut_height [mm], offset [mm]".',
     )
     phases: Annotated[Whole, Field(ge=4, le=100_000)] = Field(
-        64, description="Phases of the knife for which each root is evaluated, evenly over one revolution."
+        64,
+        description="Number of knife phases at which each root is evaluated, evenly spaced over one "
+        "revolution.",
     )
     root_diameter: Lengths = Field((), description="Diameter D of each root.")
     cut_height: Lengths = Field(
-        (), description="Height h_p of each slice; 0 or less where the knife passes above the head."
+        (), description="Cut height h_p of each root; 0 or less where the knife passes above the head."
     )
-    offset: Lengths = Field((), description="Axis of each root to the left of the row.")
+    offset: Lengths = Field((), description="Offset of each root's axis to the left of the row.")
     spacing: Lengths | None = Field(
         None,
-        description="Distance of each root from the one before, along the row; the first does not count. "
-        "With it, the phases of all roots belong together.",
+        description="Distance of each root from the preceding one along the row; the first value is not "
+        "used. Given, it relates the phases of all roots.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

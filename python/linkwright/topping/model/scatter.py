@@ -74,7 +74,7 @@ class ConstantScatter(Scatter):
     """The same for all; a bare length means this."""
 
     kind: Literal["constant"]
-    value: Length = Field(description="The length.")
+    value: Length = Field(description="Constant length.")
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -89,9 +89,9 @@ class UniformScatter(Scatter):
     """Evenly between two ends."""
 
     kind: Literal["uniform"]
-    mean: Length | None = Field(None, description="Mean, in place of the ends.")
+    mean: Length | None = Field(None, description="Mean, instead of the ends.")
     deviation: Deviation | None = Field(
-        None, description="Standard deviation, with the mean: half the distance of the ends over √3."
+        None, description="Standard deviation, with the mean: half the width over √3."
     )
     least: Length | None = Field(None, description="Minimum value.")
     greatest: Length | None = Field(None, description="Maximum value.")

@@ -64,26 +64,27 @@ class TopperLimits(CheckedDescription):
 
     complete_min: Share = Field(0.95, description="Minimum share of heads cut through.")
     haulm_max: Share | None = Field(
-        None, description="Maximum mean share of the head that may be left. Default: any."
+        None, description="Maximum mean uncut share of the head. Default: no limit."
     )
     slicing_min: Annotated[float, not_negative(RATIO)] | None = Field(
         None,
-        description="Minimum mean draw-cut ratio: speed along the edge over that normal to it. Default: "
-        "the shortest edge rests across the row.",
+        description="Minimum mean draw-cut ratio: speed along the edge over speed normal to it. Default: "
+        "none; the shortest edge then stands still, square to the row.",
     )
     length_max: PositiveLength | None = Field(
         None,
-        description="Maximum length of the edge. Default: any; for the fastest, edge_length.",
+        description="Maximum length of the edge. Default: no limit; for the maximum forward speed, "
+        "edge_length.",
     )
     angle_min: Slant = Field(0.0, description="Minimum angle of the edge.")
     angle_max: Slant = Field(math.radians(60), description="Maximum angle of the edge.")
     knife_speed_min: Speed = Field(0.0, description="Minimum speed of the knife.")
     knife_speed_max: Speed = Field(1.0, description="Maximum speed of the knife.")
     forward_speed_min: Annotated[float, positive(VELOCITY)] = Field(
-        0.5, description="Minimum speed along the row, where the fastest is sought."
+        0.5, description="Minimum forward speed, in a search for the maximum forward speed."
     )
     forward_speed_max: Annotated[float, positive(VELOCITY)] = Field(
-        4.0, description="Maximum speed along the row, likewise."
+        4.0, description="Maximum forward speed, likewise."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -110,8 +111,8 @@ class ConstantKnife(KnifeMotion, CheckedDescription):
     kind: Literal["constant"] = Field(description="Constant speed.")
     stroke: PositiveLength | None = Field(
         None,
-        description="Distance between the ends. Default: the knife does not turn back over a head, and "
-        "the worse of the two directions counts.",
+        description="Stroke of the knife. Default: no reversal over a head; the less favourable direction "
+        "counts.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -123,14 +124,14 @@ class ConstantKnife(KnifeMotion, CheckedDescription):
 class HarmonicKnife(KnifeMotion):
     """A sine."""
 
-    kind: Literal["harmonic"] = Field(description="A sine.")
-    stroke: PositiveLength = Field(description="Distance between the ends.")
+    kind: Literal["harmonic"] = Field(description="Harmonic motion.")
+    stroke: PositiveLength = Field(description="Stroke of the knife.")
 
 
 class MemberKnife(KnifeMotion):
     """The knife is a slide of the mechanism, moved by the crank at its design speed."""
 
-    kind: Literal["member"] = Field(description="Moved by the mechanism.")
+    kind: Literal["member"] = Field(description="Motion of a member of the mechanism.")
     of: str = Field(description="Coordinate along a guide: a slider, yoke, rack, linear driver or follower.")
 
 
@@ -150,10 +151,10 @@ class Topper(CheckedDescription):
 
     root_diameter: PositiveLength = Field(description="Diameter D of the root.")
     cut_height: PositiveLength = Field(
-        description="Height h_p of the slice, from the top of the root down to the plane of the cut."
+        description="Cut height h_p: distance from the top of the root down to the plane of the cut."
     )
     offset: Annotated[float, not_negative(LENGTH)] = Field(
-        0.0, description="Maximum distance Δ of a root's axis from the axis of the row, on either side."
+        0.0, description="Maximum distance Δ of the root's axis from the axis of the row, to either side."
     )
     edge_angle: Annotated[float, Quantity(ANGLE, _ACROSS)] = Field(
         0.0, description="Angle α of the edge to the transverse axis; positive where its left end leads."
@@ -162,8 +163,8 @@ class Topper(CheckedDescription):
     forward_speed: Annotated[float, positive(VELOCITY)] = Field(description="Speed v along the row.")
     knife_speed: Annotated[float, not_negative(VELOCITY)] | None = Field(
         None,
-        description="Mean speed v_h of the knife across the row; at 0 it stands at mid-stroke, or where "
-        "a given phase puts it. A mechanism gives it itself.",
+        description="Mean speed v_h of the knife across the row; at 0 it stands at mid-stroke, or at the "
+        "given phase. With a mechanism, the speed follows from it.",
     )
     motion: AnyKnifeMotion = Field(description="Motion of the knife across the row.")
     field: AnyField | None = Field(None, description="Scatter of the roots.")

@@ -29,22 +29,30 @@ from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveSti
 class Coupling(CheckedDescription):
     """An elastic coupling between two discs."""
 
-    between: tuple[str, str] = Field(description="The two discs that it joins.")
-    stiffness: PositiveStiffness | None = Field(None, description="Torque per twist, for vibration.")
-    twist: Angles | None = Field(
-        None, description="Points of its curve, from 0 upwards, in place of the stiffness; odd below."
+    between: tuple[str, str] = Field(description="The two discs that it connects.")
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Torsional stiffness for vibration: torque per angle of twist."
     )
-    torque: Torques | None = Field(None, description="Torque at each twist of the curve, from 0 upwards.")
-    damping: Damping = Field(0.0, description="Damping torque per relative speed.")
+    twist: Angles | None = Field(
+        None,
+        description="Angles of twist of a torque curve from 0, instead of the stiffness; the curve is odd.",
+    )
+    torque: Torques | None = Field(None, description="Torque at each angle of twist, from 0.")
+    damping: Damping = Field(
+        0.0, description="Viscous damping: torque per relative angular velocity of the two ends."
+    )
     loss_factor: LossFactor = Field(
         0.0,
-        description="Hysteresis η = ψ/(2π), ψ its relative damping: energy lost in a cycle over the largest.",
+        description="Loss factor η = ψ/(2π), with the relative damping ψ: loss per cycle over peak strain "
+        "energy.",
     )
-    torque_permitted: PositiveTorque | None = Field(None, description="Sum of mean and vibratory torque.")
+    torque_permitted: PositiveTorque | None = Field(
+        None, description="Permitted sum of mean and vibratory torque."
+    )
     vibratory_torque_permitted: PositiveTorque | None = Field(
         None, description="Amplitude of the torque in continuous operation."
     )
-    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat.")
+    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat load.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         curve = self.twist is not None or self.torque is not None
@@ -131,12 +139,18 @@ class Damper(CheckedDescription):
     """A damper on a disc: viscous (Lanchester, Houde), or tuned by a spring or rubber."""
 
     on: str = Field(description="Disc that carries it; the inertia of its housing belongs to the disc.")
-    kind: Literal["viscous", "tuned"] = Field("viscous", description="Without or with a spring.")
-    ring_inertia: Annotated[float, positive(INERTIA)] = Field(description="Of the ring, about the axis.")
-    damping: Damping = Field(0.0, description="Torque per speed between ring and disc.")
-    stiffness: PositiveStiffness | None = Field(None, description="Of the spring, of a tuned damper.")
-    loss_factor: LossFactor = Field(0.0, description="Hysteresis of the spring, of a tuned damper.")
-    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat.")
+    kind: Literal["viscous", "tuned"] = Field(
+        "viscous", description="Viscous damper (no spring) or tuned damper (with a spring)."
+    )
+    ring_inertia: Annotated[float, positive(INERTIA)] = Field(
+        description="Moment of inertia of the ring about the axis."
+    )
+    damping: Damping = Field(0.0, description="Viscous damping between ring and disc.")
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Stiffness of the spring of a tuned damper."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Loss factor of the spring of a tuned damper.")
+    heat_permitted: Annotated[float, positive(POWER)] | None = Field(None, description="Permitted heat load.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.kind == "tuned" and self.stiffness is None:

@@ -89,16 +89,16 @@ class IcePropeller(CheckedDescription):
     """A propeller of which the ice class gives the largest ice torque."""
 
     ice_class: IceClass = Field(description="Polar class of IACS, or ice class of the Baltic.")
-    diameter: PositiveLength = Field(description="D.")
-    hub_diameter: PositiveLength = Field(description="d.")
-    pitch: PositiveLength = Field(description="P_0.7, at 0.7 of the radius, in the bollard condition.")
+    diameter: PositiveLength = Field(description="Diameter D of the propeller.")
+    hub_diameter: PositiveLength = Field(description="Diameter d of the hub.")
+    pitch: PositiveLength = Field(description="Pitch P_0.7 at 0.7 of the radius, in the bollard condition.")
     speed: PositiveSpeed = Field(
-        description="In the bollard condition: rated speed; of a fixed-pitch propeller behind a diesel "
-        "engine 0.85 of it, if it is not known better."
+        description="Speed in the bollard condition: the rated speed; for a fixed-pitch propeller driven "
+        "by a diesel engine 0.85 of it, unless known."
     )
-    ducted: bool = Field(False, description="Whether it turns in a nozzle.")
+    ducted: bool = Field(False, description="Ducted propeller.")
     ice_thickness: PositiveLength | None = Field(
-        None, description="H_ice of the design ice. Default: that of the ice class."
+        None, description="Thickness H_ice of the design ice. Default: that of the ice class."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -136,33 +136,35 @@ class IceImpacts(CheckedDescription):
     kind: Literal["ice_impacts"]
     time: Annotated[float, not_negative(TIME)] = Field(description="Time at which the first blade meets ice.")
     on: str = Field(description="Disc of the propeller.")
-    blades: Whole = Field(ge=1, le=12, description="Z, of the propeller.")
+    blades: Whole = Field(ge=1, le=12, description="Number Z of propeller blades.")
     torque: PositiveTorque | None = Field(
-        None, description="Largest ice torque Q_max, in place of `propeller`."
+        None, description="Maximum ice torque Q_max, instead of `propeller`."
     )
-    propeller: IcePropeller | None = Field(None, description="From which the ice class gives Q_max.")
+    propeller: IcePropeller | None = Field(
+        None, description="Data of the propeller, from which the ice class gives Q_max."
+    )
     case: Literal[1, 2, 3, 4] | None = Field(
-        None, description="Excitation case of the rules, in place of amplitude and duration."
+        None, description="Excitation case of the rules, instead of amplitude and duration."
     )
     amplitude: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="C_q, peak of a pulse over Q_max."
+        None, description="C_q: peak of a pulse over Q_max."
     )
     duration: Annotated[float, positive(ANGLE)] | None = Field(
-        None, description="α_i, angle of the propeller in which a pulse lasts."
+        None, description="Duration α_i of a pulse, as angle of the propeller."
     )
     blocks: Whole = Field(
-        1, ge=1, le=6, description="Blocks of ice, evenly apart, that each blade meets in a revolution."
+        1, ge=1, le=6, description="Number of ice blocks that each blade meets per revolution, evenly spaced."
     )
     impacts: Whole | None = Field(
         None,
         ge=1,
-        description="Of blades on each block. Default: Z impacts in each of the 2 H_ice/m revolutions that "
-        "the rules take.",
+        description="Number of blade impacts on each block. Default: by the rules, Z impacts in each of 2 "
+        "H_ice/m revolutions.",
     )
     ramp: Annotated[float, not_negative(ANGLE)] = Field(
         1.5 * math.pi,
-        description="Angle of the propeller over which the pulses grow at the beginning, and fade at the "
-        "end.",
+        description="Angle of the propeller over which the pulses build up at the beginning and decay at "
+        "the end.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

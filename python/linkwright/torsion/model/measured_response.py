@@ -21,12 +21,13 @@ MEASURED = ("stress", "torque", "angle")
 class MeasuredResponse(CheckedDescription):
     """Amplitudes measured at some speeds: of all orders together half the peak-to-peak value."""
 
-    kind: Literal["response"] = Field("response", description="Of the table, for a file of its points.")
-    on: str = Field(description="The shaft whose stress or torque it is, or the disc whose angle it is.")
+    kind: Literal["response"] = Field("response", description="Kind of the table.")
+    on: str = Field(description="Shaft (stress, torque) or disc (angle) that was measured.")
     order: PositiveNumber | None = Field(
-        None, description="Order of the first disc that was measured alone. Default: all together."
+        None,
+        description="Order of the first disc, if a single order was measured. Default: all orders together.",
     )
-    speed: tuple[PositiveSpeed, ...] = Field(description="Of the first disc, increasing.")
+    speed: tuple[PositiveSpeed, ...] = Field(description="Speeds of the first disc, increasing.")
     stress: tuple[Annotated[float, not_negative(PRESSURE)], ...] | None = Field(
         None, description="Vibratory shear stress at these speeds."
     )

@@ -70,43 +70,49 @@ class ShaftLimit(CheckedDescription):
 
     kind: Kind = Field(
         "given",
-        description="Source of the permitted vibratory stress: given, by the maker or by another rule (DNV, "
-        "LR, ABS); IACS UR M68; Korean Register.",
+        description="Source of the permitted vibratory stress: given (by the maker or by another rule "
+        "such as DNV, LR, ABS), IACS UR M68, or Korean Register.",
     )
     diameter: PositiveLength | None = Field(
-        None, description="Outside, where the stress counts. Default: that of the weakest section."
+        None, description="Outer diameter to which the stress refers. Default: that of the weakest section."
     )
-    inner_diameter: Bore = Field(0.0, description="Of the bore there.")
+    inner_diameter: Bore = Field(0.0, description="Diameter of the bore there.")
     section_modulus: Annotated[float, positive(SECTION_MODULUS)] | None = Field(
-        None, description="Torque per stress there, in place of the diameter."
+        None, description="Torsional section modulus there, instead of the diameter."
     )
     stress_concentration: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="Maximum over nominal stress, which the stresses given hold for. Default: 1."
+        None,
+        description="Stress concentration factor: maximum over nominal stress; permitted stresses "
+        "refer to the maximum. Default: 1.",
     )
     stress_permitted: Stress | None = Field(
         None, description="Amplitude of the shear stress in continuous operation."
     )
     stress_transient: Stress | None = Field(
-        None, description="The same, while barred speed ranges are passed quickly."
+        None, description="Amplitude of the shear stress in transient passage of barred speed ranges."
     )
-    stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
-    torque_permitted: PositiveTorque | None = Field(None, description="Sum of mean and vibratory torque.")
+    stress_greatest: Stress | None = Field(None, description="Maximum shear stress, mean and vibratory.")
+    torque_permitted: PositiveTorque | None = Field(
+        None, description="Permitted sum of mean and vibratory torque."
+    )
     vibratory_torque_permitted: PositiveTorque | None = Field(
         None, description="Amplitude of the torque in continuous operation."
     )
-    tensile_strength: Stress | None = Field(None, description="σ_B that the steel is specified to have.")
-    yield_strength: Stress | None = Field(None, description="σ_Y of the steel of a crankshaft.")
-    steel: Steel | None = Field(
-        None, description='"carbon" counts carbon-manganese steel too. Default: carbon.'
+    tensile_strength: Stress | None = Field(None, description="Specified tensile strength σ_B of the steel.")
+    yield_strength: Stress | None = Field(
+        None, description="Yield strength σ_Y of the steel of a crankshaft."
     )
-    design: Design | None = Field(None, description="What the shaft has, for C_K. Default: flanges.")
+    steel: Steel | None = Field(
+        None, description='Kind of steel; "carbon" includes carbon-manganese steel. Default: carbon.'
+    )
+    design: Design | None = Field(None, description="Design feature of the shaft, for C_K. Default: flanges.")
     design_factor: Annotated[float, Quantity(RATIO, FRACTION)] | None = Field(
-        None, description="C_K itself, in place of the design."
+        None, description="Design factor C_K, instead of the design."
     )
     firing: Firing | None = Field(
         None,
-        description='"even" of four-stroke engines in line and V engines that fire every 45° or 60°. Without '
-        "it, other.",
+        description='Firing sequence: "even" for in-line four-stroke engines and V engines that fire '
+        "every 45° or 60°. Default: other.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

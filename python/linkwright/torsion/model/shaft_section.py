@@ -86,37 +86,37 @@ class ShaftSection(CheckedDescription):
 
     kind: Kind = Field("cylinder", description="Kind of section.")
     length: PositiveLength = Field(
-        description="Of the section; of a flange its thickness; of a hub what is engaged."
+        description="Length of the section; thickness of a flange; engaged length of a hub."
     )
     diameter: PositiveLength = Field(
-        description="Outside; of a taper where it begins; of a flange that of the shaft coming out of it; "
-        "of a spline over its teeth."
+        description="Outer diameter; of a taper, at its start; of a flange, that of the adjoining shaft; "
+        "of a spline, over the teeth."
     )
-    inner_diameter: Bore = Field(0.0, description="Of the bore; of a taper where it begins.")
-    diameter_end: PositiveLength | None = Field(None, description="Of a taper, where it ends.")
+    inner_diameter: Bore = Field(0.0, description="Diameter of the bore; of a taper, at its start.")
+    diameter_end: PositiveLength | None = Field(None, description="Outer diameter at the end of a taper.")
     inner_diameter_end: Bore | None = Field(
-        None, description="Bore of a taper where it ends. Default: as where it begins."
+        None, description="Diameter of the bore at the end of a taper. Default: that at the start."
     )
-    bolt_circle: PositiveLength | None = Field(
-        None, description="Of a flange: diameter of the circle where it is held."
+    bolt_circle: PositiveLength | None = Field(None, description="Flange: diameter of the bolt circle.")
+    root_diameter: PositiveLength | None = Field(
+        None, description="Spline: diameter at the root of the teeth."
     )
-    root_diameter: PositiveLength | None = Field(None, description="Of a spline, between its teeth.")
     share: Share | None = Field(
         None,
-        description="Of a hub or a spline: how much of the length twists as if it were free. Default: a "
-        "third of a hub, the whole of a spline.",
+        description="Hub or spline: share of the length that twists freely. Default: a third of a hub, "
+        "all of a spline.",
     )
-    keyway_width: PositiveLength | None = Field(None, description="Of a keyway, if there is one.")
+    keyway_width: PositiveLength | None = Field(None, description="Width of the keyway, if there is one.")
     keyway_depth: PositiveLength | None = Field(
-        None, description="Of the keyway in the shaft, from the top of the full circle."
+        None, description="Depth of the keyway in the shaft, from the full circle."
     )
     keyways: Literal[1, 2] | None = Field(
-        None, description="How many; two lie opposite. Default: one if a keyway is given."
+        None, description="Number of keyways; two are opposite. Default: one if a keyway is given."
     )
     fillet: Annotated[float, not_negative(LENGTH)] | None = Field(
         None,
-        description="Radius in the corner of the step to the next section; 0 for a sharp one. Default: "
-        "the step adds no twist. Of a flange: in the corner with its shaft.",
+        description="Fillet radius at the step to the next section; 0 for a sharp corner. Default: the "
+        "step adds no twist. Flange: fillet radius to its shaft.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

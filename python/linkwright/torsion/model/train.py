@@ -74,9 +74,9 @@ class ModalDamping(CheckedDescription):
     """Damping ratios of the modes of vibration, in addition to what damps single parts."""
 
     ratios: Annotated[tuple[float, ...], QuantityList(RATIO)] = Field(
-        (), description="ζ of the modes of vibration by frequency, from the lowest above zero."
+        (), description="Damping ratios ζ of the modes by frequency, from the lowest above zero."
     )
-    others: Annotated[float, Quantity(RATIO)] = Field(0.0, description="ζ of all further modes.")
+    others: Annotated[float, Quantity(RATIO)] = Field(0.0, description="Damping ratio ζ of all higher modes.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         for n, ratio in enumerate(self.ratios):
@@ -107,15 +107,15 @@ class TrainRun(CheckedDescription):
     speed_max: PositiveSpeed = Field(description="Highest speed of the first disc.")
     points: Whole = Field(200, ge=2, le=100_000, description="Number of speeds, evenly spaced.")
     speed_rated: PositiveSpeed | None = Field(
-        None, description="Speed of service, at which waveforms are shown. Default: the highest."
+        None, description="Service speed, at which waveforms are shown. Default: the highest."
     )
     orders_max: Annotated[float, Quantity(COUNT, _ORDER)] = Field(
         24.0, description="Highest order of gas and inertia torques."
     )
     loads_follow: bool = Field(
         False,
-        description="Whether loads are scaled at each speed to the mean torque of the engine. Otherwise they "
-        "keep their torque, and the excess accelerates the train.",
+        description="Scale the loads at each speed to the mean torque of the engine; otherwise the excess "
+        "torque accelerates the train.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -149,23 +149,33 @@ __all__ = ["GROUND", "Disc", "ElasticShaft", "Shaft", "ShaftSection", "Train", "
 class Disc(Description):
     """A disc: all that turns with one place of the train."""
 
-    inertia: Annotated[float, positive(INERTIA)] = Field(description="About the axis, at its own speed.")
+    inertia: Annotated[float, positive(INERTIA)] = Field(
+        description="Moment of inertia about the axis, at the disc's own speed."
+    )
     damping: Damping = Field(
-        0.0, description="Torque against its vibration per speed, from outside the train."
+        0.0,
+        description="External viscous damping: torque per vibratory angular velocity, from outside "
+        "the train.",
     )
 
 
 class ElasticShaft(CheckedDescription):
     """What makes a shaft twist: its stiffness, or its sections."""
 
-    stiffness: PositiveStiffness | None = Field(None, description="Torque per twist.")
-    sections: tuple[ShaftSection, ...] | None = Field(
-        None, description="Its sections in order, from its first end, in place of the stiffness."
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Torsional stiffness: torque per angle of twist."
     )
-    shear_modulus: Modulus = Field(79.3e9, description="Of the sections; usually that of steel.")
-    damping: Damping = Field(0.0, description="Damping torque per relative speed.")
+    sections: tuple[ShaftSection, ...] | None = Field(
+        None, description="Sections in order, from the first end, instead of the stiffness."
+    )
+    shear_modulus: Modulus = Field(79.3e9, description="Shear modulus of the sections.")
+    damping: Damping = Field(
+        0.0, description="Viscous damping: torque per relative angular velocity of the two ends."
+    )
     loss_factor: LossFactor = Field(
-        0.0, description="Hysteresis η: the stiffness is k(1 + iη), a cycle loses 2πη of its largest energy."
+        0.0,
+        description="Loss factor η (hysteresis): complex stiffness k(1 + iη); loss per cycle 2πη of "
+        "the peak strain energy.",
     )
     limit: ShaftLimit | None = Field(None, description="Permitted stress.")
 
@@ -211,18 +221,22 @@ class Shaft(ElasticShaft):
     """An elastic shaft between two discs, or between a disc and the ground."""
 
     between: tuple[str, str] = Field(
-        description='The two discs that it joins; one end may be "ground", which is held.'
+        description='The two discs that it connects; one end may be "ground" (fixed).'
     )
     density: Density | None = Field(
-        None, description="Of the sections. With it, their own inertia counts, as `inertia` says."
+        None,
+        description="Density of the sections. Given, the shaft has its own inertia, treated "
+        "according to `inertia`.",
     )
     own_inertia: Annotated[float, positive(INERTIA)] | None = Field(
-        None, description="Of a uniform shaft about its axis, beside its stiffness, in place of a density."
+        None,
+        description="Moment of inertia of a uniform shaft about its axis, together with its "
+        "stiffness and instead of a density.",
     )
     inertia: ShaftInertia | None = Field(
         None,
-        description='How its own inertia counts: "ends" with the discs at its two ends, "distributed" where '
-        "it is, exactly. Default: as [train] says.",
+        description='Inertia of the shaft: "ends" adds half to the disc at each end; "distributed" treats '
+        "it exactly along the shaft. Default: that of [train].",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -253,26 +267,27 @@ _RATIO_MAX = 1e6
 class TrainGear(CheckedDescription):
     """A gear stage between two discs, rigid, or elastic in its mesh."""
 
-    between: tuple[str, str] = Field(description="The two discs that it joins.")
+    between: tuple[str, str] = Field(description="The two discs that it connects.")
     ratio: PositiveNumber | None = Field(None, description="Speed of the first disc over that of the second.")
     teeth: tuple[PositiveNumber, PositiveNumber] | None = Field(
-        None, description="Of the first and of the second gear, in place of the ratio."
+        None, description="Numbers of teeth of the first and second gear, instead of the ratio."
     )
     kind: Literal["external", "internal", "belt", "crossed_belt"] = Field(
         "external",
-        description="External gears and a crossed belt reverse the sense, which matters where stages close a "
-        "loop.",
+        description="Kind of stage; external gears and a crossed belt reverse the sense of rotation, "
+        "which matters in closed loops.",
     )
     stiffness: PositiveStiffness | None = Field(
-        None, description="Of the mesh, as torque at the first disc per its angle. Default: rigid."
+        None, description="Mesh stiffness, referred to the first disc: torque per angle. Default: rigid."
     )
     damping: Damping = Field(
-        0.0, description="Of an elastic mesh, as torque at the first disc per its speed."
+        0.0,
+        description="Damping of an elastic mesh, referred to the first disc: torque per angular velocity.",
     )
-    loss_factor: LossFactor = Field(0.0, description="Hysteresis of an elastic mesh.")
+    loss_factor: LossFactor = Field(0.0, description="Loss factor of an elastic mesh.")
     backlash: Annotated[float, not_negative(ANGLE)] = Field(
         0.0,
-        description="Of the teeth of an elastic mesh, from flank to flank, as angle of the first disc; for "
+        description="Backlash of an elastic mesh, from flank to flank, as angle of the first disc; for "
         "motion in time.",
     )
     torque_permitted: PositiveTorque | None = Field(
@@ -310,7 +325,7 @@ class Train(Description):
     """Discs, shafts and gear stages by name, what damps them and what excites them."""
 
     discs: dict[Name, Disc] = Field(default_factory=dict, description="Rotating discs, by name.")
-    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="Shafts between them, by name.")
+    shafts: dict[Name, Shaft] = Field(default_factory=dict, description="Shafts between the discs, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
@@ -319,34 +334,32 @@ class Train(Description):
         default_factory=dict, description="Pulsating torques, by name."
     )
     engine: ReciprocatingEngine | None = Field(
-        None, description="Reciprocating engine, which stands for discs throw_1, throw_2, … and their shafts."
+        None, description="Reciprocating engine; it adds the discs throw_1, throw_2, … and their shafts."
     )
     engines: dict[Name, TrainEngine] = Field(
         default_factory=dict,
         description="Several engines, by name, each with discs NAME_throw_1, NAME_throw_2, … and shafts "
-        "NAME_crank_1, … Default: there is [train.engine] alone.",
+        "NAME_crank_1, … Default: [train.engine] alone.",
     )
-    driver: str | None = Field(
-        None, description="Disc that drives the loads, where no engine does. Default: the first."
-    )
+    driver: str | None = Field(None, description="Driving disc if there is no engine. Default: the first.")
     drivers: dict[Name, TrainDriver] = Field(
         default_factory=dict,
-        description="Several turbines or motors that drive the loads, by name, in place of one driver.",
+        description="Several turbines or motors that drive the loads, by name, instead of one driver.",
     )
     inertia: ShaftInertia = Field(
         "ends",
-        description="How the inertia of shafts with a density, or with own_inertia, counts where they do not "
-        'say it themselves: "ends" with the discs at their ends, "distributed" along them, exactly.',
+        description='Inertia of shafts with a density or own_inertia, unless the shaft states it: "ends" '
+        'adds half to the disc at each end; "distributed" treats it exactly along the shaft.',
     )
     modes: Whole | None = Field(
         None,
         ge=1,
         le=200,
-        description="How many modes are sought where inertia is distributed. Default: as many as discs "
-        "and sections of such shafts, and two.",
+        description="Number of modes with distributed inertia. Default: number of discs and sections of "
+        "such shafts, plus two.",
     )
     modal_damping: ModalDamping | None = Field(
-        None, description="Damping ratios of the modes, in addition to what damps single parts."
+        None, description="Damping ratios of the modes, in addition to the damping of the parts."
     )
     run: TrainRun | None = Field(None, description="Speeds and orders of forced vibration.")
     measured: dict[Name, MeasuredResponse] = Field(

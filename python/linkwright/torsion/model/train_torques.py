@@ -64,24 +64,32 @@ Order = Annotated[
 class LoadHarmonic(Description):
     """A pulsation of a load."""
 
-    order: Order = Field(description="Cycles per revolution of its disc; of a propeller, its blades.")
-    share: Annotated[float, not_negative(RATIO)] = Field(description="Amplitude over the mean torque.")
-    phase: Angle = Field(0.0, description="β of the resistance cos(νφ + β), φ the angle of the disc.")
+    order: Order = Field(
+        description="Order: cycles per revolution of the disc; for a propeller, the number of blades."
+    )
+    share: Annotated[float, not_negative(RATIO)] = Field(
+        description="Ratio of the amplitude to the mean torque."
+    )
+    phase: Angle = Field(0.0, description="Phase β of the load torque cos(νφ + β), with the disc angle φ.")
 
 
 class TrainLoad(CheckedDescription):
     """What a disc drives: a propeller, a pump, a generator, a brake."""
 
-    on: str = Field(description="The disc that drives it.")
-    torque: PositiveTorque = Field(description="Mean resistance at the speed given.")
-    speed: PositiveSpeed = Field(description="Of the disc, at which the torque is given.")
+    on: str = Field(description="Disc that drives the load.")
+    torque: PositiveTorque = Field(description="Mean load torque at the given speed.")
+    speed: PositiveSpeed = Field(description="Speed of the disc at which the torque is given.")
     exponent: Exponent = Field(
-        2.0, description="Of the torque over the speed: 2 for a propeller, 0 for constant torque."
+        2.0, description="Exponent of the torque over the speed: 2 for a propeller, 0 for constant torque."
     )
     damping_factor: Annotated[float, not_negative(RATIO)] = Field(
-        1.0, description="Damping of its vibration over the slope of its torque; propellers often 1 to 1.5."
+        1.0,
+        description="Ratio of the damping of vibration to the slope of the torque over the speed; "
+        "often 1 to 1.5 for propellers.",
     )
-    harmonics: tuple[LoadHarmonic, ...] = Field((), description="Pulsation over its revolution.")
+    harmonics: tuple[LoadHarmonic, ...] = Field(
+        (), description="Harmonics of the load torque over one revolution."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from _listed_twice([harmonic.order for harmonic in self.harmonics])
@@ -99,18 +107,22 @@ class TrainLoad(CheckedDescription):
 class Harmonic(Description):
     """One order of a pulsating torque."""
 
-    order: Order = Field(description="Cycles per revolution of its disc.")
-    torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude.")
-    phase: Angle = Field(0.0, description="β of cos(νφ + β), φ the angle of the disc.")
+    order: Order = Field(description="Order: cycles per revolution of the disc.")
+    torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude of the torque.")
+    phase: Angle = Field(0.0, description="Phase β of cos(νφ + β), with the disc angle φ.")
 
 
 class Excitation(CheckedDescription):
     """A torque on a disc that pulsates with its angle."""
 
-    on: str = Field(description="The disc that it acts on.")
-    harmonics: tuple[Harmonic, ...] = Field(description="Its orders.")
-    speed: PositiveSpeed | None = Field(None, description="At which the amplitudes hold, if they change.")
-    exponent: Exponent = Field(0.0, description="Of the amplitudes over the speed: 2 for inertia torques.")
+    on: str = Field(description="Disc on which the torque acts.")
+    harmonics: tuple[Harmonic, ...] = Field(description="Orders of the excitation.")
+    speed: PositiveSpeed | None = Field(
+        None, description="Speed at which the amplitudes are given, if they depend on the speed."
+    )
+    exponent: Exponent = Field(
+        0.0, description="Exponent of the amplitudes over the speed: 2 for inertia torques."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if not self.harmonics:
@@ -143,15 +155,17 @@ def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:
 class TrainDriver(CheckedDescription):
     """A turbine or motor that drives: with its share of the power, or with a torque over the speed."""
 
-    on: str = Field(description="The disc that it drives.")
+    on: str = Field(description="Disc driven by the turbine or motor.")
     share: Annotated[float, positive(RATIO)] = Field(
-        1.0, description="Its part of the power that loads need, over that of the other drivers."
+        1.0, description="Share of the load power, relative to the other drivers."
     )
     torque: PositiveTorque | None = Field(
-        None, description="Mean torque at the speed given, whatever the loads need, in place of the share."
+        None, description="Mean torque at the given speed, independent of the loads; instead of the share."
     )
-    speed: PositiveSpeed | None = Field(None, description="Of the disc, at which the torque is given.")
-    exponent: Exponent = Field(0.0, description="Of the torque over the speed; −1 at constant power.")
+    speed: PositiveSpeed | None = Field(None, description="Speed of the disc at which the torque is given.")
+    exponent: Exponent = Field(
+        0.0, description="Exponent of the torque over the speed; −1 for constant power."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.torque is None and (self.speed is not None or self.exponent):
@@ -174,15 +188,15 @@ class TrainEngine(Description):
 
     phase: Angle = Field(
         0.0,
-        description="Angle by which its crank leads that of [train.engine], seen at its own speed. Clutched "
-        "engines may have any phase: find the worst.",
+        description="Angle by which its crank leads that of [train.engine], at its own speed. With "
+        "clutched engines the phase is arbitrary: look for the worst.",
     )
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
-        description="Share of the combustion in cylinders that are not sound, by number; 0 misfires.",
+        description="Combustion factor of faulty cylinders, by number; 0 for a misfire.",
     )
     engine: ReciprocatingEngine | None = Field(
-        None, description="The engine itself, where it is another one than [train.engine]."
+        None, description="Description of the engine, if it differs from [train.engine]."
     )
 
 

@@ -61,8 +61,8 @@ Share = Annotated[float, not_negative(RATIO)]
 class _TimedEvent(CheckedDescription):
     """An event that may end."""
 
-    time: Instant = Field(description="Time at which it begins.")
-    until: Instant | None = Field(None, description="Time at which it ends. Default: never.")
+    time: Instant = Field(description="Time at which the event begins.")
+    until: Instant | None = Field(None, description="Time at which the event ends. Default: never.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.until is not None and self.until <= self.time:
@@ -78,9 +78,9 @@ class LoadStep(Description):
     """A load of the train grows or falls."""
 
     kind: Literal["load_step"]
-    time: Instant = Field(description="Time at which it begins.")
+    time: Instant = Field(description="Time at which the event begins.")
     load: str = Field(description="Name of the load.")
-    factor: Share = Field(description="Of its torque from then on; 0 throws it off.")
+    factor: Share = Field(description="Factor on the torque from then on; 0 is a load rejection.")
     over: Instant = Field(0.0, description="Duration of the change.")
 
 
@@ -88,7 +88,7 @@ class MotorSwitch(Description):
     """A motor is switched on or off."""
 
     kind: Literal["motor_on", "motor_off"]
-    time: Instant = Field(description="When.")
+    time: Instant = Field(description="Time of the event.")
     motor: str = Field(description="Name of the motor.")
 
 
@@ -96,8 +96,8 @@ class FuelSwitch(Description):
     """The combustion in all cylinders sets in or ends."""
 
     kind: Literal["fuel_on", "fuel_off"]
-    engine: str | None = Field(None, description="Which of several engines. Default: all.")
-    time: Instant = Field(description="Time at which it begins.")
+    engine: str | None = Field(None, description="Engine, if there are several. Default: all.")
+    time: Instant = Field(description="Time at which the event begins.")
     over: Instant = Field(0.0, description="Duration of the change.")
 
 
@@ -105,8 +105,8 @@ class Misfire(_TimedEvent):
     """Cylinders do without combustion, or with part of it."""
 
     kind: Literal["misfire"]
-    engine: str | None = Field(None, description="Which of several engines.")
-    cylinders: tuple[Annotated[int, Field(ge=1)], ...] = Field(description="Their numbers.")
+    engine: str | None = Field(None, description="Engine, if there are several.")
+    cylinders: tuple[Annotated[int, Field(ge=1)], ...] = Field(description="Numbers of the cylinders.")
     factor: Share = Field(0.0, description="Remaining share of the combustion.")
 
 
@@ -114,7 +114,7 @@ class TorqueStep(_TimedEvent):
     """A constant torque on a disc."""
 
     kind: Literal["torque"]
-    on: str = Field(description="The disc.")
+    on: str = Field(description="Disc on which the torque acts.")
     torque: Torque = Field(description="Positive if it drives.")
 
 
@@ -122,8 +122,8 @@ class TorqueCourse(CheckedDescription):
     """A torque on a disc over time."""
 
     kind: Literal["torque_course"]
-    on: str = Field(description="The disc.")
-    times: Instants = Field(description="From the start of the motion, increasing.")
+    on: str = Field(description="Disc on which the torque acts.")
+    times: Instants = Field(description="Times from the start of the motion, increasing.")
     torque: Torques = Field(description="Torque at these times, positive if it drives; linear between them.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -134,11 +134,11 @@ class SpeedCourse(CheckedDescription):
     """A governor or test bench that leads the speed of a disc."""
 
     kind: Literal["speed_course"]
-    on: str = Field(description="The disc.")
-    times: Instants = Field(description="From the start of the motion, increasing.")
+    on: str = Field(description="Disc on which the torque acts.")
+    times: Instants = Field(description="Times from the start of the motion, increasing.")
     speed: Speeds = Field(description="Required speed at these times; linear between them.")
     gain: Annotated[float, positive(TORSIONAL_DAMPING)] = Field(
-        description="Torque per deviation of the speed."
+        description="Gain of the controller: torque per speed deviation."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -150,12 +150,12 @@ class ShortCircuit(_TimedEvent):
 
     kind: Literal["short_circuit"]
     on: str = Field(description="Disc of the generator.")
-    torque: PositiveTorque = Field(description="Its apparent power over its speed.")
+    torque: PositiveTorque = Field(description="Rated torque: apparent power over speed.")
     speed: PositiveSpeed = Field(description="Of its rotor.")
     pole_pairs: Whole = Field(ge=1, description="Of its rotor.")
-    reactance: Annotated[float, positive(RATIO)] = Field(description="Subtransient, per unit.")
+    reactance: Annotated[float, positive(RATIO)] = Field(description="Subtransient reactance, per unit.")
     decay: Annotated[float, positive(TIME)] = Field(description="Time constant of the torque.")
-    phases: Literal[2, 3] = Field(3, description="How many are short-circuited.")
+    phases: Literal[2, 3] = Field(3, description="Number of short-circuited phases.")
 
 
 AnyTrainEvent = Annotated[
@@ -180,11 +180,9 @@ TrainDrive = Annotated[
 class TrainMotor(Description):
     """A motor that drives a disc of a train."""
 
-    on: str = Field(description="The disc, which turns at the speed of the motor.")
-    motor: TrainDrive = Field(
-        description="Its torque over its speed. Its inertia counts with the disc already."
-    )
-    on_at_start: bool = Field(True, description="Whether it drives from the start.")
+    on: str = Field(description="Disc that rotates at the speed of the motor.")
+    motor: TrainDrive = Field(description="Characteristic of the motor. Its inertia is included in the disc.")
+    on_at_start: bool = Field(True, description="Motor on from the start.")
 
 
 class TrainTransient(CheckedDescription):
@@ -192,55 +190,57 @@ class TrainTransient(CheckedDescription):
 
     duration: Annotated[float, positive(TIME)] = Field(description="Duration of the manoeuvre.")
     speed: Annotated[float, not_negative(SPEED)] = Field(
-        0.0, description="Of the first disc at the start; 0 is at rest."
+        0.0, description="Speed of the first disc at the start; 0 is a start from rest."
     )
-    angle: Angle = Field(0.0, description="Of the first disc at the start.")
+    angle: Angle = Field(0.0, description="Angle of the first disc at the start.")
     balanced: bool = Field(
         True,
-        description="Whether mean torques balance at the start, as in steady running. Loads are as given: "
-        "a motor that drives has the speed at which they balance, near that given; the combustion of an "
-        "engine counts as much as they ask for; a train without engine and motor is driven by what they "
-        "need. From rest nothing is balanced.",
+        description="Balance the mean torques at the start, as in steady running, with the loads as "
+        "given: a motor starts at the speed of balance near the given one; the combustion of an engine is "
+        "scaled; without engine or motor, disc 1 supplies the load torque. A start from rest is never "
+        "balanced.",
     )
     loads_follow: bool = Field(
         False,
-        description="Whether loads are scaled instead, at the speed given, so that mean torques balance.",
+        description="Scale the loads instead, at the given speed, to balance the mean torques.",
     )
     loaded: bool = Field(
         True,
-        description="Whether shafts are twisted by the mean torques at the start. From rest they are not.",
+        description="Start with the shafts twisted by the mean torques; a start from rest is without twist.",
     )
     settle: Instant | None = Field(
         None,
-        description="Time before the start in which it swings in, unrecorded. Default: 1 s for a motion "
-        "that starts in balance and loaded, else none.",
+        description="Settling time before the start, not recorded. Default: 1 s for a balanced and loaded "
+        "start, otherwise none.",
     )
     fuel: Share = Field(1.0, description="Share of the combustion in all cylinders at the start.")
     gas_speed: PositiveSpeed | None = Field(
         None,
-        description="At which the gas torques over the crank angle are taken. Default: the speed of the "
-        "start, or that of service.",
+        description="Speed for which the gas torques over the crank angle are computed. Default: the "
+        "initial speed, or the service speed.",
     )
     motors: dict[Name, TrainMotor] = Field(default_factory=dict, description="Motors by name.")
     events: tuple[AnyTrainEvent, ...] = Field((), description="Events of the manoeuvre.")
     sample_time: Annotated[float, positive(TIME)] | None = Field(
-        None, description="Between the samples of the result. Default: at most 0.5 ms."
+        None, description="Sampling interval of the result. Default: at most 0.5 ms."
     )
     loss_by: Literal["shaft", "mode"] = Field(
         "shaft",
-        description="Whether hysteresis counts as viscous damping of each shaft, right at one frequency, or "
-        "as damping ratio of each mode, right at each natural frequency.",
+        description="Equivalent damping of hysteresis: per shaft (exact at one frequency) or per mode "
+        "(exact at each natural frequency).",
     )
     loss_mode: Annotated[int, Field(ge=1)] | None = Field(
         None,
-        description="Mode of vibration in which viscous damping loses what hysteresis would. Default: for "
-        "each shaft the lowest mode of whose energy it stores a twentieth or more.",
+        description="Mode in which the viscous damping dissipates as much as the hysteresis. Default: for "
+        "each shaft, the lowest mode in which it stores at least 5 % of the strain energy.",
     )
     accuracy: Annotated[float, Field(ge=1e-13, le=1e-3)] = Field(
-        1e-8, description="Relative, of a step, at its end and on the way there."
+        1e-8, description="Relative accuracy of a step, at its end and within it."
     )
     method: Literal["auto", "explicit", "implicit"] = Field(
-        "auto", description="Of integration; implicit steps do not follow the swings of very stiff shafts."
+        "auto",
+        description="Method of integration; implicit steps do not resolve the vibration of very "
+        "stiff shafts.",
     )
     steps_max: Whole = Field(5_000_000, ge=1, description="Maximum number of steps.")
 

@@ -46,7 +46,7 @@ class CrankFatigue(CheckedDescription):
     """Fillets, oil bores and steel of a crankshaft, for its fatigue by IACS UR M53."""
 
     tensile_strength: Annotated[float, positive(PRESSURE)] = Field(
-        description="σ_B that the steel is specified to have."
+        description="Specified tensile strength σ_B of the steel."
     )
     forging: Forging = Field(
         "free_form",

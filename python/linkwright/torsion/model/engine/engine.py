@@ -146,7 +146,7 @@ class ReciprocatingEngine(CheckedDescription):
     gas: AnyGas = Field(description="Gas pressure in the cylinders.")
     factors: dict[str, Annotated[float, not_negative(RATIO)]] = Field(
         default_factory=dict,
-        description="Share of the combustion in cylinders that are not sound, by number; 0 misfires.",
+        description="Combustion factor of faulty cylinders, by number; 0 for a misfire.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
