@@ -158,7 +158,7 @@ def _annotation(field: FieldInfo) -> Any:
 def _what(field: FieldInfo, mark: Quantity | QuantityList | None) -> str:
     """The quantity with its bound, or the words for anything else."""
     if isinstance(mark, QuantityList):
-        return f"list of {mark.kind.noun}s"
+        return f"list of {mark.kind.plural}"
     if isinstance(mark, Quantity):
         return mark.kind.noun + mark.bound.words.rstrip(",")
     if get_origin(field.annotation) is dict or model_of(field.annotation) is not None:

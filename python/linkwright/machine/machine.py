@@ -51,10 +51,10 @@ class RunUp(Description):
         0.0, description="Speed of the crankshaft at the start."
     )
     settled: Annotated[float, Quantity(RATIO, INSIDE_ONE)] = Field(
-        0.01, description="Difference from the steady speed at which the run-up is done, over that speed."
+        0.01, description="Relative difference from the steady speed at which the run-up is complete."
     )
     turns_max: Annotated[float, positive(RATIO)] = Field(
-        200.0, description="Revolutions of the crankshaft after which the run-up is abandoned."
+        200.0, description="Maximum number of revolutions of the crankshaft in a run-up."
     )
 
 

@@ -35,7 +35,7 @@ class Distribution(CheckedDescription):
     """How a variable scatters, cut off at its ends."""
 
     kind: Literal["normal", "lognormal", "uniform", "triangular"]
-    mean: Value | None = Field(None, description="Mean; of a triangular one, the most frequent value.")
+    mean: Value | None = Field(None, description="Mean; of a triangular distribution, the mode.")
     deviation: Value | None = Field(None, description="Standard deviation of the whole distribution.")
     least: Value | None = Field(None, description="Lower truncation.")
     greatest: Value | None = Field(None, description="Upper truncation.")
@@ -62,19 +62,18 @@ class Variable(CheckedDescription):
     range: tuple[Value, Value] | None = Field(None, description="Minimum and maximum value.")
     steps: Whole | None = Field(None, ge=2, description="Number of values of the range in a grid.")
     scale: Literal["linear", "log"] = Field("linear", description="Division of the range.")
-    whole: bool = Field(False, description="Whether the range contains only integers.")
+    whole: bool = Field(False, description="Integer variable.")
     values: tuple[Any, ...] | None = Field(None, description="List of values: numbers, texts or tables.")
     distribution: Distribution | None = Field(None, description="Distribution.")
     tolerance: str | None = Field(
         None,
-        description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "± 1 %" of it, '
-        '"25 H7" by ISO 286.',
+        description='Limits about the value of the machine: "± 0.2 mm", "+0.1 -0.3 mm", "± 1 %", or "25 '
+        'H7" by ISO 286.',
     )
     clearance: Value | None = Field(
         None,
-        description='Diametral clearance of a pin joint at an end of the length, "0.05 mm", or the fit of '
-        'pin and hole by ISO 286, "25 H7/g6", with both in the middle of their limits. Beside a tolerance of '
-        "the length it adds to this.",
+        description='Diametral clearance of a pin joint at one end of the length, "0.05 mm", or the fit '
+        'of hole and pin by ISO 286, "25 H7/g6", at mid-tolerance. It adds to a tolerance of the length.',
     )
     cost: float | None = Field(
         None, gt=0, description="Cost of this tolerance; allocation changes tolerances with a cost."
@@ -110,10 +109,10 @@ class Response(CheckedDescription):
     extreme: Literal["max", "min", "range", "mean", "rms"] | None = Field(
         None, description="Statistic of the samples of the curve."
     )
-    index: Whole | None = Field(None, ge=0, description="Place in a list, from 0.")
-    at: Angle | None = Field(None, description="Crank angle at which a motion is taken.")
+    index: Whole | None = Field(None, ge=0, description="Index in a list, from 0.")
+    at: Angle | None = Field(None, description="Crank angle at which a motion is evaluated.")
     entry: str | None = Field(
-        None, description='Number of the machine, "drive.motor.power_rated", also one of a catalogue.'
+        None, description='Number of the machine, "drive.motor.power_rated", also from a catalogue.'
     )
     formula: str | None = Field(None, description="Formula of variables and other responses, in SI.")
     level: float | None = Field(
@@ -121,8 +120,8 @@ class Response(CheckedDescription):
     )
     otherwise: float | None = Field(
         None,
-        description="Number in place of one that a machine does not have, such as `inf` for a length that no "
-        "edge reaches. Without it such a row fails.",
+        description="Value if the machine has none, such as `inf` for a length that no edge reaches. "
+        "Default: the row fails.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -159,9 +158,9 @@ def _as_response(value: object) -> object:
 class DerivedNumber(Description):
     """A number that follows from variables."""
 
-    formula: str = Field(description="Formula of variables and of derived numbers before it, in SI.")
+    formula: str = Field(description="Formula of variables and of preceding derived numbers, in SI.")
     address: Annotated[tuple[str, ...], BeforeValidator(_as_list)] = Field(
-        (), description="Entries of the machine that it sets; none if only others use it."
+        (), description="Entries of the machine that it sets; none for an auxiliary number."
     )
 
 
@@ -173,7 +172,7 @@ def _as_derived(value: object) -> object:
 class StudyPath(PathPoints, CheckedDescription):
     """Points of a path, and the point of the machine whose distances from them are responses."""
 
-    point: str = Field(description="Point of the machine that shall pass them.")
+    point: str = Field(description="Point of the machine that shall follow the path.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from self._faults_of_points(1)
@@ -194,17 +193,21 @@ class Sweep(CheckedDescription):
     """Rows of a sweep."""
 
     method: Literal["grid", "sobol", "latin_hypercube", "random", "list"] = Field(
-        "grid", description="All combinations, sequences that fill space, independent rows, or a file."
+        "grid",
+        description="Full factorial grid, space-filling sequence (Sobol, Latin hypercube), "
+        "independent random rows, or a file.",
     )
     rows: Whole | None = Field(
-        None, ge=1, le=SWEEP_ROWS.most, description="Number of rows; for a grid and a list it follows."
+        None, ge=1, le=SWEEP_ROWS.most, description="Number of rows; not for a grid or a list."
     )
     seed: Whole = Field(0, ge=0, description="Seed of the random generator.")
     file: str | None = Field(
-        None, description="Of a list: CSV with a head, or Parquet in SI; columns are named as the variables."
+        None,
+        description="File of a list: CSV with a header, or Parquet in SI; columns are named after "
+        "the variables.",
     )
     chunk: Whole | None = Field(
-        None, ge=1, le=1_000_000, description="Rows in a file of results; without it, as fits the analyses."
+        None, ge=1, le=1_000_000, description="Rows per file of results. Default: suited to the analyses."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -224,7 +227,9 @@ class FitOptions(Description):
     """Of which motion a record is, and what is known of it besides."""
 
     record: str | None = Field(
-        None, description="CSV with a head such as `time [s], speed [rpm]`, from the folder of this file."
+        None,
+        description="CSV file with a header such as `time [s], speed [rpm]`, relative to the folder "
+        "of the study file.",
     )
     motion: Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] = Field(
         "run_down",
@@ -232,20 +237,18 @@ class FitOptions(Description):
         "the manoeuvre of a train.",
     )
     speed_start: Speed | None = Field(
-        None, ge=0, description="Crank speed at the first sample; without it, it is fitted."
+        None, ge=0, description="Crank speed at the first sample. Default: fitted."
     )
-    angle_start: Angle | None = Field(
-        None, description="Crank angle at the first sample; without it, it is fitted."
-    )
+    angle_start: Angle | None = Field(None, description="Crank angle at the first sample. Default: fitted.")
     torque_per_current: float | None = Field(
-        None, gt=0, description="Motor torque over recorded current [N m/A]; without it, it is fitted."
+        None, gt=0, description="Motor torque over recorded current [N m/A]. Default: fitted."
     )
 
 
 class StudyFile(WholeDescription):
     """A study: beside its machine in a file of its own, or the table ``study`` of a machine file."""
 
-    machine: str | None = Field(None, description="The machine file, from the folder of this one.")
+    machine: str | None = Field(None, description="Machine file, relative to the folder of the study file.")
     name: str = Field("", description="Description of the study.")
     variables: dict[Name, Variable] = Field(default_factory=dict, description="Variables, by name.")
     derived: dict[Name, Annotated[DerivedNumber, BeforeValidator(_as_derived)]] = Field(

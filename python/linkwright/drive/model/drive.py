@@ -62,25 +62,33 @@ class Gearbox(Description):
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
     ] = Field(
         None,
-        description="The same factor while the load drives the motor: a number, or "
-        '"same" for the efficiency in both directions. Default: 1/efficiency.',
+        description='The same factor while the load drives the motor: a number, or "same" for the value '
+        "of `efficiency`. Default: 1/efficiency.",
     )
-    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="At the motor shaft.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        0.0, description="Moment of inertia, referred to the motor shaft."
+    )
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
-        0.0, description="Of the last wheel or pulley, about the crankshaft, if `inertia` excludes it."
+        0.0,
+        description="Moment of inertia of the last wheel or pulley, about the crankshaft, if "
+        "`inertia` excludes it.",
     )
     stiffness: PositiveStiffness | None = Field(
         None,
-        description="Of teeth or belt: torque at the motor shaft per angle there. Default: rigid.",
+        description="Stiffness of teeth or belt, referred to the motor shaft: torque per angle. Default: "
+        "rigid.",
     )
 
 
 class Coupling(Description):
     """Coupling between the motor and the gearbox."""
 
-    inertia: Annotated[float, not_negative(INERTIA)] = Field(description="At the motor shaft.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        description="Moment of inertia, referred to the motor shaft."
+    )
     beside: Literal["motor", "gearbox"] | None = Field(
-        None, description="End of a flexible motor shaft at which it sits. Default: half at each end."
+        None,
+        description="End of a flexible motor shaft that carries the coupling. Default: half at each end.",
     )
 
 
@@ -97,23 +105,27 @@ class _OnShaft(CheckedDescription):
 class Flywheel(_OnShaft):
     """Disc that evens out the motion."""
 
-    inertia: Annotated[float, not_negative(INERTIA)] = Field(description="About its own shaft.")
-    on: Shaft = Field("crank", description="The shaft that it sits on.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        description="Moment of inertia about its own shaft."
+    )
+    on: Shaft = Field("crank", description="Shaft that carries it.")
     beside: End | None = Field(
         None,
-        description="End of its shaft, if that is flexible. Default: the end away from the gearbox.",
+        description="End of its shaft, if the shaft is flexible. Default: the end away from the gearbox.",
     )
 
 
 class Brake(_OnShaft):
     """Brake of constant torque, which opposes the motion."""
 
-    torque: Annotated[float, not_negative(TORQUE)] = Field(description="At its own shaft.")
-    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="About its own shaft.")
-    on: Shaft = Field("motor", description="The shaft that it sits on.")
+    torque: Annotated[float, not_negative(TORQUE)] = Field(description="Braking torque at its own shaft.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        0.0, description="Moment of inertia about its own shaft."
+    )
+    on: Shaft = Field("motor", description="Shaft that carries it.")
     beside: End | None = Field(
         None,
-        description="End of its shaft, if that is flexible. Default: the end away from the gearbox.",
+        description="End of its shaft, if the shaft is flexible. Default: the end away from the gearbox.",
     )
 
 
@@ -123,8 +135,8 @@ class Drive(Description):
     speed: Annotated[float, positive(SPEED)] | None = Field(
         None, description="Design speed of the crankshaft."
     )
-    motor: AnyMotor | None = Field(None, description="The motor.")
-    gearbox: Gearbox = Field(default_factory=Gearbox, description="Gears between motor and crankshaft.")
+    motor: AnyMotor | None = Field(None, description="Motor of the drive.")
+    gearbox: Gearbox = Field(default_factory=Gearbox, description="Gearbox between motor and crankshaft.")
     coupling: Coupling | None = Field(None, description="Coupling at the motor shaft.")
     flywheel: Flywheel | None = Field(None, description="Flywheel.")
     brake: Brake | None = Field(None, description="Brake.")

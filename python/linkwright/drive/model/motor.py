@@ -56,7 +56,9 @@ _RATED_AGREE = 0.05
 class Motor(Description):
     """What all motors have: an inertia, and a rated point that sizing compares with."""
 
-    inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="Of the rotor, at its shaft.")
+    inertia: Annotated[float, not_negative(INERTIA)] = Field(
+        0.0, description="Moment of inertia of the rotor, at its shaft."
+    )
     power_rated: PositivePower | None = Field(None, description="Rated power at the shaft.")
     speed_rated: PositiveSpeed | None = Field(None, description="Speed at the rated point.")
     torque_rated: PositiveTorque | None = Field(None, description="Torque at the rated point.")
@@ -169,27 +171,27 @@ class InductionMotor(Motor):
 
     kind: Literal["induction"]
     catalogue: CatalogueName | None = Field(
-        None, description="Type in the catalogue of motors; its data fill in missing entries."
+        None, description="Type in the catalogue of motors; its data supply missing entries."
     )
     file: str | None = Field(
         None,
-        description="File of comma-separated values with motors, in which `catalogue` names the type; its "
-        'head has units: "type, power_rated [kW], speed_rated [rpm], torque_breakdown_ratio".',
+        description='CSV file of motors, in which `catalogue` names the type; units in the header: "type, '
+        'power_rated [kW], speed_rated [rpm], torque_breakdown_ratio".',
     )
-    speed_synchronous: PositiveSpeed | None = Field(None, description="Speed of zero torque.")
+    speed_synchronous: PositiveSpeed | None = Field(None, description="Speed at zero torque.")
     torque_breakdown: PositiveTorque | None = Field(None, description="Maximum torque.")
     speed_breakdown: PositiveSpeed | None = Field(
-        None, description="Speed of maximum torque. Default: from the rated point."
+        None, description="Speed at breakdown torque. Default: from the rated point."
     )
     torque_start: PositiveTorque | None = Field(
-        None, description="Torque at standstill. Default: Kloss's formula holds down to standstill."
+        None, description="Starting torque. Default: Kloss's formula applies down to standstill."
     )
     torque_pull_up: PositiveTorque | None = Field(
         None, description="Minimum torque between standstill and breakdown."
     )
     speed_pull_up: PositiveSpeed | None = Field(None, description="Speed of the pull-up torque.")
     resistance_ratio: Annotated[float, not_negative(RATIO)] = Field(
-        0.0, description="Stator over referred rotor resistance; 0 is Kloss's simplified formula."
+        0.0, description="Ratio of stator to referred rotor resistance; 0 gives Kloss's simplified formula."
     )
 
     @property
@@ -344,13 +346,13 @@ class DcMotor(Motor):
     """
 
     kind: Literal["dc"]
-    speed_no_load: PositiveSpeed = Field(description="Speed of zero torque.")
+    speed_no_load: PositiveSpeed = Field(description="Speed at zero torque.")
     torque_stall: PositiveTorque | None = Field(
-        None, description="Torque at standstill. Default: from the rated point."
+        None, description="Stall torque. Default: from the rated point."
     )
     torque_max: PositiveTorque | None = Field(
         None,
-        description="Maximum torque, by the limit of the current, driving or braking. Default: no limit.",
+        description="Maximum torque by the current limit, driving or braking. Default: no limit.",
     )
 
     def limited(self) -> tuple[tuple[float, float], ...]:
@@ -406,14 +408,14 @@ class ConstantTorqueMotor(Motor):
     """Motor that gives the same torque at any speed."""
 
     kind: Literal["constant_torque"]
-    torque: Torque = Field(description="At the motor shaft.")
+    torque: Torque = Field(description="Torque at the motor shaft.")
 
 
 class ConstantSpeedMotor(Motor):
     """Motor that keeps its speed under any load."""
 
     kind: Literal["constant_speed"]
-    speed: PositiveSpeed = Field(description="Of the motor shaft.")
+    speed: PositiveSpeed = Field(description="Speed of the motor shaft.")
 
 
 AnyMotor = Annotated[

@@ -90,7 +90,7 @@ def words_of(annotation: Any) -> str:
         if entry is not None:
             entries = get_args(lists[0])
             count = "" if entries[-1] is Ellipsis else f"{len(entries)} "
-            return f"a list of {count}{entry.kind.noun}s"
+            return f"a list of {count}{entry.kind.plural}"
         if _bare(inner) is int:
             return "a list of whole numbers"
         count = "" if get_args(lists[0])[-1] is Ellipsis else "two "

@@ -61,27 +61,31 @@ class ShownUnits(Description):
 
     length: Annotated[str | None, UnitOf(LENGTH)] = Field(
         None,
-        description="Of lengths; of velocities and accelerations too, unless they have one.",
+        description="Unit of lengths; also of velocities and accelerations, unless given.",
     )
-    angle: Annotated[str | None, UnitOf(ANGLE)] = Field(None, description="Of angles; degrees without it.")
-    mass: Annotated[str | None, UnitOf(MASS)] = Field(None, description="Of masses.")
-    time: Annotated[str | None, UnitOf(TIME)] = Field(None, description="Of times.")
-    speed: Annotated[str | None, UnitOf(SPEED)] = Field(None, description="Of angular speeds.")
+    angle: Annotated[str | None, UnitOf(ANGLE)] = Field(None, description="Unit of angles. Default: degrees.")
+    mass: Annotated[str | None, UnitOf(MASS)] = Field(None, description="Unit of masses.")
+    time: Annotated[str | None, UnitOf(TIME)] = Field(None, description="Unit of times.")
+    speed: Annotated[str | None, UnitOf(SPEED)] = Field(None, description="Unit of angular speeds.")
     angular_acceleration: Annotated[str | None, UnitOf(ANGULAR_ACCELERATION)] = Field(
-        None, description="Of angular accelerations."
+        None, description="Unit of angular accelerations."
     )
-    velocity: Annotated[str | None, UnitOf(VELOCITY)] = Field(None, description="Of velocities.")
-    acceleration: Annotated[str | None, UnitOf(ACCELERATION)] = Field(None, description="Of accelerations.")
-    force: Annotated[str | None, UnitOf(FORCE)] = Field(None, description="Of forces.")
-    torque: Annotated[str | None, UnitOf(TORQUE)] = Field(None, description="Of torques.")
-    energy: Annotated[str | None, UnitOf(ENERGY)] = Field(None, description="Of energies and works.")
-    power: Annotated[str | None, UnitOf(POWER)] = Field(None, description="Of powers.")
-    inertia: Annotated[str | None, UnitOf(INERTIA)] = Field(None, description="Of moments of inertia.")
-    pressure: Annotated[str | None, UnitOf(PRESSURE)] = Field(None, description="Of pressures and stresses.")
+    velocity: Annotated[str | None, UnitOf(VELOCITY)] = Field(None, description="Unit of velocities.")
+    acceleration: Annotated[str | None, UnitOf(ACCELERATION)] = Field(
+        None, description="Unit of accelerations."
+    )
+    force: Annotated[str | None, UnitOf(FORCE)] = Field(None, description="Unit of forces.")
+    torque: Annotated[str | None, UnitOf(TORQUE)] = Field(None, description="Unit of torques.")
+    energy: Annotated[str | None, UnitOf(ENERGY)] = Field(None, description="Unit of energy and work.")
+    power: Annotated[str | None, UnitOf(POWER)] = Field(None, description="Unit of power.")
+    inertia: Annotated[str | None, UnitOf(INERTIA)] = Field(None, description="Unit of moments of inertia.")
+    pressure: Annotated[str | None, UnitOf(PRESSURE)] = Field(
+        None, description="Unit of pressures and stresses."
+    )
     stiffness: Annotated[str | None, UnitOf(STIFFNESS)] = Field(
-        None, description="Of stiffnesses of springs."
+        None, description="Unit of spring stiffnesses."
     )
     torsional_stiffness: Annotated[str | None, UnitOf(TORSIONAL_STIFFNESS)] = Field(
-        None, description="Of torsional stiffnesses."
+        None, description="Unit of torsional stiffnesses."
     )
-    frequency: Annotated[str | None, UnitOf(FREQUENCY)] = Field(None, description="Of frequencies.")
+    frequency: Annotated[str | None, UnitOf(FREQUENCY)] = Field(None, description="Unit of frequencies.")

@@ -83,6 +83,13 @@ class Kind:
         return self.word.split(" ", 1)[1]
 
     @property
+    def plural(self) -> str:
+        """The noun of several: velocities, moments of inertia."""
+        words = re.split(r"(?= of | per )", self.noun, maxsplit=1)
+        words[0] = re.sub("y$", "ie", words[0]) + ("es" if words[0].endswith("s") else "s")
+        return "".join(words)
+
+    @property
     def expected(self) -> str:
         """What belongs into a field of this kind."""
         return f"{self.word} {self.forms}"

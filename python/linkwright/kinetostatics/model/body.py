@@ -28,22 +28,25 @@ class Body(CheckedDescription):
     """A mass on a link or on a point."""
 
     on: str | None = Field(None, description="Link or moving point that carries it. Default: its own name.")
-    mass: Annotated[float, not_negative(MASS)] | None = Field(None, description="The mass.")
+    mass: Annotated[float, not_negative(MASS)] | None = Field(None, description="Mass of the body.")
     mass_per_length: Annotated[float, not_negative(MASS_PER_LENGTH)] | None = Field(
-        None, description="Of a uniform rod as long as the link."
+        None, description="Mass per length of a uniform rod of the length of the link."
     )
     inertia: Annotated[float, not_negative(INERTIA)] | None = Field(
-        None, description="About the centre of mass. Default: that of a uniform slender rod."
+        None,
+        description="Moment of inertia about the centre of mass. Default: that of a uniform slender rod.",
     )
     along: Length | None = Field(
         None,
-        description="Centre of mass, from the start of the link along it. Default: the middle.",
+        description="Position of the centre of mass along the link, from its start. Default: the middle.",
     )
-    across: Length = Field(0.0, description="Centre of mass, to the left of the link.")
+    across: Length = Field(
+        0.0, description="Position of the centre of mass across the link, positive to the left."
+    )
     axial: Length = Field(
         0.0,
-        description="Place along the axis of the crankshaft, towards who sees it turn counter-clockwise, for "
-        "the shaking couple.",
+        description="Position along the axis of the crankshaft, positive towards an observer who sees "
+        "counter-clockwise rotation; for the shaking couple.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -14,11 +14,11 @@ from linkwright.kernel.units import Angles, Lengths
 class PathPoints(Description):
     """Points that a point of the mechanism shall pass in their order while the crank turns."""
 
-    x: Lengths = Field(description="To the right, one value a point.")
-    y: Lengths = Field(description="Up, one value a point.")
+    x: Lengths = Field(description="x coordinates, one value per point.")
+    y: Lengths = Field(description="y coordinates, one value per point.")
     crank_angle: Angles | None = Field(
         None,
-        description="Crank angle at each point. Default: timing is free.",
+        description="Crank angle at each point. Default: free timing.",
     )
 
     def _faults_of_points(self, least: int) -> Iterator[InitErrorDetails]:

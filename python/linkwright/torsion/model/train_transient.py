@@ -151,8 +151,8 @@ class ShortCircuit(_TimedEvent):
     kind: Literal["short_circuit"]
     on: str = Field(description="Disc of the generator.")
     torque: PositiveTorque = Field(description="Rated torque: apparent power over speed.")
-    speed: PositiveSpeed = Field(description="Of its rotor.")
-    pole_pairs: Whole = Field(ge=1, description="Of its rotor.")
+    speed: PositiveSpeed = Field(description="Speed of the rotor.")
+    pole_pairs: Whole = Field(ge=1, description="Number of pole pairs of the rotor.")
     reactance: Annotated[float, positive(RATIO)] = Field(description="Subtransient reactance, per unit.")
     decay: Annotated[float, positive(TIME)] = Field(description="Time constant of the torque.")
     phases: Literal[2, 3] = Field(3, description="Number of short-circuited phases.")

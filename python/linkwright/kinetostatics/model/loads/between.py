@@ -35,7 +35,7 @@ _FROM_ONE = Bound(" of 1 or more,", {"minimum": 1}, lambda value: value >= 1)
 class BetweenPoints(Load):
     """A load that pulls or pushes two points along the line between them."""
 
-    between: tuple[str, str] = Field(description="The two points that it joins.")
+    between: tuple[str, str] = Field(description="The two points that it connects.")
 
 
 class Spring(BetweenPoints):
@@ -43,14 +43,14 @@ class Spring(BetweenPoints):
 
     kind: Literal["spring"]
     stiffness: Annotated[float, not_negative(STIFFNESS)] | None = Field(
-        None, description="Force per stretch."
+        None, description="Spring rate: force per extension."
     )
     free_length: Annotated[float, not_negative(LENGTH)] | None = Field(
-        None, description="Length without any force but the preload."
+        None, description="Free length, at which only the preload acts."
     )
-    preload: Force = Field(0.0, description="Pull at the free length.")
-    length: Lengths | None = Field(None, description="Lengths of a curve, increasing.")
-    force: Forces | None = Field(None, description="Pull at each length.")
+    preload: Force = Field(0.0, description="Preload: tension at the free length.")
+    length: Lengths | None = Field(None, description="Lengths of a spring curve, increasing.")
+    force: Forces | None = Field(None, description="Tension at each length.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from number_or_curve(self, "stiffness", "length", "force")
@@ -68,11 +68,15 @@ class Damper(BetweenPoints):
     """A damper between two points, linear or by a curve of its force over the speed at which they part."""
 
     kind: Literal["damper"]
-    damping: Annotated[float, not_negative(DAMPING)] | None = Field(None, description="Force per velocity.")
-    velocity: Velocities | None = Field(
-        None, description="Velocities of a curve, increasing; negative while the points near each other."
+    damping: Annotated[float, not_negative(DAMPING)] | None = Field(
+        None, description="Damping coefficient: force per velocity."
     )
-    force: Forces | None = Field(None, description="Force at each velocity, positive against parting.")
+    velocity: Velocities | None = Field(
+        None,
+        description="Velocities of a damper curve, increasing; negative while the points approach "
+        "each other.",
+    )
+    force: Forces | None = Field(None, description="Force at each velocity, positive against separation.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from number_or_curve(self, "damping", "velocity", "force")
@@ -84,14 +88,16 @@ class GasSpring(BetweenPoints):
     """A gas spring: pushes two points apart, the more the further it is pressed in."""
 
     kind: Literal["gas_spring"]
-    force_extended: Annotated[float, positive(FORCE)] = Field(description="Push at the extended length.")
-    length_extended: Annotated[float, positive(LENGTH)] = Field(description="Length when extended.")
-    length_compressed: Annotated[float, positive(LENGTH)] = Field(description="Length when pressed in.")
+    force_extended: Annotated[float, positive(FORCE)] = Field(
+        description="Compressive force at the extended length."
+    )
+    length_extended: Annotated[float, positive(LENGTH)] = Field(description="Extended length.")
+    length_compressed: Annotated[float, positive(LENGTH)] = Field(description="Compressed length.")
     progression: Annotated[float, Quantity(RATIO, _ABOVE_ONE)] = Field(
-        description="Push at the compressed length over that at the extended length."
+        description="Force at the compressed length over force at the extended length."
     )
     exponent: Annotated[float, Quantity(RATIO, _FROM_ONE)] = Field(
-        1.2, description="Polytropic exponent: 1 slow, 1.4 without exchange of heat."
+        1.2, description="Polytropic exponent: 1 for slow (isothermal), 1.4 for fast (adiabatic) motion."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -104,11 +110,15 @@ class TorsionalSpring(Load):
     """A torque in proportion to the turning of a link from its free angle."""
 
     kind: Literal["torsional_spring"]
-    on: str = Field(description="Link that it acts on.")
-    against: str | None = Field(None, description="Link that it holds on to. Default: the frame.")
-    stiffness: Annotated[float, not_negative(TORSIONAL_STIFFNESS)] = Field(description="Torque per angle.")
+    on: str = Field(description="Link on which it acts.")
+    against: str | None = Field(
+        None, description="Link to which the other end is attached. Default: the frame."
+    )
+    stiffness: Annotated[float, not_negative(TORSIONAL_STIFFNESS)] = Field(
+        description="Torsional stiffness: torque per angle."
+    )
     free_angle: Angle = Field(
-        0.0, description="Angle without torque, from the link that it holds on to, or from the x axis."
+        0.0, description="Angle of zero torque, measured from the other link or from the x axis."
     )
 
 
@@ -116,8 +126,10 @@ class TorsionalDamper(Load):
     """A torque against the speed of a link relative to another, in proportion to it."""
 
     kind: Literal["torsional_damper"]
-    on: str = Field(description="Link that it acts on.")
-    against: str | None = Field(None, description="Link that it holds on to. Default: the frame.")
+    on: str = Field(description="Link on which it acts.")
+    against: str | None = Field(
+        None, description="Link to which the other end is attached. Default: the frame."
+    )
     damping_torsional: Annotated[float, not_negative(TORSIONAL_DAMPING)] = Field(
-        description="Torque per angular speed."
+        description="Torsional damping coefficient: torque per angular velocity."
     )

@@ -57,18 +57,22 @@ class ConstantForce(Load):
     """A force of constant size, fixed in direction or turning with a link."""
 
     kind: Literal["force"]
-    on: str = Field(description="Moving point or slider that it acts on.")
-    force: Force = Field(description="Its size.")
-    direction: Angle = Field(0.0, description="Its direction, from the x axis, or from the link `along`.")
-    along: str | None = Field(None, description="Link that it turns with. Default: it keeps its direction.")
+    on: str = Field(description="Moving point or slider on which it acts.")
+    force: Force = Field(description="Magnitude of the force.")
+    direction: Angle = Field(
+        0.0, description="Direction of the force, measured from the x axis or from the link `along`."
+    )
+    along: str | None = Field(
+        None, description="Link with which the force rotates. Default: its direction is fixed."
+    )
 
 
 class ConstantTorque(Load):
     """A torque of constant size."""
 
     kind: Literal["torque"]
-    on: str = Field(description="Link that it acts on.")
-    torque: Torque = Field(description="Counter-clockwise.")
+    on: str = Field(description="Link on which it acts.")
+    torque: Torque = Field(description="Torque, positive counter-clockwise.")
 
 
 class Gravity(Load):
@@ -76,7 +80,7 @@ class Gravity(Load):
 
     kind: Literal["gravity"]
     acceleration: Annotated[float, not_negative(ACCELERATION)] = Field(
-        9.81, description="Acceleration of free fall."
+        9.81, description="Acceleration of gravity."
     )
     direction: Angle = Field(-math.pi / 2, description="Direction of gravity, from the x axis.")
 
@@ -85,9 +89,13 @@ class DryFriction(Load):
     """Resistance of constant size that always opposes the motion."""
 
     kind: Literal["dry"]
-    on: str = Field(description="Moving point, slider or link that it acts on.")
-    force: Annotated[float, not_negative(FORCE)] | None = Field(None, description="On a point or a slider.")
-    torque: Annotated[float, not_negative(TORQUE)] | None = Field(None, description="On a link.")
+    on: str = Field(description="Moving point, slider or link on which it acts.")
+    force: Annotated[float, not_negative(FORCE)] | None = Field(
+        None, description="Friction force on a point or a slider."
+    )
+    torque: Annotated[float, not_negative(TORQUE)] | None = Field(
+        None, description="Friction torque on a link."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         return one_of(self, "force", "torque")
@@ -97,12 +105,12 @@ class ViscousFriction(Load):
     """Resistance in proportion to the speed, against the motion."""
 
     kind: Literal["viscous"]
-    on: str = Field(description="Moving point, slider or link that it acts on.")
+    on: str = Field(description="Moving point, slider or link on which it acts.")
     damping: Annotated[float, not_negative(DAMPING)] | None = Field(
-        None, description="Force per velocity, on a point or a slider."
+        None, description="Damping coefficient on a point or a slider: force per velocity."
     )
     damping_torsional: Annotated[float, not_negative(TORSIONAL_DAMPING)] | None = Field(
-        None, description="Torque per angular speed, on a link."
+        None, description="Torsional damping coefficient on a link: torque per angular velocity."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -113,18 +121,21 @@ class FormulaLoad(Load):
     """A force or a torque by a formula in angle, speed, time, position and velocity of what it acts on."""
 
     kind: Literal["formula"]
-    on: str = Field(description="Moving point, slider or link that it acts on.")
+    on: str = Field(description="Moving point, slider or link on which it acts.")
     force: str | None = Field(None, description="Formula of a force in N, on a point or a slider.")
-    torque: str | None = Field(None, description="Formula of a torque in N m, on a link, counter-clockwise.")
+    torque: str | None = Field(
+        None, description="Formula of a torque in N m, on a link, positive counter-clockwise."
+    )
     direction: Angle | None = Field(
         None, description="Direction of the force, from the x axis, or from the link `along`."
     )
-    along: str | None = Field(None, description="Link that the force turns with.")
+    along: str | None = Field(None, description="Link with which the force rotates.")
     constants: dict[str, Annotated[float, AnyQuantity()]] = Field(
         default_factory=dict, description="Constants of the formula by name, in any unit."
     )
     cycle: CycleAngle = Field(
-        ONE_TURN, description="Angle after which phi in the formula starts again from 0, such as 720 deg."
+        ONE_TURN,
+        description="Period of phi in the formula: phi restarts from 0 after this angle, such as 720 deg.",
     )
 
     @property

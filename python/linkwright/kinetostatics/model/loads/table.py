@@ -30,11 +30,11 @@ class ForcePosition(Load):
     """
 
     kind: Literal["force_position"]
-    on: str = Field(description="Point on a guide that it acts on.")
+    on: str = Field(description="Point on a guide on which it acts.")
     position: Lengths = Field(description="Positions along the guide, increasing.")
-    forward: Forces = Field(description="Force at each position while it moves forward.")
+    forward: Forces = Field(description="Force at each position during forward motion.")
     return_: Forces | None = Field(
-        None, alias="return", description="Force at each position on the way back. Default: none."
+        None, alias="return", description="Force at each position during return. Default: none."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -49,11 +49,11 @@ class TorqueSwing(Load):
     """
 
     kind: Literal["torque_swing"]
-    on: str = Field(description="Link that it acts on.")
+    on: str = Field(description="Link on which it acts.")
     angle: Angles = Field(description="Angles of the link, increasing.")
-    forward: Torques = Field(description="Torque at each angle while the link turns counter-clockwise.")
+    forward: Torques = Field(description="Torque at each angle during counter-clockwise rotation.")
     return_: Torques | None = Field(
-        None, alias="return", description="Torque at each angle on the way back. Default: none."
+        None, alias="return", description="Torque at each angle during clockwise rotation. Default: none."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -144,7 +144,7 @@ class ForceAngle(OverCrankAngle):
     """
 
     kind: Literal["force_angle"]
-    on: str = Field(description="Point on a guide that it acts on.")
+    on: str = Field(description="Point on a guide on which it acts.")
     force: Forces = Field(description="Force at each angle, positive along the guide.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:

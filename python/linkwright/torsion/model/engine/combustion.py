@@ -65,38 +65,38 @@ class Combustion(Gas):
 
     kind: Literal["wiebe"]
     charge_pressure: PositivePressure = Field(
-        100e3, description="Absolute pressure in the cylinder as it closes, and while the intake is open."
+        100e3, description="Absolute pressure in the cylinder at closure and during intake."
     )
     charge_pressure_unloaded: PositivePressure | None = Field(
         None,
-        description="The same without load; in between it is linear in the mean effective pressure. "
-        "Default: the same at any load.",
+        description="Charge pressure at no load; between no load and full load it is linear in the mean "
+        "effective pressure. Default: the same at any load.",
     )
     charge_temperature: Annotated[float, positive(TEMPERATURE)] = Field(
-        340.0, description="Of the gas as the cylinder closes."
+        340.0, description="Temperature of the gas at closure of the cylinder."
     )
     exhaust_pressure: PositivePressure | None = Field(
         None,
-        description="Absolute; without it, 105 kPa and 90 % of what the charge pressure has above 100 kPa.",
+        description="Absolute exhaust pressure. Default: 105 kPa plus 90 % of the charge pressure above "
+        "100 kPa.",
     )
     heat: Annotated[float, positive(ENERGY)] | None = Field(
-        None, description="Heat of the fuel in a cycle of one cylinder."
+        None, description="Heat of the fuel per cycle and cylinder."
     )
     mean_effective_pressure: PositivePressure | None = Field(
-        None, description="Indicated mean effective pressure, in place of the heat."
+        None, description="Indicated mean effective pressure, instead of the heat."
     )
-    peak_pressure: PositivePressure | None = Field(
-        None, description="Maximum pressure, in place of the heat."
-    )
+    peak_pressure: PositivePressure | None = Field(None, description="Maximum pressure, instead of the heat.")
     releases: tuple[Wiebe, ...] = Field(
         (Wiebe(start=-math.radians(5.0), duration=math.radians(60.0), form_factor=1.0),),
-        description="How the heat is released; several functions add up by their shares.",
+        description="Functions of the heat release, weighted by their shares.",
     )
     isentropic_exponent: Exponent | None = Field(
-        None, description="Of the gas; without it, that of air and burnt gas by its temperature."
+        None,
+        description="Isentropic exponent of the gas. Default: that of air and burnt gas at its temperature.",
     )
-    walls: AnyWallHeat | None = Field(None, description="Loss of heat to the walls. Default: none.")
-    valves: Valves = Field(Valves(), description="When valves or ports open and close.")
+    walls: AnyWallHeat | None = Field(None, description="Heat loss to the walls. Default: none.")
+    valves: Valves = Field(Valves(), description="Timing of valves or ports.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()

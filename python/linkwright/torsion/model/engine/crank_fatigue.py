@@ -50,8 +50,8 @@ class CrankFatigue(CheckedDescription):
     )
     forging: Forging = Field(
         "free_form",
-        description='"grain_flow" of continuous grain flow or drop-forged, "cast_rolled" of cast steel with '
-        "cold rolled fillets.",
+        description='Manufacture: free-form forged; "grain_flow": continuous grain flow or drop-forged; '
+        '"cast_rolled": cast steel with cold-rolled fillets.',
     )
     pin_fillet: PositiveLength = Field(description="Radius R_H of the fillets of the crank pin.")
     journal_fillet: PositiveLength = Field(description="Radius R_G of the fillets of the main journal.")
@@ -62,19 +62,21 @@ class CrankFatigue(CheckedDescription):
         0.0, description="Recess T_G of the journal fillet."
     )
     web_thickness: PositiveLength | None = Field(
-        None, description="W of the solid web. Default: that of the throw."
+        None, description="Thickness W of the solid web. Default: that of the throw."
     )
-    web_width: PositiveLength | None = Field(None, description="B of the web. Default: that of the throw.")
+    web_width: PositiveLength | None = Field(
+        None, description="Width B of the web. Default: that of the throw."
+    )
     oil_bore: PositiveLength | None = Field(
         None, description="Diameter D_O of the oil bore of the pin, in the middle of each rod."
     )
     oil_bore_angle: Angle = Field(
-        0.0, description="ψ of its outlet: 0 across the crank, a quarter of a revolution along it."
+        0.0, description="Angle ψ of the outlet of the oil bore: 0 across the crank, 90 deg along it."
     )
     additional_bending: Annotated[float, not_negative(PRESSURE)] = Field(
         _ADDITIONAL,
-        description="σ_add by misalignment, deformation of the bedplate and axial vibration; of crosshead "
-        "engines 30 N/mm².",
+        description="Additional bending stress σ_add by misalignment, deformation of the bedplate and "
+        "axial vibration; 30 N/mm² for crosshead engines.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -101,44 +101,49 @@ class ReciprocatingEngine(CheckedDescription):
     strokes: Literal[2, 4] = Field(4, description="Strokes of a working cycle.")
     bore: PositiveLength = Field(description="Diameter of the cylinders.")
     crank_radius: PositiveLength | None = Field(
-        None, description="Half the stroke of a plain crank. Default: that of the throw."
+        None,
+        description="Crank radius: half the stroke of a plain crank mechanism. Default: that of the throw.",
     )
     throws: Angles = Field(
-        description="Angle of each throw from the first, counted in the sense of rotation; the first is 0."
+        description="Angle of each throw from the first, in the sense of rotation; the first is 0."
     )
     banks: Angles = Field(
         (0.0,), description="Angle of the cylinders of each bank from the vertical, in the sense of rotation."
     )
     numbering: Literal["by_bank", "by_throw"] = Field(
-        "by_bank", description="Whether numbers run along the first bank first, or across the first throw."
+        "by_bank", description="Numbering of the cylinders: bank after bank, or throw after throw."
     )
-    firing_order: tuple[int, ...] = Field(description="Numbers of the cylinders, from 1, as they fire.")
+    firing_order: tuple[int, ...] = Field(description="Numbers of the cylinders, from 1, in firing order.")
     rods: Literal["side_by_side", "fork_and_blade", "articulated"] = Field(
         "side_by_side",
-        description="How rods of several banks share a pin. On an articulated pair the first bank has the "
-        "master rod.",
+        description="Arrangement of the rods of several banks on one pin. With articulated rods, the "
+        "first bank has the master rod.",
     )
-    rod: Rod = Field(description="Connecting rod, of articulated ones the master rod.")
+    rod: Rod = Field(description="Connecting rod; with articulated rods, the master rod.")
     articulated: ArticulatedRod | None = Field(
-        None, description="Rod of the other banks, where it turns on the master rod."
+        None, description="Articulated rod of the other banks, pivoted on the master rod."
     )
-    piston_mass: Annotated[float, positive(MASS)] = Field(description="Piston, pin, rings, of one cylinder.")
+    piston_mass: Annotated[float, positive(MASS)] = Field(
+        description="Mass of piston, pin and rings of one cylinder."
+    )
     throw: CrankThrow | None = Field(None, description="Geometry of a throw.")
     throw_inertia: Annotated[float, positive(INERTIA)] | None = Field(
         None,
-        description="Of the rotating parts of one throw, without rods. Default: that of the throw.",
+        description="Moment of inertia of the rotating parts of one throw, without rods. Default: from "
+        "the throw.",
     )
     stiffness: PositiveStiffness | None = Field(
-        None, description="From throw to throw, measured or computed. Default: by a formula."
+        None,
+        description="Torsional stiffness from throw to throw, measured or computed. Default: by a formula.",
     )
     stiffness_formula: Literal["constrained", "free", "carter", "ker_wilson", "zimanenko"] = Field(
-        "constrained", description="For the stiffness of the throw."
+        "constrained", description="Formula for the stiffness of the throw."
     )
-    damping: Damping = Field(0.0, description="Viscous, of each throw against the frame.")
-    loss_factor: LossFactor = Field(0.0, description="Hysteresis of the crankshaft.")
+    damping: Damping = Field(0.0, description="Viscous damping of each throw against the frame.")
+    loss_factor: LossFactor = Field(0.0, description="Loss factor of the crankshaft.")
     limit: ShaftLimit | None = Field(
         None,
-        description="Permitted stresses of the crankshaft; without a diameter of its own, at the crank pin.",
+        description="Permitted stresses of the crankshaft; without a diameter, at the crank pin.",
     )
     fatigue: CrankFatigue | None = Field(
         None, description="Fillets, oil bores and steel, for the fatigue of the crankshaft by IACS UR M53."

@@ -76,7 +76,9 @@ class ConstantGasLoad(GasLoad):
     """The same mean effective pressure at any speed."""
 
     kind: Literal["constant"]
-    mean_effective_pressure: PositivePressure = Field(description="Indicated, at any speed.")
+    mean_effective_pressure: PositivePressure = Field(
+        description="Indicated mean effective pressure, at any speed."
+    )
 
     @property
     def rated(self) -> float:
@@ -92,13 +94,15 @@ class TableGasLoad(GasLoad):
     kind: Literal["table"]
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, with "
-        'units in its head: "speed [rpm], mean_effective_pressure [bar]".',
+        description="CSV file beside the machine file, instead of the lists, with units in the header: "
+        '"speed [rpm], mean_effective_pressure [bar]".',
     )
-    speed: Speeds = Field((), description="Of the crank, increasing.")
-    mean_effective_pressure: Pressures = Field((), description="Indicated, at each speed.")
+    speed: Speeds = Field((), description="Speeds of the crankshaft, increasing.")
+    mean_effective_pressure: Pressures = Field(
+        (), description="Indicated mean effective pressure at each speed."
+    )
     charge_pressure: Pressures | None = Field(
-        None, description="Pressure in the cylinder as it closes, at each speed; else that of the model."
+        None, description="Charge pressure at each speed. Default: that of the model."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -130,14 +134,18 @@ class PropellerGasLoad(GasLoad):
     """Mean effective pressure that rises with a power of the speed."""
 
     kind: Literal["propeller"]
-    speed: Annotated[float, positive(SPEED)] = Field(description="Of the crank at the rated point.")
+    speed: Annotated[float, positive(SPEED)] = Field(
+        description="Speed of the crankshaft at the rated point."
+    )
     mean_effective_pressure: PositivePressure | None = Field(
-        None, description="Indicated, at the rated point. Default: that of the gas as described."
+        None, description="Indicated mean effective pressure at the rated point. Default: that of the gas."
     )
     friction_pressure: Annotated[float, not_negative(PRESSURE)] = Field(
-        0.0, description="Mean effective pressure of the engine's own friction, at any speed."
+        0.0, description="Friction mean effective pressure of the engine, at any speed."
     )
-    exponent: Annotated[float, positive(RATIO)] = Field(2.0, description="Of the speed; 2 for a propeller.")
+    exponent: Annotated[float, positive(RATIO)] = Field(
+        2.0, description="Exponent of the speed; 2 for a propeller."
+    )
 
     @property
     def rated(self) -> float | None:
@@ -164,7 +172,9 @@ Exponent = Annotated[float, Quantity(RATIO, ABOVE_ONE)]
 class Gas(CheckedDescription):
     """Pressure in a cylinder over its working cycle, at any speed."""
 
-    compression_ratio: CompressionRatio = Field(description="Maximum over minimum volume above the piston.")
+    compression_ratio: CompressionRatio = Field(
+        description="Ratio of maximum to minimum volume above the piston."
+    )
     crankcase_pressure: Annotated[float, not_negative(PRESSURE)] = Field(
         101325.0, description="Absolute pressure under the pistons."
     )

@@ -61,15 +61,20 @@ class Wiebe(Description):
     """One release of heat."""
 
     start: Angle = Field(description="Crank angle from the top dead centre of firing; negative before it.")
-    duration: Annotated[float, positive(ANGLE)] = Field(description="Crank angle to the end of the release.")
+    duration: Annotated[float, positive(ANGLE)] = Field(
+        description="Duration of the heat release, as crank angle."
+    )
     form_factor: Annotated[float, not_negative(RATIO)] = Field(
-        2.0, description="m: 2 for spark ignition, 0.5 to 1 for Diesel engines, 0 for an abrupt start."
+        2.0,
+        description="Form factor m: 2 for spark ignition, 0.5 to 1 for Diesel engines, 0 for an "
+        "abrupt start.",
     )
     efficiency_factor: Annotated[float, positive(RATIO)] = Field(
-        _COMPLETE, description="a: the usual 6.908 leaves a thousandth at the end."
+        _COMPLETE,
+        description="Factor a: with the usual 6.908, 0.1 % of the heat remains unreleased at the end.",
     )
     share: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Of the heat; the shares of all releases make 1."
+        1.0, description="Share of the heat; the shares of all functions add up to 1."
     )
 
     @property
@@ -114,10 +119,10 @@ class WallHeat(Description):
     """Loss of heat by convection to walls of one temperature."""
 
     wall_temperature: Annotated[float, positive(TEMPERATURE)] = Field(
-        450.0, description="Mean of piston, head and liner."
+        450.0, description="Mean wall temperature of piston, head and liner."
     )
     factor: Annotated[float, positive(RATIO)] = Field(
-        1.0, description="On the coefficient of heat transfer, to fit a measurement."
+        1.0, description="Factor on the heat transfer coefficient, to fit a measurement."
     )
 
     @abstractmethod
@@ -159,7 +164,7 @@ class HeatShare(Description):
 
     kind: Literal["share"]
     share: Annotated[float, Quantity(RATIO, INSIDE_ONE)] = Field(
-        description="Of the heat released that goes into the walls, in proportion to the release."
+        description="Share of the heat released that is lost to the walls."
     )
 
 

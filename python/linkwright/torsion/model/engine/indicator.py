@@ -221,8 +221,8 @@ class Diagram(CheckedDescription):
     kind: Literal["table"]
     file: str | None = Field(
         None,
-        description="File of comma-separated values beside the machine file, in place of the lists, with "
-        'units in its head: "angle [deg], pressure [bar]".',
+        description="CSV file beside the machine file, instead of the lists, with units in the header: "
+        '"angle [deg], pressure [bar]".',
     )
     angle: Angles = Field(
         (), description="Crank angles from the top dead centre of firing, increasing, over one working cycle."
@@ -253,13 +253,18 @@ class Indicator(Diagram, Gas):
     )
     combustion_start: Angle = Field(
         -math.radians(15.0),
-        description="Crank angle up to which the diagram is that of a motored cylinder; before the ignition.",
+        description="Crank angle up to which the diagram equals that of the motored cylinder, before "
+        "ignition.",
     )
     exhaust_opens: Annotated[float, positive(ANGLE)] | None = Field(
-        None, description="Crank angle; without it 130 deg with four strokes, 110 deg with two."
+        None,
+        description="Crank angle at which the exhaust opens. Default: 130 deg with four strokes, "
+        "110 deg with two.",
     )
     polytropic_exponent: Exponent | None = Field(
-        None, description="Of the motored line; without it, fitted to the compression of the diagram."
+        None,
+        description="Polytropic exponent of the motored line. Default: fitted to the compression of "
+        "the diagram.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -116,15 +116,15 @@ class Swings(CheckedDescription):
         None, description="Single swings per minute, from one side to the other."
     )
     period: Annotated[float, positive(TIME)] | None = Field(
-        None, description="Of a full swing back and forth, in place of the swings per minute."
+        None, description="Period of a full swing, instead of the swings per minute."
     )
     edge: Annotated[float, not_negative(LENGTH)] = Field(
         0.0,
-        description="Of the knife edge beyond the axis of the head, seen from the centre of mass: the radius "
-        "of the bore in which the rod hangs.",
+        description="Distance of the knife edge beyond the axis of the end, seen from the centre of mass: "
+        "the radius of the bore in which the rod hangs.",
     )
     gravity: Annotated[float, positive(ACCELERATION)] = Field(
-        FREE_FALL, description="Acceleration of free fall at the place of the test."
+        FREE_FALL, description="Acceleration of gravity at the place of the test."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -151,12 +151,12 @@ class Swing(Swings):
     """A test in one head; the centre of mass is found by weighing or balancing."""
 
     about: Literal["small_end", "big_end"] = Field(
-        "small_end", description="The head in which the rod hangs."
+        "small_end", description="End in which the rod is suspended."
     )
 
 
 class TwoPointSwing(Description):
     """A test in both heads one after the other, which finds the centre of mass as well."""
 
-    big_end: Swings = Field(description="Hanging in the big end.")
-    small_end: Swings = Field(description="Hanging in the small end.")
+    big_end: Swings = Field(description="Test with the rod suspended in the big end.")
+    small_end: Swings = Field(description="Test with the rod suspended in the small end.")

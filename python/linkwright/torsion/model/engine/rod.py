@@ -75,22 +75,25 @@ class RodBody(NamedTuple):
 class Rod(CheckedDescription):
     """A connecting rod on the crank pin: one of two side by side, a fork, a blade, or a master rod."""
 
-    length: PositiveLength = Field(description="Between the axes of big and small end.")
+    length: PositiveLength = Field(description="Distance between the axes of big and small end.")
     mass: Annotated[float, positive(MASS)] = Field(
-        description="Of the whole rod with its bearings and bolts."
+        description="Mass of the whole rod with bearings and bolts."
     )
     centre: Length | None = Field(
-        None, description="Of the centre of mass from the axis of the big end, towards the small end."
+        None,
+        description="Distance of the centre of mass from the axis of the big end, towards the small end.",
     )
-    inertia: PositiveInertia | None = Field(None, description="About the centre of mass.")
-    inertia_small_end: PositiveInertia | None = Field(None, description="About the axis of the small end.")
+    inertia: PositiveInertia | None = Field(None, description="Moment of inertia about the centre of mass.")
+    inertia_small_end: PositiveInertia | None = Field(
+        None, description="Moment of inertia about the axis of the small end."
+    )
     distribution: Annotated[float, Quantity(RATIO, INSIDE_ONE)] | None = Field(
         None,
-        description="Moment of inertia about the small end over mass times length squared: the share of the "
-        "mass that goes to the big end.",
+        description="Moment of inertia about the small end over mass times length squared: the share of "
+        "the mass allotted to the big end.",
     )
-    swing: Swing | None = Field(None, description="A pendulum test in one head.")
-    two_point_swing: TwoPointSwing | None = Field(None, description="Pendulum tests in both heads.")
+    swing: Swing | None = Field(None, description="Pendulum test, suspended in one end.")
+    two_point_swing: TwoPointSwing | None = Field(None, description="Pendulum tests, suspended in both ends.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         for faults in (self._key_faults, self._swing_faults, self._body_faults):
@@ -255,9 +258,9 @@ class ArticulatedRod(Rod):
     """A rod on a pin of a master rod; its big end is the one on that pin."""
 
     pin_radius: Annotated[float, not_negative(LENGTH)] = Field(
-        description="From the axis of the master rod's big end to the articulated pin."
+        description="Distance from the axis of the master rod's big end to the articulated pin."
     )
     pin_angle: Angle = Field(
-        description="From the axis of the master rod to the articulated pin, in the sense of rotation; often "
-        "the angle between the two cylinders."
+        description="Angle from the axis of the master rod to the articulated pin, in the sense of "
+        "rotation; often the angle between the two cylinders."
     )

@@ -29,9 +29,9 @@ STEEL_ELASTIC = 206e9
 class Journal(CheckedDescription):
     """A main journal of a crankshaft, solid or bored."""
 
-    length: PositiveLength = Field(description="Between the webs.")
-    diameter: PositiveLength = Field(description="Outside.")
-    inner_diameter: Annotated[float, not_negative(LENGTH)] = Field(0.0, description="Of the bore.")
+    length: PositiveLength = Field(description="Length between the webs.")
+    diameter: PositiveLength = Field(description="Outer diameter.")
+    inner_diameter: Annotated[float, not_negative(LENGTH)] = Field(0.0, description="Diameter of the bore.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.inner_diameter >= self.diameter:
@@ -43,7 +43,7 @@ class CrankPin(Journal):
     """A crank pin, solid or bored; its bore may lie beside its axis."""
 
     bore_offset: Length = Field(
-        0.0, description="Of the axis of the bore from that of the pin, away from the shaft."
+        0.0, description="Offset of the axis of the bore from that of the pin, positive away from the shaft."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -57,25 +57,25 @@ class CrankPin(Journal):
 class CrankWeb(CheckedDescription):
     """One of the two equal webs of a throw: a plate of a rectangular, round or any other outline."""
 
-    thickness: PositiveLength = Field(description="Along the shaft.")
+    thickness: PositiveLength = Field(description="Thickness along the shaft.")
     width: PositiveLength | None = Field(
         None,
-        description="Across the crank, halfway between shaft and pin, which the stiffness counts with. A "
-        "disc's is its diameter if left out.",
+        description="Width across the crank, halfway between shaft and pin; used for the stiffness. "
+        "Default for a disc: its diameter.",
     )
     outline: Literal["rectangle", "disc", "polygon"] = Field(
-        "rectangle", description="Shape, seen along the shaft."
+        "rectangle", description="Outline of the web, seen along the shaft."
     )
     length: PositiveLength | None = Field(
         None,
-        description="Of a rectangle, along the crank. Default: from the far side of the journal to the "
-        "far side of the pin.",
+        description="Length of a rectangle along the crank. Default: from the far side of the journal to "
+        "the far side of the pin.",
     )
-    diameter: PositiveLength | None = Field(None, description="Of a disc.")
+    diameter: PositiveLength | None = Field(None, description="Diameter of a disc.")
     centre: Length | None = Field(
         None,
-        description="Of a disc or a rectangle with a length, along the crank. Default: halfway between "
-        "shaft and pin.",
+        description="Position of the centre of a disc, or of a rectangle with a length, along the crank. "
+        "Default: halfway between shaft and pin.",
     )
     along: Lengths | None = Field(None, description="Corners of a polygon in order, along the crank.")
     across: Lengths | None = Field(None, description="Corners of a polygon in order, across the crank.")
@@ -136,35 +136,39 @@ class CrankWeb(CheckedDescription):
 class Drilling(Description):
     """A hole drilled into a throw: an oil way, a hole that makes a web lighter."""
 
-    diameter: PositiveLength = Field(description="Of the hole.")
-    length: PositiveLength = Field(description="Of the part of it that lies in metal.")
+    diameter: PositiveLength = Field(description="Diameter of the hole.")
+    length: PositiveLength = Field(description="Length of the hole in metal.")
     radius: Length = Field(
         0.0,
-        description="Of its middle from the axis of the shaft, along the crank; negative away from the pin.",
+        description="Distance of its middle from the axis of the shaft, along the crank; negative away "
+        "from the pin.",
     )
-    inclination: Angle = Field(0.0, description="Of the hole against the axis of the shaft.")
+    inclination: Angle = Field(0.0, description="Inclination of the hole to the axis of the shaft.")
 
 
 class Counterweight(CheckedDescription):
     """A counterweight of a throw, by its mass or as the sector of a ring."""
 
     direction: Angle = Field(
-        math.pi, description="From the crank to the middle of the counterweight, in the sense of rotation."
+        math.pi,
+        description="Angle from the crank to the middle of the counterweight, in the sense of rotation.",
     )
-    mass: Annotated[float, positive(MASS)] | None = Field(None, description="Of the counterweight.")
+    mass: Annotated[float, positive(MASS)] | None = Field(None, description="Mass of the counterweight.")
     radius: PositiveLength | None = Field(
-        None, description="Of its centre of mass, from the axis of the shaft."
+        None, description="Distance of the centre of mass from the axis of the shaft."
     )
     inertia: Annotated[float, not_negative(INERTIA)] | None = Field(
-        None, description="About its own centre of mass, axis along the shaft; 0 if left out."
+        None, description="Moment of inertia about the centre of mass, axis along the shaft. Default: 0."
     )
-    outer_radius: PositiveLength | None = Field(None, description="Of the sector, in place of the mass.")
+    outer_radius: PositiveLength | None = Field(
+        None, description="Outer radius of a sector, instead of the mass."
+    )
     inner_radius: Annotated[float, not_negative(LENGTH)] | None = Field(
-        None, description="Of the sector; 0 if left out."
+        None, description="Inner radius of the sector. Default: 0."
     )
-    angle: Angle | None = Field(None, description="Of the sector.")
-    thickness: PositiveLength | None = Field(None, description="Of the sector, along the shaft.")
-    density: Density | None = Field(None, description="Of the sector. Default: that of the throw.")
+    angle: Angle | None = Field(None, description="Angle of the sector.")
+    thickness: PositiveLength | None = Field(None, description="Thickness of the sector along the shaft.")
+    density: Density | None = Field(None, description="Density of the sector. Default: that of the throw.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         sector = ("outer_radius", "inner_radius", "angle", "thickness", "density")
@@ -197,19 +201,21 @@ class Counterweight(CheckedDescription):
 class CrankThrow(CheckedDescription):
     """One throw of a crankshaft, from the middle of a main journal to the middle of the next."""
 
-    radius: PositiveLength = Field(description="From the axis of the shaft to that of the pin.")
+    radius: PositiveLength = Field(description="Throw radius, from the axis of the shaft to that of the pin.")
     journal: Journal = Field(description="Main journal: half of it on each side of the throw.")
     pin: CrankPin = Field(description="Crank pin.")
-    web: CrankWeb = Field(description="Each of the two webs.")
-    drillings: tuple[Drilling, ...] = Field((), description="Holes.")
+    web: CrankWeb = Field(description="Web; a throw has two equal webs.")
+    drillings: tuple[Drilling, ...] = Field((), description="Drillings and holes.")
     counterweights: tuple[Counterweight, ...] = Field((), description="Counterweights.")
-    density: Density = Field(STEEL_DENSITY, description="Of the material; usually that of steel.")
-    shear_modulus: Modulus = Field(STEEL_SHEAR, description="Of the material; usually that of steel.")
-    elastic_modulus: Modulus = Field(STEEL_ELASTIC, description="Of the material; usually that of steel.")
+    density: Density = Field(STEEL_DENSITY, description="Density of the material. Default: steel.")
+    shear_modulus: Modulus = Field(STEEL_SHEAR, description="Shear modulus of the material. Default: steel.")
+    elastic_modulus: Modulus = Field(
+        STEEL_ELASTIC, description="Young's modulus of the material. Default: steel."
+    )
     restraint_length: PositiveLength | None = Field(
         None,
-        description="Torque over the force that the bearings answer with, for the formula of constrained "
-        "bearings. Default: from the geometry.",
+        description="Ratio of torque to bearing reaction, for the formula of constrained bearings. "
+        "Default: from the geometry.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:

@@ -97,15 +97,21 @@ class Valves(Description):
     """When valves or ports open and close, after the top dead centre of firing."""
 
     exhaust_opens: PositiveAngle | None = Field(
-        None, description="Default: 130 deg with four strokes, 110 deg with two."
+        None, description="Opening of the exhaust. Default: 130 deg with four strokes, 110 deg with two."
     )
-    exhaust_closes: PositiveAngle | None = Field(None, description="Default: 370 deg; 250 deg with two.")
-    intake_opens: PositiveAngle | None = Field(None, description="Default: 350 deg; 140 deg with two.")
-    intake_closes: PositiveAngle | None = Field(None, description="Default: 580 deg; 220 deg with two.")
+    exhaust_closes: PositiveAngle | None = Field(
+        None, description="Closing of the exhaust. Default: 370 deg with four strokes, 250 deg with two."
+    )
+    intake_opens: PositiveAngle | None = Field(
+        None, description="Opening of the intake. Default: 350 deg with four strokes, 140 deg with two."
+    )
+    intake_closes: PositiveAngle | None = Field(
+        None, description="Closing of the intake. Default: 580 deg with four strokes, 220 deg with two."
+    )
     blowdown: PositiveAngle | None = Field(
         None,
-        description="Angle in which the pressure falls to that of the exhaust; without it 50 deg, or less "
-        "where the intake opens earlier.",
+        description="Blowdown: crank angle in which the pressure falls to the exhaust pressure. Default: "
+        "50 deg, or less if the intake opens earlier.",
     )
 
     def angle(self, name: str, strokes: int) -> float:
