@@ -251,7 +251,7 @@ def test_a_form_that_does_not_exist_is_told() -> None:
 
 def test_too_fine_a_tolerance_is_told() -> None:
     """Errors that do not fall, as where rounding is all that is left."""
-    with pytest.raises(ConvergenceError, match=r"pieces between 0 and 1 rad .* ask for a wider one"):
+    with pytest.raises(ConvergenceError, match=r"pieces between 0 and 1 rad .* use a wider one"):
         equal_errors(lambda cuts: np.full(len(cuts) - 1, 1e-12), 0.0, 1.0, 2.0, 1e-13)
 
 

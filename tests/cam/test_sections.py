@@ -194,7 +194,7 @@ def test_lifts_that_do_not_close() -> None:
             "dwell",
         ),
         ('lift = "20 mm"', 'swing = "20 deg"', "0.swing", "lift: the follower moves along a guide"),
-        ('lift = "20 mm", ', "", "0.lift", "how far the section goes"),
+        ('lift = "20 mm", ', "", "0.lift", "the lift or swing of the section"),
         ('"cycloidal"', '"cyclodial"', "0.law", "cycloidal"),
         ('"cycloidal"', '{ kind = "cycloidal", share = 0.1 }', "0.law.share", "kind"),
         ("share = 0.2", "shore = 0.2", "2.law.shore", "share"),
@@ -265,7 +265,7 @@ def test_points_and_limits_that_do_not_fit(old: str, new: str, key: str, words: 
 def test_a_section_that_is_too_short_is_told_the_shortest() -> None:
     (problem,) = told(SPLINE.replace('"10 mm/rad^2"', '"8 mm/rad^2"'))
     shortest = np.degrees(2 * np.sqrt(0.02 / 0.008))
-    assert problem.found == f"limits that ask for at least {shortest:.10g} deg"
+    assert problem.found == f"limits that require at least {shortest:.10g} deg"
     longer = SPLINE.replace('"10 mm/rad^2"', '"8 mm/rad^2"').replace('"180 deg"', f'"{shortest} deg"')
     left = f'{{ angle = "{360 - 120 - shortest} deg" }}'
     assert moved(longer.replace('{ angle = "60 deg" }', left)).law.end == 2 * math.pi

@@ -158,7 +158,7 @@ def test_a_search_without_a_cam_that_keeps_its_limit_has_a_finding() -> None:
     assert done.exit_code == 1
     found = json.loads(done.stdout)
     assert found["results"]["cam_search"]["n_kept"] > 0
-    assert "between the angles too" in found["findings"][0]
+    assert "between the sampled angles" in found["findings"][0]
 
 
 def test_a_search_shows_the_units_of_the_reader() -> None:

@@ -66,7 +66,7 @@ def test_over_another_curve_and_json() -> None:
     ("words", "said"),
     [
         (("ram.speeds",), "found no curve"),
-        (("ram.place", "run_up.speed"), "draw them apart"),
+        (("ram.place", "run_up.speed"), "draw them separately"),
         (("ram.place", "--out", "a.bmp"), ".png, .svg, .pdf, .csv"),
     ],
 )

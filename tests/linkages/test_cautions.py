@@ -1,4 +1,4 @@
-"""A linkage next to a change point gives a warning; one that passes it, or is far from it, gives none."""
+"""A linkage close to a change point gives a warning; one that passes it, or is far from it, gives none."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ def test_motion_tells_of_it(way: list[str], tmp_path: Path) -> None:
     file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
     told = CliRunner().invoke(application(), ["motion", str(file), *way])
     assert told.exit_code == 0
-    assert "next to a change point" in told.output
+    assert "close to a change point" in told.output
     found = json.loads(CliRunner().invoke(application(), ["motion", str(file), *way, "--json"]).output)
-    assert "next to a change point" in found["warnings"][0]
+    assert "close to a change point" in found["warnings"][0]
 
 
 def test_motion_tells_the_angle_as_it_counts_it(tmp_path: Path) -> None:
@@ -56,5 +56,5 @@ def test_motion_tells_the_angle_as_it_counts_it(tmp_path: Path) -> None:
     file = tmp_path / "rhombus.toml"
     file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
     told = CliRunner().invoke(application(), ["motion", str(file), "--steps", "4", "--zero", "B outer"])
-    angle = re.findall(r"of a line at a crank angle of ([\d.]+)°", told.output)
+    angle = re.findall(r"of a straight line at a crank angle of ([\d.]+)°", told.output)
     assert float(angle[0]) == pytest.approx(90.0, abs=0.01)

@@ -275,7 +275,7 @@ def test_a_mode_whose_discs_are_at_rest() -> None:
         assert share[f"train.shafts.{name}.stiffness"] == pytest.approx(1 / 6, rel=1e-9)
         assert share[f"train.shafts.{name}.own_inertia"] == pytest.approx(-1 / 6, rel=1e-9)
     assert share["train.discs.a.inertia"] == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(FindingError, match="all discs are at rest in it"):
+    with pytest.raises(FindingError, match="all discs are at rest in this mode"):
         lw.gradient(machine, ["free_vibration.mode_shapes.2.a"])
 
 
@@ -300,7 +300,7 @@ def test_a_repeated_frequency_gives_its_invariant() -> None:
 def test_equal_amplitudes_tie() -> None:
     """Of two like discs on a rod either is the larger one as soon as they differ."""
     found = lw.gradient(_rods({"a": 1.0, "b": 1.0}, {"s": ("a", "b")}, 3), ["free_vibration.mode_shapes.1"])
-    assert set(found.ties.values()) == {"the largest amplitude is reached at several places"}
+    assert set(found.ties.values()) == {"the largest amplitude occurs at several positions"}
 
 
 def test_both_ends_of_a_shaft_tie() -> None:
@@ -316,7 +316,7 @@ def test_both_ends_of_a_shaft_tie() -> None:
     found = lw.gradient(
         lw.Machine.model_validate({"format": 1, "name": "Twins", "train": train}), ["forced_vibration"]
     )
-    assert "several places along the shaft" in found.ties["forced_vibration.shaft_torque_vibratory.s"]
+    assert "several positions along the shaft" in found.ties["forced_vibration.shaft_torque_vibratory.s"]
 
 
 def test_shafts_side_by_side_share_the_mean_torque() -> None:

@@ -275,7 +275,7 @@ def test_places_that_would_part_kinks_at_one_speed_are_refused(others, analysis)
     if others == "motor":
         # The ratio moves the kink of the motor alone.
         assert "drive.gearbox.ratio" in found.refused
-    with pytest.raises(FindingError, match="two kinks at one speed part"):
+    with pytest.raises(FindingError, match="two kinks at one speed separate"):
         lw.gradient(machine, [analysis], places[:1])
 
 

@@ -41,7 +41,7 @@ _NUMBERS = ("speed_mean_time", "period", "speed_max", "torque_motor_rms", "uneve
 Measure = Callable[[lw.Machine], Sequence[float]]
 
 # What a derivative is refused for: the torque of a motor without load stands on the kink at zero.
-_STANDS_ON_A_KINK = "as small as rounding"
+_STANDS_ON_A_KINK = "within rounding error, or two kinks"
 
 # What random drives and trains, and those with an entry varied, are refused for.
 # An accuracy of 1e-13 is not reached behind every jump.
@@ -52,7 +52,7 @@ _REFUSALS = (
     "Newton's method does not converge to it",
     "whether there is a steady motion was not decided",
     _STANDS_ON_A_KINK,
-    "it is zero but for rounding",
+    "it is zero within rounding error",
 )
 
 

@@ -178,7 +178,7 @@ def test_a_force_as_large_at_both_ends_ties() -> None:
     machine = lw.replace(free, {f"rod_rotator.{key}": value for key, value in entries.items()})
     derived = source(machine, "rod_rotator", ["rod_rotator.pin_distance", "rod_rotator.string_torque"])
     assert list(derived.ties) == ["rod_rotator.link_force_max"]
-    assert "2 places" in derived.ties["rod_rotator.link_force_max"]
+    assert "2 positions" in derived.ties["rod_rotator.link_force_max"]
     slopes = derived.tangents["rod_rotator.link_force_max"].d
     assert np.isnan(slopes[0])
     assert np.isfinite(slopes[1])

@@ -130,7 +130,7 @@ def test_forced_torques_follow_what_excites():
     assert found.elasticities[:, column] == pytest.approx(1.0, rel=1e-12)
     assert "train.run.speed_min" in found.refused
     assert "train.excitations.gas.harmonics.0.order" in found.refused
-    with pytest.raises(InputError, match="orders that meet"):
+    with pytest.raises(InputError, match="orders that coincide"):
         lw.gradient(_hysteretic(TURBINE), ["forced_vibration"], ["train.gears.high_last.ratio"])
     with pytest.raises(InputError, match="modal_damping"):
         lw.gradient(lw.read(TURBINE), ["forced_vibration"])

@@ -151,7 +151,7 @@ def test_a_point_on_its_path_has_a_kink(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, text(is_timed=True, noise=0.0))
     at = np.array([lw.get(plan.machine, axis.addresses[0]) for axis in plan.axes])
     ties = slopes(plan, at, np.full(3, 1e-6)).ties
-    assert "meets the path" in ties["rms"]
+    assert "lies on the path" in ties["rms"]
     assert "x" not in ties
 
 

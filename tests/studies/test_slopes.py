@@ -98,6 +98,6 @@ def test_only_variables_without_a_derivative_are_differenced(tmp_path: Path) -> 
     assert place.slopes["twice"][0] == 2 * exact[0]
     assert np.isfinite(place.slopes["pin"][1])
     assert place.exact == frozenset()
-    assert "there is no derivative by the entries that move this kink" in place.ties["pin"]
+    assert "there is no derivative with respect to the entries that move this kink" in place.ties["pin"]
     # The machine itself, and four beside it in phase.
     assert sum(counts) == 5

@@ -68,7 +68,7 @@ def test_closed_areas_from_an_extreme_tie_by_single_areas_alone() -> None:
     assert found.ties == {}
     assert found.derivatives[0, 0] == pytest.approx(50, rel=1e-14)
     found = lw.gradient(machine, [name], ["turning_moment.areas.3"])
-    assert found.ties == {name: "the minimum of the energy is reached after area 4 and at the start"}
+    assert found.ties == {name: "the minimum of the energy occurs after area 4 and at the start"}
 
 
 def test_rounding_errors_are_no_influence() -> None:

@@ -143,8 +143,8 @@ def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list
     for curve in curves[1:]:
         if (curve.over, curve.over_unit) != (first.over, first.over_unit):
             raise InputError(
-                f"{curve.name} runs over {curve.over}, {first.name} over {first.over}: draw them apart, or "
-                "give --over with a quantity that both have"
+                f"{curve.name} runs over {curve.over}, {first.name} over {first.over}: draw them "
+                "separately, or give --over with a quantity that both have"
             )
     return curves
 
@@ -165,7 +165,7 @@ def _name(asked: str, known: dict[str, Curve]) -> str:
     if len(fitting) == 1:
         return fitting[0]
     if fitting:
-        raise InputError(f'"{asked}" may be {", ".join(fitting[:6])}: give more of its name')
+        raise InputError(f'"{asked}" may be {", ".join(fitting[:6])}: give a longer part of its name')
     listed = suggestion(asked, list(known)) if known else "the study of this machine has none"
     remedy = "`linkwright plot FILE` without a quantity lists them all"
     raise InputError(f'found no curve "{asked}"; ' + "; ".join(part for part in (listed, remedy) if part))

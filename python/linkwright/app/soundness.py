@@ -167,5 +167,5 @@ def _not_definite(free: FreeVibration) -> Iterator[str]:
     if not np.isfinite(free.natural_frequencies).all():
         yield (
             f"the train of {len(free.discs)} discs has no natural frequencies: its stiffnesses or inertias "
-            "are too far apart to be computed with"
+            "span too many orders of magnitude"
         )

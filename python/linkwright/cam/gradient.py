@@ -59,7 +59,7 @@ _OFF_JOINT = 1e-6
 # An angle this near to a joint [rad] is the joint; joints are good to rounding.
 _AT_JOINT = 1e-11
 
-_PLACE = "it is the place of an extreme, of which the value has a derivative"
+_PLACE = "only the extreme value is differentiated, not its location"
 
 
 def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Derivatives:
@@ -211,7 +211,7 @@ class _Scalars:
         convex, concave = self.profile.curvature_radius_convex_min, self.profile.curvature_radius_concave_min
         is_convex = convex is not None and (concave is None or convex <= concave)
         if convex is not None and concave is not None and abs(convex - concave) <= _TIE * abs(convex):
-            self.ties["curvature_radius_min"] = "a convex and a concave part are as sharp"
+            self.ties["curvature_radius_min"] = "a convex and a concave part have the same radius"
         return self._radius("curvature_radius_min", is_convex=is_convex)
 
     def curvature_radius_convex_min(self) -> Any:
@@ -290,7 +290,7 @@ class _Scalars:
         for phi, side in places[1:]:
             if self._differ(first, sign * curve.tangent(phi, side), size):
                 both = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (places[0][0], phi))
-                return first, f"it is reached at cam angles of {both}"
+                return first, f"the extreme occurs at cam angles of {both}"
         return first, ""
 
     def _compare(self, name: str, extremes: Sequence[Any], what: str) -> None:
@@ -298,7 +298,7 @@ class _Scalars:
         top = float(primal(extremes[0]))
         rivals = [other for other in extremes[1:] if abs(float(primal(other)) - top) <= _TIE * abs(top)]
         if any(self._differ(extremes[0], other, abs(top)) for other in rivals):
-            self.ties[name] = f"{what} are as large"
+            self.ties[name] = f"{what} are equal"
 
     def _differ(self, one: Any, other: Any, size: float) -> bool:
         """Whether two extremes of a curve of some size follow an entry differently."""

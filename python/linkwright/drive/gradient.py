@@ -125,7 +125,7 @@ def solved_along(machine: Machine, along: Directions) -> tuple[SteadyState, Stea
     Raises what `steady_state` raises, and InputError where the motor keeps its speed.
     """
     if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        raise InputError("a motor of constant speed has the same speed whatever the machine is")
+        raise InputError("a constant-speed motor keeps its speed regardless of the machine")
     state, solution = _solved(machine)
     compiled = over_whole_cycle(compile_machine(machine))
     moving = _telling_directions(machine, compiled, state, along.values)
@@ -244,7 +244,7 @@ class _Tie:
         """Where, and by which entries there is a derivative on either side only; empty if by none."""
         differs = self._differs(compiled, gradient, along.sizes) | self._moved(compiled, along.values)
         places = _listed([f"{np.degrees(angle):.4g}°" for angle in self.angles], " and ", "angles")
-        return _with_others(f"it is reached at {places}", differs, along)
+        return _with_others(f"the extreme occurs at {places}", differs, along)
 
     def _differs(self, compiled: CompiledMachine, gradient: SteadyGradient, sizes: Floats) -> Bools:
         """Whether rivals have other derivatives by each direction, or bend there, (directions,)."""
@@ -274,7 +274,7 @@ class _Tie:
 def _with_others(tie: str, differs: Bools, along: Directions) -> str:
     """A tie with the entries by which its sides have other derivatives; empty if by none."""
     by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
-    return f"{tie}, with other derivatives by {_listed(by, ', ', 'entries')}" if by else ""
+    return f"{tie}; the derivatives with respect to {_listed(by, ', ', 'entries')} differ" if by else ""
 
 
 def _listed(words: list[str], between: str, what: str) -> str:

@@ -130,13 +130,16 @@ class _Reads:
         apart = np.abs(along - along[0]) > _ALIKE * np.abs(along).max(initial=0.0)
         lost = apart.any(axis=0)
         places = " and ".join(dict.fromkeys(map(_degrees, angles)))
-        why = f"it is reached at {places}" if lost.any() else ""
+        why = f"the extreme occurs at {places}" if lost.any() else ""
         half = 0.5 * self.compiled.cycle
         for angle in angles:
             on = np.abs(np.remainder(self.joints - angle + half, self.compiled.cycle) - half) <= _ON_JOINT
             if on.any():
                 lost |= self.moves[on].any(axis=0)
-                why = f"it is reached at {_degrees(angle)}, on a joint of a motion law that an entry moves"
+                why = (
+                    f"the extreme occurs at {_degrees(angle)}, at a segment boundary of a motion law that "
+                    "an entry moves"
+                )
         return _Extreme(Tangent(value, np.where(lost, np.nan, along[0])), why)
 
 

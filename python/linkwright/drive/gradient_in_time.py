@@ -47,7 +47,7 @@ class _MotionDerivatives(NamedTuple):
     acceleration: Floats
 
 
-_CORNER = "its peak lies where the acceleration jumps"
+_CORNER = "its peak coincides with a jump of the acceleration"
 
 
 def run_up_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:

@@ -29,7 +29,7 @@ _SLACK = 1e-9
 LEAVES = "The follower leaves cam"
 
 # What keeps a follower on its cam that would have to be pulled, and a cable tight that would have to push.
-KEEPS = "a spring that presses with so much more, a lower speed, or a groove keeps it on the cam."
+KEEPS = "increase the spring force, reduce the speed, or use a groove."
 TIGHTENS = "increase the load on its end, or reduce the speed."
 
 # Kinds of models that are no pairs.

@@ -85,7 +85,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     peaks = dict(zip(curves, np.nanmax(sizes, axis=1).tolist(), strict=True))
     nothing = _rounding(scene, peaks)
     missing = {
-        name: "it is zero but for rounding"
+        name: "it is zero within rounding error"
         for name, peak in peaks.items()
         if peak <= nothing["torque" if name.startswith("torque") else "force"]
     }
@@ -238,7 +238,7 @@ def tied(size: Floats, place: int, angles: Floats) -> str:
     apart = others[np.minimum(off, np.abs(off - turn)) > _ON_KINK]
     if not len(apart) or span == 0.0:
         return "" if span else "it is the same at all angles"
-    return f"it is reached at {np.degrees(angles[place]):.4g}° and {np.degrees(apart[0]):.4g}°"
+    return f"the extreme occurs at {np.degrees(angles[place]):.4g}° and {np.degrees(apart[0]):.4g}°"
 
 
 class Kinks:
@@ -276,8 +276,8 @@ class Kinks:
         names = [name for name, moves in zip(self.variables, moving, strict=True) if moves]
         kink = float(self.angles[self.on(angle, near)][0])
         return (
-            f"it is reached at {np.degrees(kink):.4g}°, at a kink of loads or motion; there is no derivative "
-            f"by the entries that move this kink: {', '.join(names)}"
+            f"the extreme occurs at {np.degrees(kink):.4g}°, at a kink of loads or motion; there is no "
+            f"derivative with respect to the entries that move this kink: {', '.join(names)}"
         )
 
 

@@ -24,7 +24,7 @@ def linkage_cautions(linkage: Linkage, zero: float = 0.0) -> Iterator[str]:
         at = element.transmission_angle_min_angle if is_least else element.transmission_angle_max_angle
         angle = ((at or 0.0) - zero) % cycle_of_angles(linkage.crank_angle)
         yield (
-            f"The links of {element.element} come within {degrees(worst)} of a line at a crank angle of "
-            f"{degrees(angle)}, next to a change point: slightly other lengths move it another way from "
-            "there on, and velocities and forces there grow as the angle falls"
+            f"The links of {element.element} come within {degrees(worst)} of a straight line at a crank "
+            f"angle of {degrees(angle)}, close to a change point: small length errors may switch the "
+            "assembly mode, and velocities and forces grow as this angle decreases"
         )

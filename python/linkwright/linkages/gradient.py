@@ -44,12 +44,12 @@ _ROUNDING = 1e-14
 # A transmission angle that changes by less is that of a rigid triangle [rad].
 _LEVEL_TO = 1e-12
 
-_AT_AN_END = "it is reached where the mechanism comes to its limit, or at a change point"
+_AT_AN_END = "the extreme occurs at a limit of the motion or at a change point"
 _LEVEL = "it is the same at all crank angles"
-_TWO = "it is reached at the crank angles {}, with other derivatives by {}"
-_OF_SEVERAL = "the value is reached at the crank angles {}"
+_TWO = "the extreme occurs at crank angles {}; the derivatives with respect to {} differ"
+_OF_SEVERAL = "the extreme occurs at crank angles {}"
 _TURNS = "it is a whole number"
-_REPEATS = "beside this value the motion does not repeat: it is a ratio of gears, or sets one"
+_REPEATS = "the motion repeats only at this value, which is or sets a gear ratio"
 
 
 def linkage_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
@@ -184,7 +184,7 @@ class _Found:
             return
         differs = self._differ(np.array(sides), size)
         if differs.any():
-            words = "the minimum and the maximum are as far from 90°, with other derivatives by {}"
+            words = "the minimum and the maximum deviate equally from 90°; the derivatives with respect to {} differ"
             self.ties[key] = words.format(self._entries(differs))
         self._keep(key, min(least, rest), np.where(differs, np.nan, sides[0]))
 

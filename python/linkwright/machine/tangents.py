@@ -74,9 +74,9 @@ def _reason(name: str, error: Exception) -> str:
     if isinstance(error, LinkwrightError):
         return " ".join(str(error).split())
     if name.rsplit(".", 1)[-1].isdecimal():
-        return "the place of a point of this table has no derivative; its value has"
+        return "only the values of this table are differentiated, not the positions of its points"
     if isinstance(error, TypeError):
-        return "the machine does not follow it by plain arithmetic (a count, a motion law, a searched length)"
+        return "not differentiable: it is a count, selects a motion law, or enters a searched length"
     return str(error)
 
 
@@ -131,18 +131,18 @@ class Directions:
 _ALIKE, _NOTHING = 1e-6, 1e-9
 
 _OTHER_FORM = (
-    "the machine is of another form beside this value: a part of a motion law, or of a table, has no length "
-    "or no size here"
+    "not differentiable here: a segment of a motion law or table has zero length or height, so the "
+    "structure changes"
 )
 
 _PARTING = (
-    "it moves a section of one cam away from that of another, and velocity or acceleration of both followers "
-    "jump at their common angle"
+    "it separates segment boundaries that coincide on two cams, at which velocity or acceleration of both "
+    "followers jumps"
 )
 
 CHANGE_POINTS = (
-    "the mechanism passes change points, which exist for these lengths alone; vary other entries, or lengths "
-    "that keep it clear of them"
+    "the mechanism passes change points, which exist only for these exact lengths; vary other entries, or "
+    "choose lengths away from change points"
 )
 
 

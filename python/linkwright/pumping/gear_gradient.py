@@ -64,7 +64,7 @@ def gear_scalars(
     scalars |= _shares(scalars, gear)
     if not is_air and gear.counterbalance_effect is not None:
         scalars["counterbalance_effect"] = effect_of_weights(along.unit, along.motion, balanced)
-    still = "a peak is reached at an end of the stroke, where the table of the load has a corner that moves"
+    still = "a peak occurs at an end of the stroke, where the load table has a corner that moves"
     return scalars, {
         f"gear.{name}": still for name, number in scalars.items() if np.isnan(lifted(number, 1).d).any()
     }

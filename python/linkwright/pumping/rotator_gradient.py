@@ -279,7 +279,9 @@ class RotatorAlong:
         differs = np.ptp(d, axis=0) > _SAME * np.abs(d).max(initial=0.0)
         if differs.any():
             by = ", ".join(entry for entry, yes in zip(self.entries, differs, strict=True) if yes)
-            self.ties[name] = f"it is reached at {len(tied)} places, with other derivatives by {by}"
+            self.ties[name] = (
+                f"the extreme occurs at {len(tied)} positions; the derivatives with respect to {by} differ"
+            )
         return TangentArray(row.value[best], np.where(differs, np.nan, row.d[best]))
 
 

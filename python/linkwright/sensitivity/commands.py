@@ -29,7 +29,7 @@ By = Annotated[
     Option(
         "--by",
         metavar="ADDRESS",
-        help='Entry, such as "mechanism.cranks.A2.phase". May be given again; all without it.',
+        help='Entry, such as "mechanism.cranks.A2.phase". Repeatable. Default: all.',
     ),
 ]
 Out = Annotated[Path | None, out_option("Write results.json and a figure for each response there.")]
@@ -71,7 +71,7 @@ def sensitivity(
             findings=lost_in(machine, derivatives.responses),
             warnings=[
                 *(
-                    f"{name} has a derivative on either side only, or none: {why}"
+                    f"{name} has only one-sided derivatives, or none: {why}"
                     for name, why in derivatives.ties.items()
                 ),
                 *(f"{name} has no derivative: {why}" for name, why in derivatives.missing.items()),

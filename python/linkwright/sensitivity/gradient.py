@@ -45,8 +45,8 @@ class Gradient(Result):
     ties: Annotated[
         dict[str, str],
         About(
-            "Responses that have a derivative on either side only, or none by some entries, each with the "
-            "reason."
+            "Responses with one-sided derivatives only, or without a derivative with respect to some "
+            "entries, each with the reason."
         ),
     ]
     refused: Annotated[dict[str, str], About("Entries that have no derivative, each with the reason.")]
@@ -247,8 +247,8 @@ def _require_found(of: Source, name: str, variables: Sequence[str], row: Floats)
     if lost is not None:
         why = _not_found(of.lost.get(lost))
         raise FindingError(
-            f"{name}: its derivative by {lost} was not found: {why}; leave this entry out, or vary it in a "
-            "sweep"
+            f"{name}: its derivative with respect to {lost} was not found: {why}; leave this entry out, or "
+            "vary it in a sweep"
         )
 
 
@@ -256,7 +256,8 @@ def _not_found(at: float | None) -> str:
     """Why the move of a kink of the motion, at a crank angle [rad], is not known."""
     place = "" if at is None else f" at {np.degrees(at):.4g}°"
     return (
-        f"how it moves the kink of the motion{place} is as small as rounding, or two kinks at one speed part"
+        f"the shift of the kink of the motion{place} is within rounding error, or two kinks at one speed "
+        "separate"
     )
 
 

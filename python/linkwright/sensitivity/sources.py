@@ -85,7 +85,7 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
     values = {name: getattr(steady.state, name) for name in listed}
     tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
     nothing = _nothing(tangents, steady.rounding)
-    missing = dict.fromkeys(sorted(nothing), "it is zero but for rounding")
+    missing = dict.fromkeys(sorted(nothing), "it is zero within rounding error")
     missing |= {name: _BETWEEN for name in _OF_MOTOR if name not in tangents}
     tangents = {name: value for name, value in tangents.items() if name not in nothing}
     marks = {name: shown(SteadyState, name) for name in tangents}
@@ -104,7 +104,7 @@ def _steady(machine: Machine, variables: Sequence[str]) -> Source:
 
 # Extremes of the motor, and why one has no derivative.
 _OF_MOTOR = ("torque_motor_min", "torque_motor_max", "power_motor_max")
-_BETWEEN = "it is reached at a speed between the extremes, such as the breakdown speed"
+_BETWEEN = "the extreme occurs at a speed between minimum and maximum, such as the breakdown speed"
 
 # Ratio → what it is a ratio of.
 _RATIOS = {

@@ -299,5 +299,5 @@ def _axes(over: Mapping[str, ArrayLike]) -> dict[str, Floats]:
     if not 1 <= len(axes) <= 2:
         raise InputError(f"over: found {len(axes)} entries, expected one or two")
     total = float(np.prod([len(axis) for axis in axes.values()], dtype=float))
-    require_within(FIELD_VARIANTS, total, "over", "vary less, or more coarsely")
+    require_within(FIELD_VARIANTS, total, "over", "reduce the ranges, or use coarser steps")
     return axes

@@ -93,7 +93,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLo
     near = [slopes]
     listed = list(_active(plan, near, values, rates))
     if not listed:
-        return [], f"{goal} has a kink there: {slopes.ties[goal]}" if goal in slopes.ties else ""
+        return [], f"{goal} is not differentiable there: {slopes.ties[goal]}" if goal in slopes.ties else ""
     tied = [name for name in (goal, *(limit.of for limit in listed)) if name in slopes.ties]
     multipliers = None if tied else _multipliers(plan, goal, sign * rates, near, listed, _SMOOTH)
     if multipliers is None:
@@ -103,7 +103,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLo
         multipliers = _multipliers(plan, goal, sign * rates, near, listed, _EXPLAINED)
     if multipliers is None:
         if tied:
-            return [], f"{tied[0]} has a kink there: {slopes.ties[tied[0]]}"
+            return [], f"{tied[0]} is not differentiable there: {slopes.ties[tied[0]]}"
         return [], "the machine is not yet at the very minimum; more evaluations get closer"
     return [
         Price(limit.what, limit.of, limit.limit, limit.is_upper, float(x / limit.unit))

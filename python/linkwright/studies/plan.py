@@ -329,7 +329,7 @@ def _holds(table: object, keys: Sequence[str]) -> bool:
 def _check_rows(ready: StudyPlan) -> None:
     """Refuse more rows than there may be."""
     limit = LATIN_ROWS if ready.sweep.method == "latin_hypercube" else SWEEP_ROWS
-    require_within(limit, ready.n_rows, "rows of the sweep", "vary less, or more coarsely")
+    require_within(limit, ready.n_rows, "rows of the sweep", "reduce the ranges, or use coarser steps")
     if ready.sweep.method == "grid" and ready.listed is None:
         for axis in ready.axes:
             require_within(LEVELS, axis.n_levels, f"levels of {axis.name}", "vary it more coarsely")

@@ -33,7 +33,7 @@ _ACROSS = 1e-6
 # maxima differ that are equal.
 _NOTHING, _EQUAL = 1e-9, 1e-6
 
-_ON_PATH = "the point meets the path, where a distance has no derivative"
+_ON_PATH = "the point lies on the path, where the distance has no derivative"
 _TWO = "two points of the path have the same {}"
 
 

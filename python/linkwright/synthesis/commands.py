@@ -41,7 +41,7 @@ CouplerMax = Annotated[
 Rod = Annotated[
     str | None, Option("--rod", metavar="LENGTH", help="Rod of a slider-crank. Default: the best one.")
 ]
-Kind = Annotated[str | None, Option("--kind", metavar="KIND", help="Kind of linkage; --list names them.")]
+Kind = Annotated[str | None, Option("--kind", metavar="KIND", help="Kind of linkage; --list lists them.")]
 Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
 Proportions = Annotated[
     list[str] | None,

@@ -60,13 +60,13 @@ def drive_along(machine: Machine, names: Sequence[str], drive: KnifeDrive) -> Dr
             ties[name] = kinks.words(float(ends[nth]), moving)
         elif apart.any():
             places = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (ends[nth], *rivals[nth]))
-            ties[name] = f"it is reached at {places}"
+            ties[name] = f"the extreme occurs at {places}"
     means = {"drive_torque_mean": Tangent(drive.torque_mean, torque.d[: len(DRIVE_ANGLES)].mean(axis=0))}
     speed = Tangent(machine.drive.speed, speed_d) if machine.drive and machine.drive.speed else 0.0
     means["drive_power_mean"] = means["drive_torque_mean"] * speed
     nothing = abs(drive.torque_mean) <= _NOTHING * max(abs(drive.torque_max), abs(drive.torque_min))
     missing = (
-        dict.fromkeys(means, "it is zero: the knife takes over a revolution what it gives back")
+        dict.fromkeys(means, "it is zero: the knife returns over a revolution the work that it takes")
         if nothing
         else {}
     )

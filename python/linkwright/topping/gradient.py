@@ -37,9 +37,9 @@ from linkwright.topping.uncut_head import mean_left_along, worst_left_along
 # Values that differ by less than this share are the same.
 _SAME = 1e-10
 
-_STATION = "it is one of the phases that are looked at, of which none moves"
+_STATION = "it is one of fixed sample phases"
 _NEVER_BACK = (
-    "the edge runs backwards at times: what it leaves is followed chord by chord, without derivatives"
+    "the edge runs backwards at times; the uncut area is then computed chord by chord, without derivatives"
 )
 
 
@@ -76,7 +76,9 @@ def topper_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     for name in tangents.keys() - ties.keys():
         by = [entry for entry, slope in zip(listed, tangents[name].d, strict=True) if np.isnan(slope)]
         if by:
-            ties[name] = f"two sides meet here, so that it has one on either side only by {', '.join(by)}"
+            ties[name] = (
+                f"two cases meet here: only one-sided derivatives exist with respect to {', '.join(by)}"
+            )
     return Derivatives(
         listed, tangents, {name: why for name, why in ties.items() if name in tangents}, missing, refused
     )
@@ -245,7 +247,7 @@ class _Scalars:
         if why := self._lost():
             return {}, dict.fromkeys((*_LEFT, *_LEFT_AT, "uncut_share_mean"), why)
         if not leaves(self.study):
-            nothing = "nothing is left of any head"
+            nothing = "no head has an uncut share"
             return dict.fromkeys((*_LEFT, "uncut_share_mean"), 0.0), dict.fromkeys(_LEFT_AT, nothing)
         worst, missing = worst_left_along(self.described, self.topper, self.edges, self.along, self.study)
         mean = mean_left_along(self.described, self.topper, self.edges, self.along)

@@ -53,7 +53,7 @@ def refused_of_law(machine: Machine, names: Sequence[str], knife: Knife) -> dict
         # Corners that are no joints of cams are where the mechanism has them: any entry may move those.
         is_known = corners.issuperset(knife.corners)
         moving = [name for name, column in by_entry.items() if column.any() or not is_known]
-        refused |= dict.fromkeys(moving, "it moves the joints of a motion that is given in pieces")
+        refused |= dict.fromkeys(moving, "it moves segment boundaries of a piecewise motion")
     return refused
 
 

@@ -42,12 +42,14 @@ _NEAR, _TIE = 1e-5, 1e-9
 # Share of the largest by which derivatives that are the same may differ, and phases that are compared.
 _SAME, _STATIONS = 1e-8, 12
 
-_NOT_ALONE = "several heads need as much, and which of them is shown is a choice"
-_ON_AXIS = "all roots stand on the row; an offset moves the head that needs most to either side"
+_NOT_ALONE = "several heads need the same length; the one shown is arbitrary"
+_ON_AXIS = "all roots stand on the row; with an offset, the worst head may lie on either side"
 
 # Names of the place of the worst head, and why it ties.
 PLACES = ("worst_phase", "worst_offset", "last_x", "last_y")
-OTHER_END = "the head at the other end of the stroke needs as much; the derivative is that of the one shown"
+OTHER_END = (
+    "the head at the other end of the stroke needs the same length; the derivative is that of the one shown"
+)
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,8 @@ _LEVEL = 1e-9
 # Steps of Newton's method from the head that was found by looking, which is good to 1e-8.
 _STEPS = 2
 
-_NOT_ALONE = "of several heads as much is left, and which of them is shown is a choice"
-_ALL = "all of the head is left"
+_NOT_ALONE = "several heads have the same uncut share; the one shown is arbitrary"
+_ALL = "the whole head is uncut"
 
 
 def worst_left_along(

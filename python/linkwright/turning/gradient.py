@@ -113,7 +113,8 @@ def _lost(tangents: dict[str, Tangent], variables: Sequence[str]) -> dict[str, s
         moved = [by for by, d in zip(variables, tangent.d, strict=True) if np.isnan(d)]
         if moved:
             lost[name] = (
-                f"it is reached at a corner of the torque; there is no derivative by {', '.join(moved)}"
+                "the extreme occurs at a corner of the torque; there is no derivative with respect to "
+                f"{', '.join(moved)}"
             )
     return lost
 
@@ -151,7 +152,7 @@ class _OfAreas:
                         if is_start
                         else (f"areas {places[0] + 1} and {place + 1}")
                     )
-                    return f"the {end} of the energy is reached after {where}"
+                    return f"the {end} of the energy occurs after {where}"
         return ""
 
 
@@ -178,7 +179,7 @@ class _OfCurves:
             apart = np.abs((near - end + 0.5 * self.cycle) % self.cycle - 0.5 * self.cycle)
             if (apart > _TIE).any():
                 other = np.degrees(near[apart > _TIE][0])
-                return f"the {word} of the energy is reached at {np.degrees(end):.4g}° and {other:.4g}°"
+                return f"the {word} of the energy occurs at {np.degrees(end):.4g}° and {other:.4g}°"
         return ""
 
     def scalars(self, described: TurningMoment) -> dict[str, Any]:
@@ -230,7 +231,9 @@ class _OfCurves:
         slopes = lifted(curve, variables_of((curve,)) or 1).d[there]
         apart = np.abs(slopes - slopes[0]).max(axis=1) > _TIE * np.abs(slopes).max()
         if apart.any():
-            words = f"it is reached at {np.degrees(angle):.4g}° and {np.degrees(at[there][apart][0]):.4g}°"
+            words = (
+                f"the extreme occurs at {np.degrees(angle):.4g}° and {np.degrees(at[there][apart][0]):.4g}°"
+            )
             self.ties[name] = words
         return curve[int(there[0])]
 

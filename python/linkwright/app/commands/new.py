@@ -11,10 +11,10 @@ from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
 Template = Annotated[
-    str | None, Argument(metavar="TEMPLATE", help="Name of the template; --list names them.")
+    str | None, Argument(metavar="TEMPLATE", help="Name of the template; --list lists them.")
 ]
 List = Annotated[
-    bool, Option("--list", help="Name the templates; with pumping-unit, the units of the catalogue.")
+    bool, Option("--list", help="List the templates; with pumping-unit, the units of the catalogue.")
 ]
 Designation = Annotated[
     str | None, Option("--designation", help="Designation of a pumping unit, such as C-114D-133-54.")

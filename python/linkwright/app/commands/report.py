@@ -42,7 +42,8 @@ Sections = Annotated[
     Option(
         "--sections",
         metavar="LIST",
-        help="Only these: summary, sketch, results, formulas, data, assumptions, repeat (with commas).",
+        help="Sections to include, separated by commas: summary, sketch, results, formulas, data, "
+        "assumptions, repeat.",
     ),
 ]
 Lang = Annotated[str, Option("--lang", metavar="CODE", help="Language of the report: en, uk (Ukrainian).")]
@@ -121,7 +122,7 @@ def _content(words: list[str], command: str) -> Content:
     ):
         commands.invoke(context)
     if not contents:
-        raise InputError(f"there is nothing to report of `linkwright {words[0]}`")
+        raise InputError(f"`linkwright {words[0]}` has no report")
     return contents[0]
 
 

@@ -26,7 +26,7 @@ def machine_schema() -> dict[str, Any]:
     """
     from linkwright.machine.machine import Machine
 
-    title = {"title": "Linkwright machine file", "description": "A machine; bare numbers are SI."}
+    title = {"title": "Linkwright machine file", "description": "A machine; numbers without unit are in SI."}
     made: dict[str, Any] = _tidy(Machine.model_json_schema(by_alias=True, mode="validation"))
     return {"$schema": _DIALECT} | made | title
 

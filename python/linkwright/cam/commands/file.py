@@ -28,9 +28,7 @@ Tolerance = Annotated[
 Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the tables.")]
 By = Annotated[
     str,
-    Option(
-        "--by", metavar="cam|polar", help="Whether the step is one of the cam angle or of the polar angle."
-    ),
+    Option("--by", metavar="cam|polar", help="Step over the cam angle or over the polar angle."),
 ]
 Form = Annotated[
     str,
@@ -41,7 +39,7 @@ Form = Annotated[
     ),
 ]
 Formats = Annotated[
-    str, Option("--formats", metavar="LIST", help="Files to write: dxf, csv, svg, step (with commas).")
+    str, Option("--formats", metavar="LIST", help="Files to write, separated by commas: dxf, csv, svg, step.")
 ]
 
 

@@ -24,8 +24,8 @@ Names = Annotated[
     Option(
         "--law",
         metavar='"NAME: KEY=VALUE, …"',
-        help='This law alone, with parameters of its own where they follow, such as "modified_sine: '
-        'share=0.2" or "combined: start=0.2, ramp=cycloidal". Repeatable.',
+        help='A single law, optionally with parameters, such as "modified_sine: share=0.2" or "combined: '
+        'start=0.2, ramp=cycloidal". Repeatable.',
     ),
 ]
 Folder = Annotated[

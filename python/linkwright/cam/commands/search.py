@@ -27,7 +27,7 @@ Vary = Annotated[
         "--vary",
         metavar="NAME=LOW:HIGH:N",
         help='Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
-        "roller_radius, offset, arm_length, face_tilt, lift_factor. May be given again: all combinations.",
+        "roller_radius, offset, arm_length, face_tilt, lift_factor. Repeatable: all combinations.",
     ),
 ]
 Laws = Annotated[
@@ -138,7 +138,7 @@ def _levels(wanted: list[str]) -> dict[str, Levels]:
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
     total = float(np.prod([axis.steps for axis in levels.values()], dtype=float))
-    require_within(CAM_VARIANTS, total, "--vary", "vary less, or more coarsely")
+    require_within(CAM_VARIANTS, total, "--vary", "reduce the ranges, or use coarser steps")
     return levels
 
 
@@ -217,7 +217,10 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
     if not keeps.any():
         return ["No cam keeps the limits: widen the ranges or the limits."]
     looked = min(int(keeps.sum()), SHOWN.most)
-    return [f"None of the {looked} smallest keeps the limits between the angles too: widen ranges or limits."]
+    return [
+        f"None of the {looked} smallest cams keeps the limits between the sampled angles: widen the "
+        "ranges or the limits."
+    ]
 
 
 def _head(cams: Cams, keeps: Bools) -> str:

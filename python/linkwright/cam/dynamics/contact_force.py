@@ -67,16 +67,19 @@ class ContactForce(Result):
     normal: Annotated[Floats, Label("normal force", "N", "N", _NORMAL)]
     side: Annotated[
         Floats,
-        Label("flank that carries", "", "", "1 where it is the one that lifts, −1 where it is the other."),
+        Label("flank that carries", "", "", "1 on the lifting flank, −1 on the other."),
     ]
-    across: Annotated[Floats, Label("force of the cam across the way", "", "N", "To where the surface runs.")]
+    across: Annotated[
+        Floats,
+        Label("force of the cam across the way", "", "N", "In the direction in which the surface moves."),
+    ]
     near: Annotated[
         Floats,
         Label(
             "reaction at the near end of the guide",
             "",
             "N",
-            "To where the surface runs; of a pivot its force.",
+            "In the direction in which the surface moves; of a pivot, its force.",
         ),
     ]
     far: Annotated[
@@ -85,7 +88,7 @@ class ContactForce(Result):
             "reaction at the far end of the guide",
             "",
             "N",
-            "To where the surface runs; of a pivot its force.",
+            "In the direction in which the surface moves; of a pivot, its force.",
         ),
     ]
     torque: Annotated[Floats, Label("driving torque of the cam shaft for this follower", "", "N m")]
@@ -328,6 +331,6 @@ def _losses(course: CamCourse, force: Floats, lost: Bools) -> Iterator[str]:
     for low, high in _stretches(lost):
         k = low + int(np.argmin(force[low : high + 1]))
         yield (
-            f"the follower leaves the cam {_from_to(course, low, high)}: {-force[k]:.4g} more force along "
-            f"its way would hold it at {np.degrees(course.cam_angle[k]):.4g}°"
+            f"the follower leaves the cam {_from_to(course, low, high)}: increase the force along its "
+            f"path by {-force[k]:.4g} at {np.degrees(course.cam_angle[k]):.4g}°"
         )

@@ -60,8 +60,7 @@ class Impulse(NamedTuple):
 
 
 _KEEPS_CONTACT = (
-    "Whether the train presses all the time; otherwise the follower leaves the cam, and the motion is not "
-    "what is given here."
+    "Whether contact is maintained; otherwise the follower leaves the cam, and this motion does not apply."
 )
 
 
@@ -76,7 +75,7 @@ class FollowerVibration(Result):
     position: Annotated[Floats, Label("position of the mass", "x", "m")]
     velocity: Annotated[Floats, Label("velocity of the mass", "ẋ", "m/s")]
     acceleration: Annotated[Floats, Label("acceleration of the mass", "ẍ", "m/s²")]
-    force: Annotated[Floats, Label("force of the train on the cam", "", "N", "Positive where it presses.")]
+    force: Annotated[Floats, Label("force of the train on the cam", "", "N", "Positive in compression.")]
     speed: Annotated[float, Label("speed of the cam", "ω", "rad/s")]
     natural_frequency: Annotated[float, Label("natural frequency of the follower", "Ω", "rad/s")]
     vibrations_per_turn: Annotated[float, Label("vibrations in one revolution", "Ω/ω", "")]
@@ -88,11 +87,11 @@ class FollowerVibration(Result):
         float, Label("maximum acceleration of the mass", "", "m/s²", "In size, exact.")
     ]
     departure_max: Annotated[
-        float, Label("maximum departure from the lift", "", "m", "Largest size of e = x − κs, exact.")
+        float, Label("maximum departure from the lift", "", "m", "Peak absolute value of e = x − κs, exact.")
     ]
-    impulses: Annotated[tuple[Impulse, ...], About("Where the cam strikes.")]
+    impulses: Annotated[tuple[Impulse, ...], About("Impacts of the cam.")]
     keeps_contact: Annotated[bool, About(_KEEPS_CONTACT)]
-    findings: Annotated[tuple[str, ...], About("Strikes and loss of contact, in sentences.")]
+    findings: Annotated[tuple[str, ...], About("Impacts and loss of contact, in sentences.")]
 
 
 class Train:
@@ -205,7 +204,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
     """
     in_range(speed=(speed, positive(SPEED)), n=(n, positive(COUNT)))
     without_steps(lift, "turn")
-    remedy = "lower the stiffness of its train, or turn the cam faster"
+    remedy = "reduce the stiffness of its train, or increase the cam speed"
     require_within(VIBRATIONS, model.natural_frequency / speed, "follower", remedy)
     train = Train(lift, model, speed, "turn")
     phi = np.linspace(lift.start, lift.end, n + 1)
@@ -244,13 +243,13 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     """What a designer must know."""
     sentences = [
         f"the velocity of the lift jumps by {impulse.velocity_step:.4g} m/s at "
-        f"{np.degrees(impulse.cam_angle):.4g}°: the cam strikes"
+        f"{np.degrees(impulse.cam_angle):.4g}°: impact"
         for impulse in impulses
     ]
     if low.value <= 0:
         sentences.append(
             f"the train would have to pull with {-low.value:.4g} N at {np.degrees(low.at):.4g}°: the "
-            f"follower leaves the cam there; {-low.value:.4g} N more preload would hold it"
+            f"follower leaves the cam there; increase the preload by {-low.value:.4g} N"
         )
     return tuple(sentences)
 
@@ -264,7 +263,7 @@ class VibrationSweep(Result):
     force_min: Annotated[Floats, Label("minimum force of the train on the cam", "", "N")]
     acceleration_max: Annotated[Floats, Label("maximum acceleration of the mass", "", "m/s²")]
     departure_max: Annotated[Floats, Label("maximum departure from the lift", "", "m", "Of e = x − κs.")]
-    keeps_contact: Annotated[Bools, About("Whether the train presses all the time, shape (n,).")]
+    keeps_contact: Annotated[Bools, About("Whether contact is maintained, shape (n,).")]
 
 
 @public

@@ -244,7 +244,7 @@ def _left(profile: CamProfile, least: float, at: float, size: float, acting: For
     return (
         f"the follower leaves cam {profile.name}: at a crank angle of {np.degrees(at):.4g}° and "
         f"{abs(float(np.nanmax(acting.speed))):.4g} rad/s it would have to be pulled with {-least:.4g} N; "
-        "a spring that presses with so much more there, a lower speed, or a groove keeps it on the cam",
+        f"increase the spring force there by {-least:.4g} N, reduce the speed, or use a groove",
     )
 
 

@@ -64,8 +64,8 @@ class OneMass:
         )
         if self.damping_ratio_all >= 1:
             raise InputError(
-                f"damping_ratio and damping_ratio_frame: found {self.damping_ratio_all:g} together, expected "
-                "less than 1; a follower that is damped beyond that does not vibrate"
+                f"damping_ratio and damping_ratio_frame: found {self.damping_ratio_all:g} together, "
+                "expected less than 1; a follower with more damping does not vibrate"
             )
 
     @property

@@ -41,12 +41,12 @@ class Polydyne(Result):
         Label("minimum lift", "", "m", "A cam dips below its base circle where s is less than at rest."),
     ]
     correction_max: Annotated[
-        float, Label("maximum correction of the lift", "", "m", "Largest size of κs − x.")
+        float, Label("maximum correction of the lift", "", "m", "Peak absolute value of κs − x.")
     ]
     acceleration_max: Annotated[
-        float, Label("maximum acceleration by the lift", "", "m/s²", "Largest size of s″ω².")
+        float, Label("maximum acceleration by the lift", "", "m/s²", "Peak absolute value of s″ω².")
     ]
-    findings: Annotated[tuple[str, ...], About("Strikes, jumps of acceleration, and dips, in sentences.")]
+    findings: Annotated[tuple[str, ...], About("Impacts, jumps of acceleration, and dips, in sentences.")]
 
 
 @public
@@ -79,9 +79,9 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
     in_range(speed=(speed, positive(SPEED)))
     if model.damping_ratio:
         raise InputError(
-            f"damping_ratio: found {model.damping_ratio:g}, expected 0: with a damper in the train no lift "
-            "with dwells leaves the follower at rest; give it as damping_ratio_frame, or correct without it "
-            "and look at the residual vibration"
+            f"damping_ratio: found {model.damping_ratio:g}, expected 0: with a damper in the train, no "
+            "lift with dwells keeps the follower at rest; give it as damping_ratio_frame, or correct "
+            "without it and check the residual vibration"
         )
     smooth = continuity(wanted, ends)
     if smooth < 2:
@@ -119,8 +119,8 @@ def _findings(wanted: MotionLaw, lift: MotionLaw, smooth: int) -> list[str]:
     sentences = []
     if smooth == 2:
         sentences.append(
-            "the third derivative of the wanted motion jumps, so the velocity of the lift jumps and the cam "
-            "strikes; choose a law with continuous jerk, such as the polynomial 4-5-6-7"
+            "the third derivative of the wanted motion jumps, so the velocity of the lift jumps (impact); "
+            "choose a law with continuous jerk, such as the polynomial 4-5-6-7"
         )
     if smooth == 3:
         sentences.append(

@@ -125,9 +125,11 @@ def at_rest_only(law: MotionLaw, task: Boundary) -> MotionLaw:
     limit = _SAME * (1 + abs(task.lift) * max(map(abs, ends)))
     differs = any(a is not None and abs(a - b) > limit for a, b in zip(wanted, ends, strict=True))
     if moves(task.velocity_start) or moves(task.velocity_end) or differs:
-        found = f"a law of rest to rest for the task {task.letters}"
+        found = f"a rest-to-rest law for the boundary conditions {task.letters}"
         remedy = 'take law = "polynomial", or one of the symmetric laws'
-        raise LawError(Problem("", found, "a law that begins and ends as the neighbours ask", remedy))
+        raise LawError(
+            Problem("", found, "a law that matches the neighbouring sections at both ends", remedy)
+        )
     return own
 
 

@@ -95,14 +95,16 @@ def limited_section(
     ends = (task.velocity_start, task.velocity_end, task.acceleration_start, task.acceleration_end)
     if any(map(moves, ends)):
         expected = "rest at both ends, which the law goes from and to"
-        raise LawError(Problem("", f"the task {task.letters}", expected, 'take law = "polynomial"'))
+        raise LawError(
+            Problem("", f"the boundary conditions {task.letters}", expected, 'take law = "polynomial"')
+        )
     if task.lift == 0:
         return constant_velocity().scaled(0.0)
     limits = Limits(inf if velocity is None else velocity, acceleration, inf if jerk is None else jerk)
     shortest = limits.shortest(abs(task.lift))
     if shortest > angle * (1 + _ROUNDING):
-        found = f"limits that ask for at least {degrees(primal(shortest)):.10g} deg"
-        expected = f"limits with which the lift is done in {degrees(primal(angle)):.10g} deg"
+        found = f"limits that require at least {degrees(primal(shortest)):.10g} deg"
+        expected = f"limits that complete the lift in {degrees(primal(angle)):.10g} deg"
         remedy = "give the section that angle, or raise the limits"
         raise LawError(Problem("", found, expected, remedy))
     return limited(limits, abs(task.lift), max(angle, shortest)).scaled(copysign(1.0, primal(task.lift)))

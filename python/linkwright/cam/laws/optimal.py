@@ -52,7 +52,7 @@ def optimal(order: int, start: Conditions, end: Conditions) -> MotionLaw:
     """
     highest = max((*start, *end), default=0)
     if highest >= order:
-        expected = f"derivatives below the one that is minimised, up to order {order - 1}"
+        expected = f"derivatives below the minimised one, up to order {order - 1}"
         raise LawError(Problem("order", f"a derivative of order {highest} at an end", expected))
     try:
         return polynomial(_with_natural(order, start), _with_natural(order, end))

@@ -55,7 +55,7 @@ def equal_errors(
         n = max(needed, n + max(1, n // 50))
         if n > _MOST:
             raise ConvergenceError(
-                f"{n} pieces between {low:g} and {high:g} rad do not keep the tolerance; ask for a wider one",
+                f"{n} pieces between {low:g} and {high:g} rad do not meet the tolerance; use a wider one",
                 method="cutting a curve into pieces",
                 iterations=n,
                 residual=float(error.max()),

@@ -191,8 +191,8 @@ def fit(
             return path, distance
         aim *= _LESS * kept / distance.largest
     raise ConvergenceError(
-        f"the curve as {form} is {distance.largest:.3g} m off where {tolerance:.3g} m were asked for; "
-        "ask for a wider tolerance",
+        f"the curve as {form} deviates by {distance.largest:.3g} m, tolerance {tolerance:.3g} m; use a "
+        "wider tolerance",
         method="approximating a curve",
         iterations=_TRIES,
         residual=distance.largest,

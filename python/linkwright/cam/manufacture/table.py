@@ -99,7 +99,7 @@ def _at_polar_angles(track: Track, angles: Floats) -> Floats:
     is_round = abs(abs(polar[-1] - polar[0]) - 2 * math.pi) < _ROUNDING
     if not is_round or (np.diff(track.sense * polar) < -_ROUNDING).any():
         raise ExchangeError(
-            "the outline is not a function of its polar angle: it overhangs, or does not go round the "
+            "the outline is not a function of its polar angle: it is re-entrant, or does not enclose the "
             "centre; take a table by the cam angle"
         )
     # Counted in the sense of the curve from its start, both grow.

@@ -260,7 +260,7 @@ class Cam(CheckedDescription):
         swings = self.is_oscillating
         wanted, what = ("angle", "the two arms") if swings else ("distance", "the two rollers")
         if getattr(second, wanted) is None:
-            yield fault("second", wanted, expected=f"how far {what} are from each other")
+            yield fault("second", wanted, expected=f"the distance between {what}")
         for key in ("distance",) if swings else ("angle", "arm_length"):
             if getattr(second, key) is not None:
                 expected = f"nothing for {'an oscillating' if swings else 'a translating'} follower"
@@ -276,13 +276,13 @@ class Cam(CheckedDescription):
             return
         least = self.stroke + 2 * self.radius_of_roller
         if self.breadth <= least:
-            remedy = "half of what is left over is the base radius"
+            remedy = "half of the remainder is the base radius"
             yield fault("breadth", found=self.breadth, expected=f"more than {least:.6g} m", remedy=remedy)
 
     def _arm_faults(self) -> Iterator[InitErrorDetails]:
         """An oscillating follower needs its pivot and arm, and no line."""
         if self.arm_pivot is None:
-            yield fault("arm_pivot", expected="the fixed point that the follower turns about")
+            yield fault("arm_pivot", expected="the fixed pivot of the follower")
         if self.arm_length is None and self.is_roller:
             yield fault("arm_length", expected="a length: from the follower's pivot to roller or edge")
         for key in ("direction", "face_tilt", "train"):
@@ -300,5 +300,5 @@ class Cam(CheckedDescription):
         if self.face_tilt and self.is_roller:
             yield fault("face_tilt", found=self.face_tilt, expected="nothing without a flat face")
         if not self.is_roller and np.any(self.offset != 0):
-            remedy = "a flat face touches the cam alike wherever its stem is"
+            remedy = "the contact of a flat face does not depend on the position of its stem"
             yield fault("offset", found=self.offset, expected="nothing for a flat face", remedy=remedy)

@@ -79,7 +79,7 @@ class FollowerTrain(CheckedDescription):
         if both >= 1:
             yield fault("damping_ratio", found=both, expected="less than 1, both together")
         if self.polydyne_speed is not None and self.damping_ratio:
-            remedy = "behind a damper in the train the lift of a dwell would never fade"
+            remedy = "with a damper in the train, the correction would not decay in a dwell"
             yield fault(
                 "polydyne_speed", found=self.polydyne_speed, expected="a train without damper", remedy=remedy
             )

@@ -235,10 +235,10 @@ def _own_faults(
     lift = section.change(family)
     if lift is None:
         other = f", or {key_of('velocity_start', family)}" if section.is_steady else ""
-        yield fault(*place, family, expected=f"how far the section goes{other}")
+        yield fault(*place, family, expected=f"the lift or swing of the section{other}")
     elif section.is_steady:
         slope = lift / section.angle
-        words = f"the slope {slope:.10g}, which the section has throughout"
+        words = f"the slope {slope:.10g}, which is constant over the section"
         speeds = {name: value for name, value in said.items() if name.startswith("velocity")}
         yield from _ends_other_than(slope, speeds, words, family, place)
         bends = {name: value for name, value in said.items() if name.startswith("acceleration")}
@@ -270,7 +270,10 @@ def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails
         longest = max(range(len(sections)), key=lambda i: sections[i].angle)
     new = sections[longest].angle - over
     few = f'{_degrees(over)} too much: sections.{longest}.angle = "{_degrees(new)}" closes the revolution'
-    many = f"{_degrees(over)} too much: more than any one section has; shorten all to {TURN / turn:.6g} of it"
+    many = (
+        f"{_degrees(over)} too much: more than any single section; shorten all to {TURN / turn:.6g} of "
+        "their angle"
+    )
     short = f'{_degrees(-over)} missing: sections.{longest}.angle = "{_degrees(new)}" closes the revolution'
     remedy = short if over < 0 else few if new > 0 else many
     found = f"angles that add to {_degrees(turn)}"

@@ -76,8 +76,8 @@ class PointLaw(Law):
             expected = f"angles from 0 to {angle:.10g} rad, that of the section"
             raise LawError(Problem("angle", found, expected))
         if abs(goes - task.lift) > _SAME * max(map(abs, values)):
-            found = f"points that go {goes:.10g} far"
-            expected = f"points that go as far as the section, {task.lift:.10g}"
+            found = f"points that rise by {goes:.10g}"
+            expected = f"points that rise by the lift of the section, {task.lift:.10g}"
             raise LawError(Problem("swing" if swing else "lift", found, expected))
         places = [0.0, *(angle / span for angle in self.angle[1:-1]), 1.0]
         ways = [value - values[0] for value in values[:-1]]
@@ -144,7 +144,7 @@ class FormulaLaw(Law):
         key, rise = "swing" if swing else "lift", self.own_lift(angle, swing=swing) or 0.0
         if abs(rise - task.lift) > _SAME * max(abs(rise), abs(task.lift)):
             found, expected = f"a formula that changes by {rise:.6g}", f"a change by {task.lift:.6g}"
-            remedy = f"the section has a {key} of its own: leave it out"
+            remedy = f"the section has its own {key}: remove it"
             raise LawError(Problem(key, found, expected, remedy))
         own = osculating(lambda z: self._taylor(text, z, angle), text)
         for word, order, z, wanted in (

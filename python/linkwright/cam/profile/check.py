@@ -16,7 +16,7 @@ from linkwright.machine.machine import Machine
 class CamCheck(Result):
     """Whether a cam can be made, in numbers."""
 
-    n_faults: Annotated[int, Label("faults of the cam", "", "", "None of a cam that can be made.")]
+    n_faults: Annotated[int, Label("faults of the cam", "", "", "Empty if the cam can be manufactured.")]
 
 
 def cam_check(machine: Machine, name: str | None = None) -> CamCheck:

@@ -121,8 +121,8 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
     soundness = 1.0 - size.roller_radius * worst.value if is_roller else worst.value
     if not is_roller and _turns_over(profile.cam, flank):
         yield (
-            f"{_subject(profile, flank)}: the follower turns as fast as the cam, so that its face rolls "
-            "over it; use a longer section or a smaller swing"
+            f"{_subject(profile, flank)}: the follower rotates as fast as the cam, so that its face rolls "
+            "on it; use a longer section or a smaller swing"
         )
     elif soundness < _SHARP:
         base = least_sound_base(profile.cam, flank.contact)
@@ -146,9 +146,9 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
         if least <= size.roller_radius:
             yield (
                 f"{_subject(profile, flank)}: the outer flank of the groove is undercut at "
-                f"{_degrees(hollow.angle)}, where the pitch curve is hollow with {_mm(least)} radius of "
-                f"curvature and the roller's radius is {_mm(size.roller_radius)}; it takes a roller of less "
-                f"than {_mm(least)} radius, or a larger base radius"
+                f"{_degrees(hollow.angle)}, where the concave radius of the pitch curve is {_mm(least)} "
+                f"and the roller radius {_mm(size.roller_radius)}; use a roller of less than {_mm(least)} "
+                "radius, or a larger base radius"
             )
 
 
@@ -184,7 +184,7 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
     worst = int(np.argmax(np.abs(gamma)))
     if not np.isfinite(gamma).all():
         where = _degrees(float(flank.shape.angle[int(np.argmin(np.isfinite(gamma)))]))
-        yield f"{_subject(profile, flank)}: at {where} the follower has no place, beyond its reach"
+        yield f"{_subject(profile, flank)}: at {where} the follower is beyond its reach"
     elif abs(gamma[worst]) >= np.pi / 2:
         base = base_for_pressure_angle(profile.cam, flank.contact, profile.cam.limit)
         limit = f" for {np.degrees(profile.cam.limit):.4g}°" if base else ""
@@ -229,8 +229,8 @@ def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
     elif cutter is not None and concave is not None and cutter >= concave.value:
         yield (
             f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: at "
-            f"{_degrees(concave.angle)} the profile is hollow with {_mm(concave.value)} radius; it takes a "
-            "cutter of less than that"
+            f"{_degrees(concave.angle)} the concave radius of the profile is {_mm(concave.value)}; use a "
+            "smaller cutter"
         )
 
 
@@ -257,11 +257,12 @@ def _steep(profile: CamProfile) -> Iterator[str]:
         return
     flank = max(profile.flanks, key=lambda extreme: abs(extreme.steepest.value))
     base = base_for_pressure_angle(profile.cam, flank.contact, limit)
-    size = _size_for(profile, flank, base) or "no base radius"
+    size = _size_for(profile, flank, base)
+    remedy = f"use {size}" if size else "no base radius suffices"
     yield (
         f"the pressure angle of {_subject(profile, flank)} reaches "
         f"{np.degrees(profile.pressure_angle_max):.4g}° at {_degrees(profile.pressure_angle_max_angle)}, "
-        f"above {np.degrees(limit):.4g}°: {size} brings it down to that"
+        f"above {np.degrees(limit):.4g}°: {remedy}"
     )
 
 
@@ -275,7 +276,7 @@ def _tight(profile: CamProfile) -> Iterator[str]:
         base = base_for_curvature(profile.cam, flank.contact, limit)
         yield (
             f"the profile of {_subject(profile, flank)} has a radius of curvature of {_mm(convex.value)} at "
-            f"{_degrees(convex.angle)}, below {_mm(limit)}: it takes "
+            f"{_degrees(convex.angle)}, below {_mm(limit)}: use "
             f"{_size_for(profile, flank, base) or 'another law or a smaller lift'}"
         )
 
@@ -313,6 +314,6 @@ def _rubs(profile: CamProfile) -> Iterator[str]:
     """Friction that steady motion does without."""
     if profile.cam.sliding_friction:
         yield (
-            f"the friction of cam {profile.name} counts in the forces and in the torque that they ask of the "
-            "drive, not in steady motion and run-up"
+            f"the friction of cam {profile.name} is included in the forces and the driving torque, not in "
+            "steady motion and run-up"
         )

@@ -51,7 +51,7 @@ Outside = Annotated[
     bool,
     Option(
         "--allow-outside",
-        help="Let entries `file` and `machine` of a file lead out of the folder that it is in.",
+        help="Permit entries `file` and `machine` outside the folder of the file.",
     ),
 ]
 Json = Annotated[bool, Option("--json", help="Print one JSON object in SI units.")]

@@ -30,7 +30,7 @@ def out_option(words: str, metavar: str = "DIR", name: str = "--out") -> Any:
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]
-Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
+Force = Annotated[bool, Option("--force", help="Overwrite existing files.")]
 
 
 def output_folder(out: Path | None, *, force: bool) -> OutputFolder | None:

@@ -76,10 +76,7 @@ def tolerance(
                 f"The worst case of {name} may be wider than given: {why}"
                 for name, why in scatter.beyond_corners.items()
             ),
-            *(
-                f"{name} has a derivative on either side only, or none: {why}"
-                for name, why in scatter.ties.items()
-            ),
+            *(f"{name} has only one-sided derivatives, or none: {why}" for name, why in scatter.ties.items()),
             *fast_start_warnings(scatter.fast_starts),
             *one_by_one_warnings(scatter.one_by_one),
             *unwatched_contacts(plan),

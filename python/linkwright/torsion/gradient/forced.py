@@ -96,9 +96,9 @@ def _refused(variables: Sequence[str]) -> dict[str, str]:
     refused: dict[str, str] = {}
     for name in variables:
         if name.startswith("train.run."):
-            refused[name] = "it says at which speeds and orders the train is looked at"
+            refused[name] = "it selects the speeds and orders analysed"
         elif name.rsplit(".", 1)[-1] == "order":
-            refused[name] = "an order says which torques meet"
+            refused[name] = "an order is discrete: it determines which torques coincide"
     return refused
 
 
@@ -106,7 +106,7 @@ def _refuse_moved(d: TrainTangents, refused: dict[str, str]) -> None:
     """Entries that change the speeds of discs, and with them the orders."""
     for n, name in enumerate(d.variables):
         if d.speed[:, n].any():
-            refused[name] = "it changes the speeds of discs, and with them the orders that meet"
+            refused[name] = "it changes the speed ratios of discs, and with them the orders that coincide"
 
 
 def _peaks(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[tuple[str, int, int, str]]:
@@ -124,7 +124,7 @@ def _peaks(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[tuple
             best = int(row.argmax())
             others = np.flatnonzero(row >= row[best] * (1 - _TIE))
             speeds = " and ".join(f"{at.torques.speeds[k] * 30 / np.pi:.5g} rpm" for k in others)
-            peaks.append((kind, shaft, best, f"it is reached at {speeds}" if len(others) > 1 else ""))
+            peaks.append((kind, shaft, best, f"the extreme occurs at {speeds}" if len(others) > 1 else ""))
     return peaks
 
 
@@ -158,7 +158,7 @@ class _Peaks:
             other, change, _ = self._at_station(kind, shaft, place, rival)
             differ = np.abs(change - slope).max(initial=0.0) > _ONE * np.abs(slope).max(initial=0.0)
             if differ or abs(other - value) > _TIE * value:
-                return value, slope, "it is reached at several places along the shaft"
+                return value, slope, "the extreme occurs at several positions along the shaft"
         return value, slope, tie
 
     def _at_station(self, kind: str, shaft: int, place: int, station: int) -> tuple[float, Floats, str]:
@@ -177,7 +177,7 @@ class _Peaks:
         slope: Floats = (first @ dt).real
         size = np.abs(slope).max(initial=0.0)
         differ = any(np.abs((w @ dt).real - slope).max(initial=0.0) > _ONE * size for w in rivals)
-        return value, slope + given, "it is reached at several angles" if differ else ""
+        return value, slope + given, "the extreme occurs at several angles" if differ else ""
 
     def _ends(
         self, t: Complexes, mean: float

@@ -46,7 +46,9 @@ _AT_REST = 1e-9
 # Angles that differ by a smaller share are equal, as by symmetry; so are derivatives.
 _EQUAL, _ONE = 1e-9, 1e-6
 
-_RESTING = "all discs are at rest in it, and which of them leads beside this machine changes with each entry"
+_RESTING = (
+    "all discs are at rest in this mode; which disc leads for neighbouring machines depends on the entry"
+)
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def mode_tangents(machine: Machine, variables: Sequence[str]) -> ModeTangents:
             if len(group) > 1 and omega > 0:
                 others = " and ".join(str(j) for j in group if j != i)
                 tangents.ties[i] = (
-                    f"it is that of mode {others} too; the derivative is that of their mean square"
+                    f"mode {others} has the same frequency; the derivative is that of their mean square"
                 )
             elif len(group) == 1:
                 _add_shape(tangents, i, referred.discs, modes.angles(i, slope))
@@ -119,7 +121,7 @@ def _add_shape(tangents: ModeTangents, i: int, discs: Sequence[str], angles: Mod
     for name, value, slope in zip(discs, scaled.tolist(), changes, strict=True):
         tangents.mode_shapes[i, name] = Tangent(value, slope)
     if np.abs(growth - growth[0]).max(initial=0.0) > _ONE * np.abs(changes).max(initial=0.0):
-        tangents.shape_ties[i] = "the largest amplitude is reached at several places"
+        tangents.shape_ties[i] = "the largest amplitude occurs at several positions"
 
 
 class _LumpedModes:

@@ -151,10 +151,10 @@ def _columns(machine: Machine, name: str, speeds: Floats, here: _Arrays) -> _Arr
         moved = acting(x + h if more else x - h)
         if all(np.array_equal(a, b) for a, b in zip(here, moved, strict=True)):
             return tuple(np.zeros_like(array) for array in here)
-        raise InputError(f"it is at the end of its range, {x:.6g}")
+        raise InputError(f"it is at the limit of its range, {x:.6g}")
     derivatives = slopes(acting, x, here)
     if derivatives is None:
-        raise InputError("the torques that act on the train have a kink there")
+        raise InputError("the torques on the train have a kink there")
     return derivatives
 
 

@@ -22,7 +22,9 @@ from linkwright.torsion.model.drive_train import drive_train
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import whole_train
 
-_MECHANISM = "the mean inertia of a mechanism has no derivative here; it is that of the disc `crank`"
+_MECHANISM = (
+    "the mean inertia of a mechanism is not differentiated here; it is the inertia of the disc `crank`"
+)
 
 
 _START = "the curve of a coupling starts at zero"
