@@ -200,7 +200,7 @@ def test_lifts_that_do_not_close() -> None:
         ("share = 0.2", "shore = 0.2", "2.law.shore", "share"),
         ('"120 deg", lift = "20', '"-120 deg", lift = "20', "0.angle", "greater than 0"),
         ('"20 mm"', '"20 kg"', "0.lift", "a length"),
-        ('"cycloidal"', '"double_harmonic", acceleration_end = 0', "0.law", "neighbours"),
+        ('"cycloidal"', '"double_harmonic", acceleration_end = 0', "0.law", "neighbouring sections"),
         ('"cycloidal"', '{ kind = "polynomial", powers = [0, 1, 2] }', "0.law.powers", "6 powers"),
         ('"cycloidal"', '{ kind = "polynomial", powers = [0, 1, 2, 2] }', "0.law.powers.3", "each once"),
         ('"cycloidal"', '{ kind = "polynomial", continuity_end = 9 }', "0.law.continuity_end", "one of 0, 1"),
@@ -244,12 +244,12 @@ def test_a_spline_says_its_lift_itself() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "key", "words"),
     [
-        ('lift = "0, 4, 17, 20 mm"', 'swing = "0, 1, 2, 3 deg"', "0.lift", "how far"),
+        ('lift = "0, 4, 17, 20 mm"', 'swing = "0, 1, 2, 3 deg"', "0.lift", "the lift or swing"),
         ('"0, 30, 80, 120 deg"', '"0, 30, 80, 110 deg"', "0.law.angle", "that of the section"),
         ('"0, 30, 80, 120 deg"', '"0, 30, 20, 120 deg"', "0.law.angle.2", "more than"),
         ('"0, 30, 80, 120 deg"', '"0, 30, 120 deg"', "0.law.lift", "3 values"),
         ('120 deg", law', '120 deg", lift = "20.1 mm", law', "", "lifts that add to 0"),
-        ('"10 mm/rad^2"', '"8 mm/rad^2"', "2.law", "is done in 180 deg"),
+        ('"10 mm/rad^2"', '"8 mm/rad^2"', "2.law", "complete the lift in 180 deg"),
         ('"10 mm/rad^2"', '"8 mm/s^2"', "2.law.acceleration_max", "a length per cam angle squared"),
         ("acceleration_max", "velocity_max", "2.law.velocity_max", "a length per cam angle"),
         ("acceleration_max", "swing_acceleration_max", "2.law.swing_acceleration_max", "per angle"),

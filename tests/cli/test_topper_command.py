@@ -105,7 +105,7 @@ def test_limits_give_the_exit_code(file: str) -> None:
     failing = run("field", file, "--set", "topper.limits.complete_min=0.99", "--json")
     assert failing.exit_code == 1
     found = json.loads(failing.stdout)
-    assert "99 % are asked for" in found["findings"][0]
+    assert "99 % are required" in found["findings"][0]
     assert found["findings"][0] in found["warnings"]
 
 
@@ -140,8 +140,8 @@ def test_best_knife(file: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("limits", "words"),
     [
-        ({}, "No slicing_min is asked for"),
-        ({"slicing_min": 0.4}, "A slanted edge that rests slices as much"),
+        ({}, "No slicing_min is given"),
+        ({"slicing_min": 0.4}, "A slanted edge at rest reaches"),
         ({"slicing_min": 0.4, "knife_speed_min": 0.8, "angle_max": 0.1}, "No such"),
     ],
 )

@@ -38,7 +38,7 @@ def machine(motor: str, loads: str = "", efficiency: float = 1.0) -> lw.Machine:
 
 def told(of: lw.Machine) -> tuple[float, float]:
     """The range in the message."""
-    with pytest.raises(SteadyStateError, match="no steady motion of its own") as error:
+    with pytest.raises(SteadyStateError, match="no unique steady motion") as error:
         lw.steady_state(of)
     text = str(error.value)
     if "at any speed" in text:
@@ -110,7 +110,7 @@ def test_range_below_a_faster_motion_is_told() -> None:
     ends = [other for other in motion.others if other.multiplier == 1.0]
     assert ends[0].speed_max == pytest.approx(8.0, rel=1e-4)
     assert ends[1].speed_min == pytest.approx(5.0, rel=1e-4)
-    assert any("one end of a range of motions that all repeat" in text for text in lw.study(of).warnings)
+    assert any("bounds a range of periodic motions" in text for text in lw.study(of).warnings)
 
 
 def test_range_above_a_steady_motion_is_told() -> None:
@@ -130,7 +130,7 @@ def test_range_above_a_steady_motion_is_told() -> None:
     (limit,) = motion.start_limits
     assert (limit.outcome, limit.side) == ("runs away", "above")
     assert motion.speed_max < limit.speed < end.speed_max
-    assert any("gains speed up to the range of motions" in text for text in lw.study(of).warnings)
+    assert any("accelerates into the range of periodic motions" in text for text in lw.study(of).warnings)
 
 
 def test_a_slight_slope_is_none_of_these() -> None:

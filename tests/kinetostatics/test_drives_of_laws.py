@@ -27,14 +27,14 @@ def test_the_shaft_in_front_of_a_law() -> None:
     slope = h / np.pi * np.where(phi < np.pi, 1 - np.cos(2 * phi), -(1 - np.cos(2 * phi)))
     np.testing.assert_allclose(found.torque_drive, found.drives["A"] * slope, atol=1e-9 * 45)
     assert found.laws == ("A",)
-    assert found.shaft == "torque on the shaft in front of the law of A, at constant speed"
+    assert found.shaft == "torque on the input shaft of the law of A, at constant speed"
     assert abs(found.drive_max["A"]) == pytest.approx(25.99, abs=0.01)
 
 
 def test_every_output_names_it() -> None:
     """Table, JSON, run and size; each drive has its row."""
     table = shown("forces", SERVO)
-    assert "torque on the shaft in front of the" in table
+    assert "torque on the input shaft of the" in table
     assert "torque of the drive A 25.9" in table
     results = json.loads(CliRunner().invoke(application(), ["forces", SERVO, "--json"]).stdout)["results"]
     text = json.dumps(results)

@@ -91,7 +91,7 @@ def test_a_joint_in_line_has_no_side() -> None:
         a = { start = "A", end = "E", length = 0.4 }
         b = { start = "D", end = "E", length = 0.1 }
     """)
-    with pytest.raises(AssemblyError, match="in line with what holds it"):
+    with pytest.raises(AssemblyError, match="in line with the points that hold it"):
         lw.closure(machine)
 
 

@@ -106,7 +106,7 @@ def test_a_law_that_saturates_is_told_with_its_remedy(name: str, words: str) -> 
     for command in ("check", "run"):
         code, said = answer(command, str(FOUND / f"{name}.toml"))
         assert code == 1
-        (text,) = [text for text in said["findings"] if "counts on beyond 2π" in text]
+        (text,) = [text for text in said["findings"] if "continues beyond 2π" in text]
         assert words in text
         assert "pi - atan2(sin(phi), -cos(phi))" in text
 

@@ -114,13 +114,13 @@ def test_what_a_study_says_first(name: str, known: dict[str, str]) -> None:
         "0.001 m more at the upper end of y would make x 0.001 m larger",
         "derivatives exact",
         "cost 3 instead of 4.2; yield 99 % (98 to 100 %) instead of 97 %",
-        "held down by x, y",
-        "no constraint holds them down: they are as wide as the search goes",
+        "limited by x, y",
+        "no constraint limits them: they are at the upper end of the search",
         "6 samples of speed; derivatives by differences, to 3e-09; noise 0.0177 rad/s in speed",
         "in row",
-        "Known worst: 2 % more mass is known to ±0.31 % (standard deviation)",
-        "Known worst: 1 % more a and 0.3 % less b and 0.345 kg more c together are known to ±0.31 % "
-        "(standard deviation)",
+        "Least well determined: 2 % more mass is known to ±0.31 % (standard deviation)",
+        "Least well determined: 1 % more a and 0.3 % less b and 0.345 kg more c together are known to "
+        "±0.31 % (standard deviation)",
         "1 % more a would change the record by 0.02 of its noise: the record does not determine it",
         "1 % less a and 1 % more b and 2 % less c together would change the record by 0.02 of its noise: "
         "the record does not determine them",

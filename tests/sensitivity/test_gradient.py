@@ -330,7 +330,7 @@ def test_a_motor_without_load_has_no_torque() -> None:
     assert not torques
     assert found.missing["steady_state.torque_motor_rms"] == "it is zero within rounding error"
     assert found.missing["steady_state.power_motor_mean"] == "it is zero within rounding error"
-    with pytest.raises(FindingError, match="zero but for rounding"):
+    with pytest.raises(FindingError, match="zero within rounding error"):
         lw.gradient(machine, ["steady_state.torque_motor_rms"])
 
 

@@ -271,7 +271,7 @@ def test_places_that_would_part_kinks_at_one_speed_are_refused(others, analysis)
     machine, places = _sharing(others)
     found = lw.gradient(machine, [analysis])
     assert {*places} <= {*found.refused}
-    assert all("part" in found.refused[name] for name in places)
+    assert all("separate" in found.refused[name] for name in places)
     if others == "motor":
         # The ratio moves the kink of the motor alone.
         assert "drive.gearbox.ratio" in found.refused

@@ -50,7 +50,7 @@ _REFUSALS = (
     "the motion slides along a jump",
     "steady motion was found to a relative accuracy",
     "Newton's method does not converge to it",
-    "whether there is a steady motion was not decided",
+    "the existence of a steady motion was not determined",
     _STANDS_ON_A_KINK,
     "it is zero within rounding error",
 )

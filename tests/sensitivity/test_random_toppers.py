@@ -152,7 +152,7 @@ def test_derivatives_are_those_of_the_topper(kind: str) -> None:
 def test_what_has_no_derivative_says_why() -> None:
     machine = lw.read("topper")
     found = source(machine, "topper", ["topper.knife_speed"])
-    assert "none moves" in found.missing["topper.best_phase"]
+    assert "fixed sample phases" in found.missing["topper.best_phase"]
     assert found.missing["topper.uncut_phase"] == "no head has an uncut share"
     assert "other end of the stroke" in found.ties["topper.worst_offset"]
     with pytest.raises(FindingError, match="one of fixed sample phases"):

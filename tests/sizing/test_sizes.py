@@ -118,7 +118,7 @@ def test_motors_that_do_not_serve_are_named(monkeypatch: pytest.MonkeyPatch) -> 
     assert answer.exit_code == 1
     (finding,) = json.loads(answer.output)["findings"]
     assert "4A132S6U3, 4A132M6U3, 4A160S6U3" in finding
-    assert "larger ones may serve" in finding
+    assert "larger ones may suffice" in finding
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ def test_the_headline_names_the_check_that_decides() -> None:
         assert code == 0
         head = text[: text.index("The motor in the file")]
         assert "decisive check: starting torque, worst angle; IE2 5.5 kW 4-pole frame 132S, 5.5 kW" in head
-        assert "is not known, which counts as failed" in head
+        assert "is unknown and counts as failed" in head
         assert "use --by fixed-start" in head
     assert sized(PRESS)["motor"]["decided_by"] == "starting_torque_worst"
 

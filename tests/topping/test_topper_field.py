@@ -292,7 +292,7 @@ def test_limits_of_the_file_are_judged() -> None:
     text = SCATTER + "[topper.limits]\ncomplete_min = 0.97\nhaulm_max = 1e-4\nslicing_min = 1\n"
     topped = machine(text, limits__length_max="0.17 m")
     words = told(topper_field(topped), topped)
-    for part in ("97 % are asked for", "% are allowed", "1 is asked", "0.17 m are allowed"):
+    for part in ("97 % are required", "% is permitted", "1 is required", "0.17 m is permitted"):
         assert part in words
     assert told(topper_field(machine(SCATTER)), machine(SCATTER)) == ""
 

@@ -55,7 +55,7 @@ def test_a_compressor_and_its_motor(engine: float, driver: float | None, words: 
 
 def test_loads_without_speeds() -> None:
     """Without [train.run] there is no speed at which a load has a slope."""
-    words = "The loads damp at the speeds of [train.run] only"
+    words = "The loads damp only at the speeds of [train.run]"
     assert any(words in text for text in torsion_study(lw.loads(DRIVEN)).warnings)
     run = '[train.run]\nspeed_min = "500 rpm"\nspeed_max = "2000 rpm"\n'
     assert not any(words in text for text in torsion_study(lw.loads(DRIVEN + run)).warnings)

@@ -115,7 +115,7 @@ def test_a_record_from_elsewhere_names_nobody(engine: lw.Machine) -> None:
     read = record_diagnosis(engine, "generator", *record(engine, "flywheel"), noise=1e-3)
     assert not read.is_plausible
     assert read.weak() == ()
-    assert "no share of a combustion" in read.warnings[-1]
+    assert "is not physical" in read.warnings[-1]
 
 
 def test_another_load_than_that_of_the_file(engine: lw.Machine) -> None:

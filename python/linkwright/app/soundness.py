@@ -88,7 +88,7 @@ def _knife(machine: Machine, findings: Findings) -> Iterator[str]:
     findings.add(looked or ())
     if looked is not None and described.field is not None:
         findings.of(lambda: require_advance(edges_of(machine, described), draw_roots(described)))
-    yield "knife of the topper: its advance, and its length for every head"
+    yield "knife of the topper: advance of the edge, and its length for every head"
 
 
 def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
@@ -103,22 +103,23 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
         from linkwright.pumping.rod_rotator import rod_rotator
 
         findings.of(rod_rotator, machine)
-        yield "rod rotator: lengths, and the motion of its regime"
+        yield "rod rotator: lengths, and motion in its regime"
     if machine.mechanism.cams:
         from linkwright.cam.dynamics.loaded import loaded_cam
         from linkwright.cam.study import sound_cams
 
         _, sound = sound_cams(machine, findings)
-        yield "cams: undercut, crossings, pressure angle of 90°, hollows, second followers"
+        yield "cams: undercut, self-intersection, pressure angle of 90°, concave parts, second followers"
         if sound and _keeps_its_speed(machine) and (machine.bodies or machine.loads):
             for cam in sound:
                 findings.of(loaded_cam, machine, cam)
-            yield "cams at constant speed: followers that leave them"
+            yield "cams at constant speed: loss of contact"
     compiled = findings.of(require_turn, machine)
     if compiled is not None:
         findings.add(idle_parts(machine))
         findings.warn(law_cautions(machine))
-    yield "mechanism: closure over the whole revolution" + (", loads there" if machine.loads else "")
+    loads = "; loads are defined everywhere" if machine.loads else ""
+    yield f"mechanism: closes over the full revolution{loads}"
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)

@@ -53,7 +53,7 @@ STATUS = SENTENCES | {
 # What each number of `SteadyStates.fast_starts` means; fast starts settle where it is 0.
 _OUTCOMES = ("runs away", "undecided")
 FAST_STARTS = {
-    1: "From fast starts the machine runs away, or gains speed up to a range of motions that all repeat; it "
+    1: "From fast starts the machine runs away, or accelerates into a range of periodic motions; it "
     "reaches the steady motion from slower starts.",
     2: START_WORDS["undecided"].format("fast starts"),
 }
@@ -69,8 +69,9 @@ def fast_starts(machine: Machine) -> int:
 
 
 _FAST_STARTS = (
-    "0, or 1 where the machine runs away from fast starts and reaches the motion from slower ones, 2 where "
-    "that was not decided, as `linkwright.drive.batch.FAST_STARTS` says; `steady_state` tells the speeds."
+    "0, or 1 where the machine runs away from fast starts and reaches the motion from slower ones, 2 "
+    "where that was not decided, as `linkwright.drive.batch.FAST_STARTS` says; `steady_state` gives the "
+    "speeds."
 )
 _STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
 
@@ -95,7 +96,7 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
         Floats, Label("root mean square torque of the motor", "M_rms", "N m", "Over time.")
     ]
     fast_starts: Annotated[NDArray[np.uint8], About(_FAST_STARTS, "(rows,)")]
-    turns_swept: Annotated[int, About("Revolutions that the solver went through in all.")]
+    turns_swept: Annotated[int, About("Revolutions computed by the solver in total.")]
     turns: Annotated[Integers, Label("revolutions of a cycle", "", "")]
 
     @property

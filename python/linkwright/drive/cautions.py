@@ -196,13 +196,13 @@ def _others(steady: SteadyState) -> Iterator[str]:
         start = "slower" if faster else "faster"
         if other.multiplier == 1.0:
             yield (
-                f"A motion {range_} is one end of a range of motions that all repeat: within it neither "
-                f"drive nor loads depend on the speed; the computed motion follows from a {start} start."
+                f"A motion {range_} bounds a range of periodic motions: within it neither drive nor loads "
+                f"depend on the speed; the computed motion is reached from a {start} start."
             )
         elif other.is_stable:
             yield (
                 f"Another steady motion is possible, {range_}: a machine that starts near it stays there; "
-                f"the computed one follows from a {start} start."
+                f"the computed one is reached from a {start} start."
             )
         elif faster:
             yield f"From speeds above an unstable motion {range_} the machine does not settle."
@@ -220,8 +220,8 @@ def _start_limits(steady: SteadyState) -> Iterator[str]:
         starts = f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°"
         if limit.outcome == "runs away" and has_range:
             yield (
-                f"From {starts} the machine gains speed up to the range of motions that all repeat; "
-                "it reaches the steady motion from slower starts."
+                f"From {starts} the machine accelerates into the range of periodic motions; it reaches the "
+                "steady motion from slower starts."
             )
         else:
             yield START_WORDS[limit.outcome].format(starts)

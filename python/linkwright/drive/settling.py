@@ -13,7 +13,7 @@ _CYCLES = 60
 # Change of the speed over a cycle, as a share, below which it has settled.
 _SETTLED = 1e-6
 
-_ADVICE = "follow the machine in time (linkwright transient) to see what it does"
+_ADVICE = "simulate the machine in time (linkwright transient)"
 
 
 def in_time(machine: Machine, speed: float, turns: int) -> str:
@@ -33,7 +33,7 @@ def in_time(machine: Machine, speed: float, turns: int) -> str:
         return _ADVICE
     slowest, fastest = motion_extremes(last)[:2]
     return (
-        f"followed in time from {speed:.4g} rad/s it settles between {slowest.value:.5g} and "
+        f"simulated in time from {speed:.4g} rad/s it settles between {slowest.value:.5g} and "
         f"{fastest.value:.5g} rad/s (linkwright transient)"
     )
 
@@ -43,4 +43,4 @@ def _ended(motion: Transient) -> str:
     if motion.end not in (End.STALL, End.REVERSAL):
         return _ADVICE
     how = "comes to rest" if motion.end == End.STALL else "turns back"
-    return f"followed in time it {how} after {motion.turns:.4g} revolutions (linkwright transient)"
+    return f"simulated in time it {how} after {motion.turns:.4g} revolutions (linkwright transient)"

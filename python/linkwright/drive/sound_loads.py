@@ -90,9 +90,9 @@ def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
                 "load torque at the crank"
             )
     error = SteadyStateError(
-        f"the motion slides along a jump: {what}, and the torques of both sides drive the crank back there, "
-        "so that it keeps that speed under a load in between, which no formula gives; write the jump as a "
-        "steep slope over speed, such as min(max((omega - w0)/width, 0), 1)"
+        f"the motion slides along a jump: {what}, and the torques on both sides drive the crank back to "
+        "it, so that the effective load lies between them and is undefined; write the jump as a steep "
+        "slope over speed, such as min(max((omega - w0)/width, 0), 1)"
     )
     # Steady motion and run-up reach the jump at different angles.
     error.cause = f"slides along a jump at {speed:.4g} rad/s"

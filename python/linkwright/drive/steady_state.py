@@ -106,10 +106,10 @@ class StartLimit(NamedTuple):
 
 # What is said of such starts, by their outcome.
 START_WORDS = {
-    "runs away": "From {} the machine runs away: the drive gives more than the loads take, however fast it "
-    "turns; it reaches the steady motion from slower starts.",
-    "undecided": "What the machine does from {} was not decided: the search for other steady motions ended "
-    "before; follow it in time (linkwright transient).",
+    "runs away": "From {} the machine runs away: the driving torque exceeds the load torque at every "
+    "speed; it reaches the steady motion from slower starts.",
+    "undecided": "The behaviour from {} was not determined: the search for other steady motions reached "
+    "its limit; simulate the machine in time (linkwright transient).",
 }
 
 _MULTIPLIER = (
@@ -503,8 +503,8 @@ def _failure(
         return SteadyStateError(_neutral(compiled, motion.speed_slowest, speed))
     if motion.status == Status.UNDECIDED:
         return ConvergenceError(
-            "whether there is a steady motion was not decided: a search takes "
-            f"{SEARCH_TURNS_MAX} revolutions and {SEARCH_STEPS_MAX} steps of integration at most; "
+            "the existence of a steady motion was not determined: the search is limited to "
+            f"{SEARCH_TURNS_MAX} revolutions and {SEARCH_STEPS_MAX} integration steps; "
             + in_time(machine, compiled.speed_guess, compiled.turns),
             method="integration over revolutions",
             iterations=SEARCH_TURNS_MAX,
@@ -513,14 +513,14 @@ def _failure(
         return ConvergenceError(
             "a periodic motion exists"
             + ("" if np.isnan(speed) else f" at {speed:.4g} rad/s at φ = 0°")
-            + ", but Newton's method does not converge to it: its numbers are not known; "
+            + ", but Newton's method does not converge to it: its values are unknown; "
             + in_time(machine, compiled.speed_guess if np.isnan(speed) else speed, compiled.turns),
             method="Newton's method",
         )
     if not reached > accuracy:
         return ConvergenceError(
-            f"steady motion needs more than {MESH_STEPS_MAX} steps a revolution to see all that is steep in "
-            "the formulas of the loads; write fewer, or wider, pulses and switches",
+            f"steady motion needs more than {MESH_STEPS_MAX} steps per revolution to resolve the steep "
+            "parts of the load formulas; use fewer, or wider, pulses and switches",
             method="collocation",
             iterations=MESH_STEPS_MAX,
         )
@@ -543,10 +543,10 @@ def _neutral(compiled: CompiledMachine, slowest: float, fastest: float) -> str:
     else:
         range_ = f"from {slowest:.5g} to {fastest:.5g} rad/s at φ = 0"
     return (
-        f"no steady motion of its own: {range_} the drive gives on average just what the loads take "
+        f"no unique steady motion: {range_} the mean driving torque equals the mean load torque "
         f"({drive:.4g} against {needed:.4g} N m at the crank), and neither depends on the speed, so the "
-        "machine keeps whatever speed of these it has; add a load that grows with speed or a motor whose "
-        "torque falls with it"
+        "machine keeps any of these speeds; add a load that grows with speed or a motor whose torque "
+        "falls with it"
     )
 
 
@@ -576,6 +576,6 @@ def _what_lacks(compiled: CompiledMachine) -> str:
             f"at the crank and the mean load needs {resisting[best]:.4g} N m; choose a larger motor or ratio"
         )
     return (
-        "no steady motion: the drive balances the mean load, but not the peaks of a revolution: the machine "
-        "comes to rest within the revolution; add a flywheel or choose a larger motor"
+        "no steady motion: the drive balances the mean load, but not its peaks: the machine comes to rest "
+        "within the revolution; add a flywheel or choose a larger motor"
     )

@@ -47,7 +47,7 @@ _TURNS_MAX = 2000
 class StepMotion(Result, evenness.Evenness[float]):
     """Motion by the step method: all revolutions from rest, and the measures of the last."""
 
-    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Counted on over the revolutions.")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Continuous over the revolutions.")]
     time: Annotated[Floats, Label("time", "t", "s")]
     speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[
@@ -95,8 +95,8 @@ def step_method(machine: Machine, *, step: float = np.radians(1.0)) -> StepMotio
     require_full_turn(compiled, machine)
     if over_whole_cycle(compiled).turns > 1:
         raise InputError(
-            f"{machine.name}: the step method knows one revolution, and loads or mechanism repeat after "
-            "several; use steady_state"
+            f"{machine.name}: the step method covers one revolution, but loads or mechanism repeat only "
+            "after several; use steady_state"
         )
     require_same_turns(machine)
     n = whole_steps(step)
@@ -117,7 +117,7 @@ def whole_steps(step: float) -> int:
     """Steps in one revolution; an `InputError` if the step does not divide it."""
     in_range(step=(step, positive(ANGLE)))
     n = 2 * np.pi / step if step < np.pi else 0
-    require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "take a longer step; 1° is usual")
+    require_within(STEPS, n, f"step of {np.degrees(step):.3g}°", "use a longer step; 1° is usual")
     n = round(n)
     if n == 0 or abs(n * step - 2 * np.pi) > 1e-6:
         raise InputError(f"a step of {np.degrees(step):g}° does not divide the revolution; 1° is usual")

@@ -104,7 +104,7 @@ class Transient(Result):
     """A motion in time, at the ends of the solver's steps."""
 
     time: Annotated[Floats, Label("time", "t", "s")]
-    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Counted on over the revolutions.")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Continuous over the revolutions.")]
     speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
     acceleration: Annotated[Floats, Label("acceleration of the crank", "ε", "rad/s²")]
     end: Annotated[End, About("How it ended.")]
@@ -294,8 +294,8 @@ def transient(
         raise sliding(machine, *last)
     if end == End.INACCURATE:
         raise ConvergenceError(
-            f"the motion was given up at {motion.time[-1]:.6g} s: steps became too small or too many for an "
-            f"accuracy of {accuracy:g}",
+            f"the integration stopped at {motion.time[-1]:.6g} s: steps became too small or too many for "
+            f"an accuracy of {accuracy:g}",
             method="DOP853 and Radau IIA",
             iterations=len(motion.time),
         )

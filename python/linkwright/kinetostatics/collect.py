@@ -256,8 +256,8 @@ class Collector:
                 at = np.degrees(motion.crank_angle[worst])
                 left.append(
                     f"{LEAVES} {name}: at crank angle {at:.4g}° and {primal(motion.speed)[worst]:.4g} "
-                    f"rad/s it would have to be pulled with {-force[worst]:.4g} N; these forces hold for a "
-                    f"follower that stays; {KEEPS}"
+                    f"rad/s it would have to be pulled with {-force[worst]:.4g} N; these forces apply to a "
+                    f"follower in contact; {KEEPS}"
                 )
         return left
 

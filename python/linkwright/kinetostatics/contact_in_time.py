@@ -75,12 +75,12 @@ class ContactLoss(NamedTuple):
         most = f"after {number(self.pull_time)} s it would have to be"
         if self.kind == "cam":
             return (
-                f"{LEAVES} {self.name} {at}; {most} pulled with {number(self.pull)} N; this motion holds for "
-                f"a follower that stays; {KEEPS}"
+                f"{LEAVES} {self.name} {at}; {most} pulled with {number(self.pull)} N; this motion applies "
+                f"to a follower in contact; {KEEPS}"
             )
         return (
             f"The cable {self.name} becomes slack {at}; {most} pushed with {number(self.pull)} N; this "
-            f"motion holds for a cable that stays tight; {TIGHTENS}"
+            f"motion applies to a taut cable; {TIGHTENS}"
         )
 
 

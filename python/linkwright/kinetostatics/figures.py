@@ -160,8 +160,8 @@ def _given(forces: Forces) -> str:
     """What the drive gives, in a sentence."""
     most = quantity(forces.torque_drive_max, "N m")
     if forces.shaft:
-        return f"The {forces.shaft}, is up to {most}."
-    return f"The drive gives up to {most} at the crank."
+        return f"The peak {forces.shaft}, is {most}."
+    return f"Peak driving torque at the crank: {most}."
 
 
 def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
@@ -171,12 +171,12 @@ def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
     caption = (
-        f"Joint reactions along the steady motion: {largest} at most {quantity(pins[largest], 'N')}. "
+        f"Joint reactions in steady motion: peak {quantity(pins[largest], 'N')} at {largest}. "
         f"{_given(forces)}"
     )
     yield CaptionedFigure("forces", "Joint reactions", caption, forces_figure(forces))
     caption = (
-        f"Ends of the force vectors over one revolution, a mark at φ = 0; the shaking force is up to "
+        "Ends of the force vectors over one revolution, a mark at φ = 0; the peak shaking force is "
         f"{quantity(forces.shaking_force_max, 'N')}."
     )
     yield CaptionedFigure("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))

@@ -110,7 +110,7 @@ def forces(
     """
     in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
     if motion is not None and angles is not None:
-        raise InputError("angles: found them beside a motion, which has its own; leave them out")
+        raise InputError("angles: found together with a motion, which has its own; omit them")
     if motion is None:
         # Before a motion of as many angles is worked out.
         require_room(structure_of(machine), n + 1 if angles is None else np.size(angles))

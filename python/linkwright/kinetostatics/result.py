@@ -69,7 +69,7 @@ class Contribution(Record):
 
 _CONTRIBUTIONS = (
     '``"inertia"``, ``"friction"`` (its viscous share), and each load as ``"loads.name"``. Dry friction '
-    "goes with what causes it."
+    "is part of the contribution that causes it."
 )
 
 
@@ -174,7 +174,7 @@ class Forces(Result):
         """What the driving torque is, where drives follow laws; empty where it is that of the crank."""
         if not self.laws:
             return ""
-        words = f"torque on the shaft in front of the law of {', '.join(self.laws)}"
+        words = f"torque on the input shaft of the law of {', '.join(self.laws)}"
         return words if np.any(self.acceleration) else f"{words}, at constant speed"
 
     def columns(self) -> dict[str, Floats]:

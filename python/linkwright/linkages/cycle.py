@@ -124,7 +124,10 @@ class ElementMotion(Record):
     swing: Annotated[
         float | None,
         Label(
-            "swing of the link", "", "rad", "Between its extreme positions; None if it turns on, or is none."
+            "swing of the link",
+            "",
+            "rad",
+            "Between its extreme positions; None for a full rotation, and for a slide.",
         ),
     ]
     stroke: Annotated[

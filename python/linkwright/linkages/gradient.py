@@ -184,8 +184,10 @@ class _Found:
             return
         differs = self._differ(np.array(sides), size)
         if differs.any():
-            words = "the minimum and the maximum deviate equally from 90°; the derivatives with respect to {} differ"
-            self.ties[key] = words.format(self._entries(differs))
+            self.ties[key] = (
+                "the minimum and the maximum deviate equally from 90°; the derivatives with respect to "
+                f"{self._entries(differs)} differ"
+            )
         self._keep(key, min(least, rest), np.where(differs, np.nan, sides[0]))
 
     def _extreme(self, key: str, turns: _Turns, value: float, size: float) -> Floats | None:

@@ -73,8 +73,8 @@ def shaft_of_laws(machine: Machine) -> Iterator[str]:
     if names and (machine.bodies or machine.loads):
         yield (
             f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the "
-            "shaft in front of the law; a motor that makes the motion itself needs the torque of the drive "
-            "behind it"
+            "input shaft of the law; a servo motor that generates the motion needs the torque of the "
+            "drive behind it"
         )
 
 

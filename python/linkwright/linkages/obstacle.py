@@ -37,7 +37,7 @@ def change_point(element: str, machine: Machine) -> Words:
     change.
     """
     if element in machine.linkage.slotted_levers:
-        what = "its pin passes over its pivot, where the lever has no direction"
+        what = "its pin passes through its pivot, where the direction of the lever is undefined"
         return what, "move the pivot, or give the slot an offset"
     what = "its links are in line there and the speeds are indeterminate"
     if " and " in element:
@@ -59,7 +59,7 @@ def _rocker(name: str, mechanism: Mechanism) -> Words:
 
 def _slotted_lever(name: str, mechanism: Mechanism) -> Words:
     lever = mechanism.slotted_levers[name]
-    what = f"the pin of {name} comes nearer to its pivot than the slot passes ({lever.offset:g} m)"
+    what = f"the pin of {name} comes closer to its pivot than the offset of the slot ({lever.offset:g} m)"
     return what, "reduce the offset of the slot, or move the pivot away from the pin"
 
 

@@ -134,9 +134,9 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
         elif np.ptp(second - first) <= _SAME * size and np.ptp(third - second) <= _SAME * size:
             does = f"advances by {second[0] - first[0]:.4g} per revolution"
         return (
-            f"φ counts on beyond 2π, and there the law of {name.removesuffix('.law')} {does}; with "
-            "u = pi - atan2(sin(phi), -cos(phi)) in place of phi it repeats in every revolution, and "
-            "h*(phi - u)/(2*pi) added to it advances by h in each; or describe the motion as a cam"
+            f"φ continues beyond 2π, where the law of {name.removesuffix('.law')} {does}; with u = pi - "
+            "atan2(sin(phi), -cos(phi)) in place of phi it repeats in every revolution, and h*(phi - "
+            "u)/(2*pi) added to it advances by h in each; or describe the motion as a cam"
         )
     return ""
 

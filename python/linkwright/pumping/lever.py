@@ -66,8 +66,9 @@ class Lever:
         if not np.isfinite(motion).all():
             at = float(angles[int(np.argmin(np.isfinite(motion).all(axis=0)))])
             raise AssemblyError(
-                f"the pin of the rotator passes over the hanger at crank angle {np.degrees(at):.2f}°, where "
-                "the lever may point anywhere; give the hanger cable a free length (pumping_unit.cable)",
+                f"the pin of the rotator passes over the hanger at crank angle {np.degrees(at):.2f}°, "
+                "where the direction of the lever is undefined; give the hanger cable a free length "
+                "(pumping_unit.cable)",
                 element="rotator",
                 crank_angle=at,
             )

@@ -17,7 +17,7 @@ def unjudged(machine: Machine) -> tuple[str, ...]:
     """Which shaft is sized where drivers follow laws, and limits that are not judged, in sentences."""
     names = ", ".join(drivers_with_laws(machine))
     law = (
-        f"Sized is the motor of the shaft in front of the law of {names}, which turns at constant speed as "
-        "if the law were a cam; a servo motor that makes the motion itself needs other torques and speeds"
+        f"The sized motor drives the input shaft of the law of {names} at constant speed, with the law "
+        "acting as a cam; a servo motor that generates the motion needs other torques and speeds"
     )
     return (*((law,) if names else ()), *unjudged_limits(machine))

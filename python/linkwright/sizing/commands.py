@@ -199,8 +199,8 @@ def _untried(plan: StudyPlan) -> str:
         return ""
     types = [value["catalogue"] for value in motor.values]
     return (
-        f"; tried were the motors {', '.join(types)}; larger ones may serve: write the study by --study "
-        "FILE, add them to its values of motor, and run linkwright optimise FILE"
+        f"; motors tried: {', '.join(types)}; larger ones may suffice: write the study by --study FILE, "
+        "add them to its values of motor, and run linkwright optimise FILE"
     )
 
 
@@ -415,7 +415,7 @@ def _deciding(motor: MotorChoice) -> list[str]:
     if decided := motor.decided_by:
         check, other = decided
         power = quantity(other.known.power_rated, "W", 4, usual="kW")
-        verdict = "is not known, which counts as failed" if check.passed is None else "fails"
+        verdict = "is unknown and counts as failed" if check.passed is None else "fails"
         lines.append(
             f"decisive check: {check.title}; {other.type}, {power}, passes all others; this one {verdict}"
         )

@@ -290,7 +290,9 @@ def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) 
     if least is None or (chosen and least.known.power_rated >= chosen.known.power_rated):
         return []
     power = least.known.power_rated / 1e3
-    return [f"started from its start angle only, {least.type} of {power:.4g} kW would do: see fixed-start"]
+    return [
+        f"for a start from the start angle only, {least.type} of {power:.4g} kW suffices: see fixed-start"
+    ]
 
 
 def _of(type: str, types: Sequence[CatalogueMotor]) -> CatalogueMotor:
@@ -441,8 +443,8 @@ class _Judge:
         lost = [name for factor in (1 / _DOUBT, _DOUBT) for name in self._lost(chosen, factor)]
         if lost:
             names = ", ".join(dict.fromkeys(lost)).replace("_", " ")
-            return [f"{words}; with half or twice of it the motor does not pass: {names}"]
-        return [f"{words}; with half or twice of it the motor passes too"]
+            return [f"{words}; with half or twice this value the motor does not pass: {names}"]
+        return [f"{words}; with half or twice this value the motor also passes"]
 
     def _lost(self, chosen: Candidate, factor: float) -> list[str]:
         """Decisive checks that fail with another inertia."""

@@ -78,7 +78,7 @@ class Fit(Result):
     ]
     freedom: Annotated[int, Label("degrees of freedom", "ν", "")]
     n_evaluations: Annotated[int, Label("motions that were computed", "", "")]
-    reasons: Annotated[dict[str, int], About("Why trials of the search had no answer → how many.")]
+    reasons: Annotated[dict[str, int], About("Why trials of the search had no result → how many.")]
 
     @property
     def is_determined(self) -> Annotated[bool, About("Whether the record determines all parameters.")]:
@@ -249,7 +249,7 @@ class _FitJudgement:
                 rise = ((((there - measured) * self.weight) ** 2).sum() - least) / self.factor**2
                 if not abs(rise - 1) <= _CURVED:
                     end = "upper" if sign > 0 else "lower"
-                    words = f"{rise:.2f} times" if np.isfinite(rise) else "without an answer instead of"
+                    words = f"{rise:.2f} times" if np.isfinite(rise) else "without a result instead of"
                     sentences.append(
                         f"at the {end} end of the interval of {names[i]} the sum of squares rises {words} "
                         "what the linear approximation has: the interval is rough"

@@ -47,7 +47,7 @@ class Optimum(Result):
     goal: Annotated[str, About("Name of the response that was sought.")]
     variables: Annotated[dict[str, Any], About("Variable → its value [SI], or what stands at its address.")]
     responses: Annotated[dict[str, float], About("Response → its value for the best machine [SI].")]
-    active: Annotated[tuple[str, ...], About("Limits that the best machine touches, in words.")]
+    active: Annotated[tuple[str, ...], About("Active limits of the best machine, in words.")]
     multipliers: Annotated[
         dict[str, float],
         About("Active limit → by how much the goal would be better if it were wider by one unit [SI]."),
@@ -62,7 +62,7 @@ class Optimum(Result):
     ]
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "")]
-    reasons: Annotated[dict[str, int], About("Why machines had no answer → how many.")]
+    reasons: Annotated[dict[str, int], About("Why machines had no result → how many.")]
     fast_starts: Annotated[
         str, About("What becomes of fast starts of the best machine that do not settle; empty if they do.")
     ]
@@ -170,7 +170,7 @@ def _optimum(search: Search) -> Optimum:
     active = touched(plan, responses, search.best[1])
     worth, unknown = _prices(search) if active else ([], "")
     words = [in_words(plan, search.goal, search.sign, price) for price in worth if price.multiplier > 0]
-    words += [f"what wider limits would be worth is not known: {unknown}"] if unknown else []
+    words += [f"the value of wider limits is unknown: {unknown}"] if unknown else []
     best = machine_of(plan, rows)
     return Optimum(
         machine=best,
@@ -200,7 +200,7 @@ def _prices(search: Search) -> tuple[list[Price], str]:
     except FindingError as error:
         # A machine beside the best has no answer, so that there are no derivatives to explain it by.
         search.reasons[str(error)] += 1
-        return [], "a machine beside the best has no answer"
+        return [], "a machine next to the best has no result"
 
 
 def _refusal(search: Search) -> str:
@@ -209,9 +209,12 @@ def _refusal(search: Search) -> str:
         rows = evaluate(search.plan, search.plan.values(search.best[1][None]))
         limits = search.plan.limits.items()
         nearest = ", ".join(f"{name} = {rows.columns[name][0]:.6g}" for name, _ in limits)
-        return f"none of {search.count} machines keeps all constraints; the nearest has {nearest}: allow more"
+        return (
+            f"none of {search.count} machines satisfies all constraints; the nearest has {nearest}: relax "
+            "the limits"
+        )
     most = max(search.reasons, key=search.reasons.__getitem__, default="")
-    return f"none of {search.count} machines has an answer; most often: {most}"
+    return f"none of {search.count} machines has a result; most often: {most}"
 
 
 def check(plan: StudyPlan, evaluations: int, method: str, starts: int) -> None:

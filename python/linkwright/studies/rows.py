@@ -99,7 +99,7 @@ class Rows:
     def require_solved(self, place: Callable[[int], str]) -> None:
         """Raise a `FindingError` if a row failed, with the place of the first one in words."""
         for row in np.flatnonzero(self.status != SOLVED)[:1].tolist():
-            raise FindingError(f"the machine {place(row)} has no answer: {self.why(row)}")
+            raise FindingError(f"the machine {place(row)} has no result: {self.why(row)}")
 
 
 def counted_fast_starts(numbers: NDArray[np.uint8]) -> dict[str, int]:

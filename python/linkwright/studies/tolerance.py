@@ -186,9 +186,7 @@ def tolerance(
     solved = drawn.status == SOLVED
     if solved.sum() < 2:
         ((reason, _),) = drawn.failures().most_common(1)
-        raise FindingError(
-            f"only {int(solved.sum())} of {rows} machines have an answer; most often: {reason}"
-        )
+        raise FindingError(f"only {int(solved.sum())} of {rows} machines have a result; most often: {reason}")
     columns = {name: drawn.columns[name][solved] for name in plan.responses}
     worst = worst_case(plan, scatters.means, place.slopes, middle, columns)
     sobol = sobol_indices(plan, seed, indices, level) if indices else NONE

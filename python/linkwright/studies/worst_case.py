@@ -114,4 +114,6 @@ def _not_monotone(plan: StudyPlan, column: Floats, own: Indices, solved: Indices
     beyond = np.where(solved, way * (column[own] - column[own[:, :1]]), 0.0)[:, 1:]
     leads = np.flatnonzero((beyond.reshape(2, -1, 3) > room).any(axis=(0, 2)))
     names = [plan.axes[i].name for i in leads]
-    return f"it is not monotone in {', '.join(names)}" if names else "machines between the limits lie beyond"
+    return (
+        f"it is not monotone in {', '.join(names)}" if names else ("machines inside the tolerances exceed it")
+    )

@@ -45,7 +45,7 @@ SOURCE = "Synthesised by linkwright from its dead centres"
 
 
 _CRANK_ROCKER_TURNS_ALIKE = (
-    "Whether the rocker turns like the crank on its way from the outer dead centre to the inner one."
+    "Whether rocker and crank rotate in the same sense from the outer to the inner dead centre."
 )
 
 

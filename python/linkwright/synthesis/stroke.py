@@ -96,8 +96,8 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
     delta = delta_of(time_ratio)
     if rod is None and delta == 0:
         raise InputError(
-            "a time ratio of 1 leaves the rod free, and the longer it is the better: give the rod, such as "
-            f"3 to 5 times half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
+            "with a time ratio of 1 the rod is free, and longer is better: give the rod, such as 3 to 5 "
+            f"times half the stroke ({3 * stroke / 2:.4g} m to {5 * stroke / 2:.4g} m)"
         )
     t, mu = best(lambda t: _slide_transmission(t, delta), float(np.sin(abs(delta) / 2)))
     if rod is not None:

@@ -72,22 +72,23 @@ def field_findings(field: TopperField, topper: Topper) -> Iterator[str]:
     limits = topper.limits
     if field.share_complete < limits.complete_min:
         least = field.length_at(limits.complete_min)
-        remedy = f"; {least:.4g} m would do" if least < float("inf") else ""
+        remedy = f"; {least:.4g} m suffices" if least < float("inf") else ""
         yield (
-            f"Of the heads {100 * field.share_complete:.4g} % are cut through, "
-            f"{100 * limits.complete_min:.4g} % are asked for{remedy}."
+            f"{100 * field.share_complete:.4g} % of the heads are cut through; "
+            f"{100 * limits.complete_min:.4g} % are required{remedy}."
         )
     if limits.haulm_max is not None and field.haulm_mean > limits.haulm_max:
         yield (
-            f"Of the head {100 * field.haulm_mean:.3g} % is left on average, {100 * limits.haulm_max:.3g} % "
-            "are allowed."
+            f"{100 * field.haulm_mean:.3g} % of the head is left uncut on average; "
+            f"{100 * limits.haulm_max:.3g} % is permitted."
         )
     if limits.slicing_min is not None and field.slicing_ratio_mean < limits.slicing_min:
         yield (
-            f"The mean draw-cut ratio is {field.slicing_ratio_mean:.4g}; {limits.slicing_min:.4g} is asked."
+            f"The mean draw-cut ratio is {field.slicing_ratio_mean:.4g}; "
+            f"{limits.slicing_min:.4g} is required."
         )
     if limits.length_max is not None and field.edge_length > limits.length_max:
-        yield f"The edge is {field.edge_length:.4g} m long, {limits.length_max:.4g} m are allowed."
+        yield f"The edge is {field.edge_length:.4g} m long; {limits.length_max:.4g} m is permitted."
 
 
 def field_cautions(field: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
@@ -142,7 +143,7 @@ def knife_look(machine: Machine, described: Topper) -> Iterator[str]:
         if left > _LEFT and np.isfinite(needed):
             yield (
                 f"The edge of {described.edge_length:.6g} m does not cut through every head: some need "
-                f"{needed:.4g} m or more; `linkwright run` tells the length that all need."
+                f"{needed:.4g} m or more; `linkwright run` gives the length required for all heads."
             )
             return
         if all(needed + room < described.edge_length for needed, _, room in looks):

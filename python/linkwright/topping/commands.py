@@ -247,7 +247,7 @@ def best(
 
 
 # Of the study of a knife that the search alone finds.
-_RESTS = "the best knife rests, which the study does not find: its knife speed comes near to 0 at best"
+_RESTS = "the best knife is at rest, which the study cannot find: its knife speed is greater than 0"
 
 
 def _answer(machine: Machine, search: KnifeSearch, hint: list[str]) -> Answer:

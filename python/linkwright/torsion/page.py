@@ -145,7 +145,7 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
         return
     yield Formula("Forced vibration at order ν and speed Ω", "ω = ν Ω", den_hartog)
     yield Formula("", "( K ( 1 + i η ) + i ω C − ω^2 J ) θ_ν = M_ν", "Ker Wilson, vol. 4")
-    yield Formula("Orders in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
+    yield Formula("Orders summed in phase", "θ ( t ) = Σ Re θ_ν e^iνΩt", "Ker Wilson, vol. 2")
     yield Formula("Speed fluctuation", "δ = frac(ω_max − ω_min|ω_m)", "Paper 3")
     yield Formula("Heat", "P = frac(1|2) Σ ( ω^2 c + ω η k ) Δ^2", den_hartog)
     if study.meshes is not None:
@@ -167,16 +167,16 @@ def _balanced(train: Train, at: ExcitedTrain | None) -> str:
         parts = f", by shares of the power: {shares}" if shares else ""
         return (
             f"Mean torques balance: the drivers give the torque of the loads{parts}; the slope of these "
-            "torques over the speed damps."
+            "torques over the speed acts as damping."
         )
     if train.run is not None and train.run.loads_follow:
         return (
-            "Mean torques balance: the loads take the torque of the engines; the slope of their torque over "
-            "the speed damps."
+            "Mean torques balance: the loads take the torque of the engines; the slope of their torque "
+            "over the speed acts as damping."
         )
     return (
-        "Loads keep their given torque, and its slope over the speed damps; the excess torque of the engines "
-        "accelerates the train."
+        "Loads keep their given torque, and its slope over the speed acts as damping; the excess torque "
+        "of the engines accelerates the train."
     )
 
 

@@ -421,8 +421,8 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
             yield "Torques pulsate, but no speeds are given: forced vibration needs [train.run]."
         if train is not None and train.loads and train.run is None and study.transient is None:
             yield (
-                "The loads damp at the speeds of [train.run] only: without it, natural frequencies and "
-                "damping ratios leave their slope over the speed out."
+                "The loads damp only at the speeds of [train.run]: without it, natural frequencies and "
+                "damping ratios neglect the slope of the load torques."
             )
         return
     yield from () if study.verdict is None else (f"{note}." for note in study.verdict.notes)

@@ -83,7 +83,7 @@ class TurningMomentDiagram(Result):
         left = self.accuracy * self.energy_fluctuation
         return (
             f"The areas between driver and load do not add up to zero: {left:.4g} J are left, "
-            f"{100 * self.accuracy:.2g} % of the fluctuation of energy, which is as uncertain as that.",
+            f"{100 * self.accuracy:.2g} % of the fluctuation of energy, which is uncertain by as much.",
         )
 
     torque_mean: Annotated[

@@ -15,7 +15,7 @@ _RIM_SOURCE = "Khurmi, Gupta, Theory of Machines, chapter 16"
 
 # Of the diagram, with their sources.
 FORMULAS = (
-    Formula("Energy that the shaft has taken up", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
+    Formula("Energy absorbed by the shaft", "E = ∫ ( T − M ) d φ , Δ E = E_max − E_min", _SOURCE),
     Formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω) = frac(Δ E|J ω^2)", _SOURCE),
 )
 

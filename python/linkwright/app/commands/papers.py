@@ -34,7 +34,7 @@ def papers(number: Number = None, json: Json = False, out: Folder = None, force:
     if number is None:
         titles = {f"paper{n}": title for n, title in PAPERS.items()}
         rows: list[Row] = [(str(n), "", title) for n, title in PAPERS.items()]
-        listed = Table("papers", "Papers that are recomputed", ("paper", "", "title"), rows, is_whole=True)
+        listed = Table("papers", "Recomputed papers", ("paper", "", "title"), rows, is_whole=True)
         answer = Answer(machine=None, results=lambda _: {"papers": titles}, tables=lambda: [listed])
         hand_over(answer, json=json)
         return

@@ -78,8 +78,8 @@ def _units_option() -> click.Option:
     return click.Option(
         ["--units"],
         metavar="UNITS",
-        help='Units of tables, figures and CSV, such as "mm, rpm, kN"; without it those of the table [units] '
-        "of the file, or SI. JSON is always SI.",
+        help='Units of tables, figures and CSV, such as "mm, rpm, kN". Default: those of [units] in the '
+        "file, or SI. JSON is always in SI.",
         expose_value=False,
         callback=_keep_units,
     )

@@ -51,7 +51,7 @@ class Mobility:
         formula = f"W = 3·{self.links} − 2·{self.lower}" + (f" − {self.higher}" if self.higher else "")
         text = f"{count}: {formula} = {self.freedom}".replace("-", "−")
         if self.redundant:
-            text += f"; it moves because of the lengths of the redundant {', '.join(self.redundant)}"
+            text += f"; it moves only because of the lengths of the redundant {', '.join(self.redundant)}"
         return text
 
 

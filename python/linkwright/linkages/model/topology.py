@@ -258,7 +258,7 @@ class Topology:
                     "joints",
                     joint,
                     found=circle,
-                    expected="bars and guides that end at what is placed before the joint",
+                    expected="bars and guides connected to points that are defined before the joint",
                     remedy="describe the whole loop by joints and bars",
                 )
                 continue
@@ -270,9 +270,9 @@ class Topology:
             yield fault(
                 "joints",
                 joint,
-                found="held by " + (", ".join(holds) or "nothing"),
-                expected="as many bars and guides as fix every joint: two for each",
-                remedy="it can still move with the crank held; add a bar or a guide",
+                found=_conditions(holds),
+                expected="two bars or guides for each joint",
+                remedy="the joint can still move with the crank held; add a bar or a guide",
             )
         for name in dict.fromkeys(build.surplus):
             yield fault(
@@ -288,11 +288,11 @@ class Topology:
         drivers = self._drivers(name)
         if len(drivers) > 1:
             return (
-                f"the drivers {' and '.join(drivers)} both move what it joins, and one suffices; "
+                f"the drivers {' and '.join(drivers)} both move the points that it connects; one suffices; "
                 f"remove {name} or a driver, or write redundant = true to have its length checked"
             )
         return (
-            "the mechanism moves without it, and is locked with it unless its length fits at every angle; "
+            "over-constrained: the mechanism is locked unless the length fits exactly at every angle; "
             "remove it, or write redundant = true to have its length checked"
         )
 
@@ -416,3 +416,10 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
             # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
             names["guide"] = ORIGIN
         yield Element(kind, name, names, look(element, "redundant") is True)
+
+
+def _conditions(holds: list[str]) -> str:
+    """The conditions of a joint that is not fixed, in words."""
+    if len(holds) > 1:
+        return f"conditions shared with other free joints: {', '.join(holds)}"
+    return f"one of two conditions: {holds[0]}" if holds else "no bar or guide"

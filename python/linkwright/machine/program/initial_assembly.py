@@ -147,8 +147,9 @@ class InitialAssembly:
         is_known = np.abs(side) > _IN_LINE * np.hypot(*to)
         if not is_known[0]:
             raise AssemblyError(
-                f"the joint {pending.joint} is given in line with what holds it, so its side is not known; "
-                "give its place at another crank angle (assembled_at), or a little aside",
+                f"the joint {pending.joint} lies in line with the points that hold it, so its assembly "
+                "mode is undetermined; give its position at another crank angle (assembled_at), or "
+                "slightly off the line",
                 element=pending.joint,
                 crank_angle=self.assembled_at,
             )
@@ -348,8 +349,8 @@ class InitialAssembly:
         if apart.any():
             row = int(np.argmax(apart))
             raise InputError(
-                f"row {row}: the joints {' and '.join(pending.names)} are assembled otherwise than in the "
-                "first machine; compute such machines one by one"
+                f"row {row}: the joints {' and '.join(pending.names)} have another assembly mode than in "
+                "the first machine; compute such machines one by one"
             )
         if lost.any():
             self._change(
@@ -361,8 +362,8 @@ class InitialAssembly:
         for name in pending.names:
             if any((place != place[0]).any() for place in self._drawn(name)):
                 raise InputError(
-                    f"mechanism.joints.{name}: its place decides how a machine is assembled; compute "
-                    "machines that differ in it one by one"
+                    f"mechanism.joints.{name}: its position selects the assembly mode; compute machines "
+                    "that differ in it one by one"
                 )
 
     def _group_places(self, pending: PendingGroup) -> Floats:

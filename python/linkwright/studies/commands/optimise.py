@@ -163,11 +163,11 @@ def _flat_warnings(optimum: Optimum) -> list[str]:
     if not optimum.is_flat:
         return []
     value = f"{optimum.responses[optimum.goal]:.6g}"
-    return [f"{optimum.goal} is {value} for all machines: the variables do not change it, and none is better"]
+    return [f"{optimum.goal} is {value} for all machines: it does not depend on the variables"]
 
 
 def _head(name: str, optimum: Optimum) -> str:
     """What was done, and what limits the answer."""
-    failed = f", {optimum.n_failed} without an answer" if optimum.n_failed else ""
+    failed = f", {optimum.n_failed} without a result" if optimum.n_failed else ""
     limits = "; ".join(optimum.active) or "no limit is active"
     return "\n".join([name, f"{optimum.n_evaluations} machines computed{failed}", limits, *optimum.worth])

@@ -97,7 +97,9 @@ def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
     # Reasons name the numbers that do not go together: each batch of a search has its own.
     why = max(one_by_one, key=one_by_one.__getitem__, default="")
     n = sum(one_by_one.values())
-    return [f"{n} rows were computed one by one and not at once, which takes longer: {why}"] if n else []
+    return (
+        [f"{n} rows were computed one by one instead of as a batch, which takes longer: {why}"] if n else []
+    )
 
 
 def unwatched_contacts(plan: StudyPlan) -> list[str]:
@@ -111,8 +113,8 @@ def unwatched_contacts(plan: StudyPlan) -> list[str]:
         return []
     names = ", ".join(f"{kind} {name}" for kind, name in watched)
     return [
-        f"Rows do not tell whether contact is kept ({names}): steady motion is that of a machine in contact. "
-        "With a response of forces, such as forces.torque_drive_max, a row that loses contact has no result"
+        f"Rows do not show loss of contact ({names}): steady motion assumes contact. With a force "
+        "response, such as forces.torque_drive_max, a row that loses contact has no result"
     ]
 
 

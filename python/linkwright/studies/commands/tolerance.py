@@ -73,7 +73,7 @@ def tolerance(
             *_dropped(scatter, indices),
             *(_bent(name, scatter.responses[name], plan.units[name]) for name in scatter.bent),
             *(
-                f"The worst case of {name} may be wider than given: {why}"
+                f"The worst case of {name} may be wider than stated: {why}"
                 for name, why in scatter.beyond_corners.items()
             ),
             *(f"{name} has only one-sided derivatives, or none: {why}" for name, why in scatter.ties.items()),
@@ -161,8 +161,8 @@ def _hand_over_allocation(
 def _held(allocation: Allocation) -> str:
     """What keeps the tolerances from being wider."""
     if allocation.active:
-        return f"held down by {', '.join(allocation.active)}"
-    return "no constraint holds them down: they are as wide as the search goes"
+        return f"limited by {', '.join(allocation.active)}"
+    return "no constraint limits them: they are at the upper end of the search"
 
 
 def _head(plan: StudyPlan, scatter: Tolerance) -> str:

@@ -189,18 +189,19 @@ def best_warnings(search: KnifeSearch) -> Iterator[str]:
         )
     if search.limits.slicing_min is None:
         yield (
-            "No slicing_min is asked for: nothing then speaks for a slanted or a moving edge, and the "
-            "shortest one rests across the row as far as the bounds allow."
+            "No slicing_min is given: a slanted or moving edge then has no advantage, and the shortest "
+            "edge stands still, square to the row as far as the bounds allow."
         )
     elif best.knife_speed == 0:
         yield (
-            "A slanted edge that rests slices as much as is asked for; bound its angle, or set "
-            f"knife_speed_min, where {math.degrees(best.edge_angle):.3g}° is too much, or the knife moves."
+            "A slanted edge at rest reaches the required draw-cut ratio; if "
+            f"{math.degrees(best.edge_angle):.3g}° is too much, or if the knife must move, limit the angle "
+            "or set knife_speed_min."
         )
     if best.knife_speed == 0:
         yield (
-            "At rest the knife stands in the middle of its stroke. Once it moves, however slowly, heads meet "
-            "it anywhere in its stroke, and the edge must be longer by up to the stroke over cos α."
+            "At rest the knife stands at mid-stroke. Once it moves, however slowly, heads meet it at any "
+            "position of its stroke, and the edge must be longer by up to the stroke over cos α."
         )
     listed = [key for key in best.at_bounds if key not in ("knife_speed_min", "angle_min")]
     if listed:

@@ -234,7 +234,7 @@ def _verdict(study: TopperStudy, described: Topper) -> Table:
     rows = [_judged(demand) for demand in verdict.demands]
     low, high = PAPER.lengths
     title = f"Published {low:.2f} to {high:.2f} m, for the paper's speeds and this machine's heads"
-    heads = ("length", "", "over the speeds", "within", "would hold for d + 2Δ of")
+    heads = ("length", "", "over the speeds", "within", "holds for d + 2Δ of")
     return Table("topper_verdict", title, heads, rows)
 
 

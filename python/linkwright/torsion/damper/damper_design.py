@@ -85,7 +85,7 @@ class RingOnTrain:
         if abs(shape[mode, on]) < _AT_REST:
             raise FindingError(
                 f"{free.discs[on]} is at rest in mode {mode} at {free.natural_frequencies[mode]:.6g} Hz: a "
-                "damper there does nothing; put it where the amplitude is large"
+                "damper there has no effect; place it where the amplitude is large"
             )
         shaft = int(np.argmax(free.potential_shares[mode]))
         self.watched, self.ring = free.shafts[shaft], ring

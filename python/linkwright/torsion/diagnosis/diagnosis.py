@@ -362,7 +362,7 @@ def _warnings(diagnosis: Diagnosis, A: Floats, open_part: Bools) -> list[str]:
             )
     blind = ~open_part & (diagnosis.half_width() > 1)
     if blind.any():
-        listed.append(f"cylinders {', '.join(names[blind])}: not even a misfire would show against the noise")
+        listed.append(f"cylinders {', '.join(names[blind])}: even a misfire would be hidden by the noise")
     if diagnosis.is_refuted:
         listed.append(
             f"the residual is {diagnosis.misfit:.3g} times the noise: the train or its torques differ "

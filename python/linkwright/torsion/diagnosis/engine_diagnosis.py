@@ -176,8 +176,8 @@ def _taken_as_tight(measured: MeasuredSpeed, n: int) -> str:
     """One sentence on what the intervals rest on."""
     remedy = f": measure more than {1.5 * n:.4g} orders" if len(measured.orders) <= 1.5 * n else ""
     return (
-        f"{len(measured.orders)} orders do not tell late and leaking cylinders, and all are taken as in time "
-        f"and tight{remedy}"
+        f"{len(measured.orders)} orders do not distinguish late and leaking cylinders: all are assumed on "
+        f"time and tight{remedy}"
     )
 
 

@@ -126,13 +126,13 @@ class RecordDiagnosis:
         if not self.is_plausible:
             worst = float(self.found.factor[np.argmax(np.abs(self.found.factor - 1))])
             listed.append(
-                f"A factor of {worst:.3g} is no share of a combustion: look at the disc, at the angle 0 of "
-                "the record and the revolution in which it lies, and at the train."
+                f"A factor of {worst:.3g} is not physical: check the disc, the angle 0 of the record and "
+                "its revolution, and the train."
             )
         elif abs(mean - 1) > _OTHER_LOAD:
             listed.append(
                 f"The factors are {mean:.3g} on average: if the load was not that of the file, compare the "
-                "cylinders by their factors over this mean."
+                "factors relative to this mean."
             )
         return tuple(listed)
 

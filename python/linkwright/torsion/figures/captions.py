@@ -99,7 +99,7 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[CaptionedF
         caption = "Natural frequencies and excitation orders over the speed, with their intersections."
         yield CaptionedFigure("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
     if forced.shafts:
-        caption = "Half the peak-to-peak torque, all orders in phase."
+        caption = "Vibratory torque (half the peak-to-peak value), orders summed in phase."
         yield CaptionedFigure("torques", "Torque of the shafts", caption, shaft_torques_figure(forced))
     if study.stress is not None:
         caption = "Vibratory shear stress with its concentration; dashed: permitted."
@@ -141,7 +141,7 @@ def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> Caption
     single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
     figure = orders_figure(forced, single, total, "torque [kN m]", 1e-3)
     return CaptionedFigure(
-        "orders", f"Orders in {name}", "Amplitude of each order, and all in phase.", figure
+        "orders", f"Orders in {name}", "Amplitude of each order, and of all orders summed in phase.", figure
     )
 
 
@@ -164,8 +164,8 @@ def _of_the_freest_disc(forced: ForcedVibration) -> CaptionedFigure:
     single, total = angular_deflection(forced, name)
     figure = orders_figure(forced, single, total, "angle [°]", 180 / math.pi)
     caption = (
-        "Vibration superposed on steady rotation: amplitude of each order, and half the peak-to-peak value "
-        "of all in phase."
+        "Vibration superposed on steady rotation: amplitude of each order, and half the peak-to-peak "
+        "value of all orders summed in phase."
     )
     return CaptionedFigure("amplitude", f"Amplitude of {name}", caption, figure)
 

@@ -162,12 +162,12 @@ def ice_notes(millings: Sequence[IceMilling]) -> list[str]:
     for one in millings:
         if one.speed_before <= 0:
             notes.append(
-                f"{one.on} does not rotate ahead when the ice begins: the pulses are those of rotation ahead"
+                f"{one.on} does not rotate ahead at the first ice impact: the pulses assume ahead rotation"
             )
         elif one.speed_min <= 0:
             notes.append(
-                f"the ice stops {one.on}: pulses over the angle do not hold beyond standstill, and the rules "
-                "have no torque for a blocked propeller"
+                f"the ice stops {one.on}: pulses over the angle are not valid beyond standstill, and the "
+                "rules have no torque for a blocked propeller"
             )
         elif one.end is None:
             notes.append(f"the manoeuvre ends before the ice has passed {one.on}")

@@ -110,7 +110,7 @@ def _ratios(referred: ReferredTrain, *, by_mode: bool) -> Floats:
 
 def _mode_damping(referred: ReferredTrain) -> tuple[Floats, list[str]]:
     """Viscous damping of the shafts alone where modes have that of the hysteresis, and a note about it."""
-    note = "hysteresis of shafts counts as a damping ratio of each mode, at the frequency of that mode"
+    note = "hysteresis of shafts is replaced by a damping ratio of each mode, exact at its natural frequency"
     return referred.damping / referred.lead**2, [note]
 
 
@@ -133,8 +133,8 @@ def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[
     low, high = (float(frequency) / (2 * np.pi) for frequency in (omega[lossy].min(), omega[lossy].max()))
     span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"
     note = (
-        f"hysteresis of shafts counts as the viscous damping that loses as much at {span}, {where}: "
-        "it damps less below, more above"
+        f"hysteresis of shafts is replaced by viscous damping of equal loss at {span}, {where}: damping is "
+        "lower below and higher above"
     )
     return own + viscous(referred.stiffness / lead**2, referred.loss_factor, omega), [note]
 
@@ -156,7 +156,7 @@ def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats
     shares = referred.stiffness * twist**2 / omega[:, None] ** 2
     counts = shares >= _COUNTS
     chosen = np.where(counts.any(axis=0), counts.argmax(axis=0), shares.argmax(axis=0))
-    return omega[chosen], "of each the lowest mode that twists it much"
+    return omega[chosen], "for each shaft the lowest mode that twists it considerably"
 
 
 def _curve(train: Train, name: str) -> Curve | None:

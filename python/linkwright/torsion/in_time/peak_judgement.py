@@ -92,7 +92,10 @@ def unjudged(machine: Machine, moved: TorsionTransient) -> Iterator[str]:
     """Limits of gear stages that cannot be judged, in sentences."""
     for name, row, _ in _limited_stages(machine, moved):
         if not np.isfinite(row).all():
-            yield f"{name}: torque_permitted is not judged: statics does not tell the torque of the stage"
+            yield (
+                f"{name}: torque_permitted is not checked: the torque of the stage is statically "
+                "indeterminate"
+            )
 
 
 def _stages(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:

@@ -110,7 +110,7 @@ class CrankshaftFatigue(Result):
     torsion_journal: Annotated[float, Label("the same of the journal", "", "Pa")]
     factors: Annotated[dict[str, float], About("Stress concentration factors by their symbols.")]
     places: Annotated[tuple[FatiguePlace, ...], About("Fillets and oil bore.")]
-    outside: Annotated[tuple[str, ...], About("Ratios of sizes for which the factors are not made.")]
+    outside: Annotated[tuple[str, ...], About("Dimension ratios outside the range of the factors.")]
 
     @property
     def acceptability(

@@ -92,7 +92,7 @@ class MisfireVerdict(Result):
 
     judgements: Annotated[tuple[MisfireJudgement, ...], About("As in normal firing, in the same order.")]
     gears: Annotated[
-        tuple[MisfireGear, ...], About("Gear stages whose torque statics tells, by the worst misfire.")
+        tuple[MisfireGear, ...], About("Statically determinate gear stages, by the worst misfire.")
     ] = ()
     torques: Annotated[
         tuple[MisfireTorque, ...],

@@ -222,7 +222,7 @@ COMPLIANCE_FORMULAS: Mapping[str, ComplianceFormula] = MappingProxyType(
             ComplianceFormula(
                 "zimanenko",
                 zimanenko,
-                "Zimanenko, as in Soviet textbooks, read with reserve",
+                "Zimanenko, as in Soviet textbooks; use with caution",
                 "automobile and tractor engines",
                 _short_remark,
             ),
