@@ -1,4 +1,4 @@
-"""Drives behind laws: each has its torque, and the shaft in front of the laws is named for what it is."""
+"""Drives behind laws: each has its torque, and their input shaft is named."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def test_every_output_names_it() -> None:
     assert "torque of the drive A 25.9" in table
     results = json.loads(CliRunner().invoke(application(), ["forces", SERVO, "--json"]).stdout)["results"]
     text = json.dumps(results)
-    assert "in front of the law of A, at constant speed" in text
+    assert "input shaft of the law of A, at constant speed" in text
     assert '"A drive"' in text
     assert '"drive_max"' in text
     assert "The law of A acts as a cam on the crankshaft" in shown("run", SERVO)
     sized = shown("size", SERVO, "--catalogue", str(FOUND / "motors.csv"))
-    assert "the motor of the shaft in front of the law of A" in sized
+    assert "drives the input shaft of the law of A" in sized
 
 
 def test_a_crank_without_a_law_keeps_its_words() -> None:

@@ -227,7 +227,7 @@ def test_the_mean_draw_cut_ratio_is_exact() -> None:
 
 
 def test_ties_of_a_knife_that_moves_alike_both_ways() -> None:
-    """What a symmetric stroke reaches twice has a derivative on either side only, and says so."""
+    """What a symmetric stroke reaches twice has only one-sided derivatives, and says so."""
     machine = lw.read("topper_cam")
     start, length = "mechanism.cams.knife.sections.1.law.start", "topper.edge_length"
     names = ["drive_torque_max", "drive_torque_min", "uncut_share"]

@@ -5,7 +5,7 @@ The law is worked out a second time with tangents, and with it the contact where
 .. math:: \frac{\mathrm d}{\mathrm dp} \max_\varphi f = \left.\frac{\partial f}{\partial p}\right|_{\varphi^*}
 
 at a fixed angle inside a piece, along the joint where the extreme sits on one (envelope theorem). Where two
-extremes tie and follow an entry differently, there is a derivative on either side only.
+extremes tie and follow an entry differently, there are only one-sided derivatives.
 
 The angles of the sections add to a revolution and their lifts to zero: by the entry of one section alone, the
 others give way in proportion to their sizes. A change of several entries that keeps both sums has the

@@ -83,7 +83,7 @@ _SAME = 1e-9
 class SteadyTangents:
     """Steady motion with derivatives.
 
-    `state` has tangents for scalars; `ties` has what has a derivative on either side only, with its reason;
+    `state` has tangents for scalars; `ties` has what has only one-sided derivatives, with its reason;
     `lost` has entries by which the move of a kink was not found, each with the crank angle of the kink [rad];
     `rounding` is what may be left of scalars that are zero.
     """
@@ -241,13 +241,13 @@ class _Tie:
     angles: list[float]
 
     def words(self, compiled: CompiledMachine, gradient: SteadyGradient, along: Directions) -> str:
-        """Where, and by which entries there is a derivative on either side only; empty if by none."""
+        """Where, and by which entries there are only one-sided derivatives; empty if by none."""
         differs = self._differs(compiled, gradient, along.sizes) | self._moved(compiled, along.values)
         places = _listed([f"{np.degrees(angle):.4g}°" for angle in self.angles], " and ", "angles")
         return _with_others(f"the extreme occurs at {places}", differs, along)
 
     def _differs(self, compiled: CompiledMachine, gradient: SteadyGradient, sizes: Floats) -> Bools:
-        """Whether rivals have other derivatives by each direction, or bend there, (directions,)."""
+        """Whether derivatives of rivals differ in each direction, or bend there, (directions,)."""
         near = (np.array(self.angles)[:, None] + np.array([-_OFF, 0.0, _OFF])) % compiled.cycle
         order, back = np.unique(near, return_inverse=True)
         slopes = getattr(gradient.curves(order), self.quantity)[back.reshape(near.shape)]
@@ -272,7 +272,7 @@ class _Tie:
 
 
 def _with_others(tie: str, differs: Bools, along: Directions) -> str:
-    """A tie with the entries by which its sides have other derivatives; empty if by none."""
+    """A tie with the entries for which the derivatives of its sides differ; empty if for none."""
     by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
     return f"{tie}; the derivatives with respect to {_listed(by, ', ', 'entries')} differ" if by else ""
 

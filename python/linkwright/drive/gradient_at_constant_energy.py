@@ -1,8 +1,8 @@
 r"""Derivatives of the measures of speed fluctuation at constant kinetic energy.
 
 With E = 1 the extreme speeds are :math:`\sqrt{2/J}` and the acceleration is :math:`-J'/J^2`. Their extremes
-have the derivatives at their crank angles (envelope theorem); where an extreme is reached at two angles with
-other derivatives, or on a joint of a motion law that an entry moves, there is one on either side only.
+have the derivatives at their crank angles (envelope theorem); where an extreme occurs at two angles with
+different derivatives, or at a segment boundary that an entry moves, there are only one-sided derivatives.
 """
 
 from __future__ import annotations

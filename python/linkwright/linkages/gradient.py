@@ -7,7 +7,7 @@ f′ = 0:
 .. math:: \frac{\mathrm d}{\mathrm dp} f(\varphi^*) = \left.\frac{\partial f}{\partial p}\right|_{\varphi^*},
    \qquad \frac{\mathrm d \varphi^*}{\mathrm dp} = -\frac{\partial f'/\partial p}{f''}
 
-Where two extremes tie and follow an entry differently, there is a derivative on either side only.
+Where two extremes tie and follow an entry differently, there are only one-sided derivatives.
 """
 
 from __future__ import annotations

@@ -271,7 +271,7 @@ class RotatorAlong:
         return lifted(x, len(self.entries))
 
     def _extreme(self, name: str, row: Any, sign: int) -> Any:
-        """The maximum (+1) or minimum (−1); NaN by entries by which those as large have other derivatives."""
+        """The maximum (+1) or minimum (−1); NaN where derivatives of equal extremes differ."""
         values = sign * row.value
         best = int(values.argmax())
         tied = np.flatnonzero(values >= values[best] - _TIE * np.abs(values).max())

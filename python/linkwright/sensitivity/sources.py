@@ -158,7 +158,7 @@ _MADE_OF = {
 
 
 def _tie(name: str, ties: Mapping[str, str]) -> str:
-    """Why a scalar of the motion has a derivative on either side only; empty if it has one."""
+    """Why a scalar of the motion has only one-sided derivatives; empty if it has one."""
     for extreme, reason in ties.items():
         if name == extreme or name in _MADE_OF[extreme.partition("_")[0]]:
             return f"{extreme.replace('_', ' ')}: {reason}"

@@ -132,7 +132,7 @@ def _ends(extreme: str, curve: Floats) -> Iterator[tuple[int, float]]:
 
 
 def _kink(machine: Machine, asked: StudyResponse, path: StudyPath) -> str:
-    """Why a distance from a path has a derivative on either side only; empty if it has one."""
+    """Why a distance from a path has only one-sided derivatives; empty if it has one."""
     distances = np.abs(_off(machine, path)[0])
     if asked.extreme is None:
         distances = distances[[asked.index or 0]]

@@ -35,7 +35,7 @@ class Slopes:
     """Responses at a place with their derivatives by the variables.
 
     `values` by response [SI], `slopes` likewise, (variables,); `exact` names those that are no differences,
-    and `ties` those that have a derivative on either side only, with the reason.
+    and `ties` those that have only one-sided derivatives, with the reason.
     """
 
     values: dict[str, float]

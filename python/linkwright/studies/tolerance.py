@@ -84,7 +84,7 @@ class Tolerance(Result):
         About("Responses whose derivatives are exact; the others have extrapolated differences."),
     ]
     ties: Annotated[
-        dict[str, str], About("Responses that have a derivative on either side only, each with the reason.")
+        dict[str, str], About("Responses that have only one-sided derivatives, each with the reason.")
     ]
     indices: Annotated[
         dict[str, dict[str, tuple[float, float]]],

@@ -43,7 +43,7 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
     """Derivatives of a result, such as ``"steady_state.unevenness"``, by every entry.
 
     ``response``, ``word``, ``symbol``, ``unit``, ``value``; ``slopes``, address → derivative [SI]; ``tie``,
-    why it has a derivative on either side only; ``responses``, all that have derivatives.
+    why it has only one-sided derivatives; ``responses``, all that have derivatives.
     """
     derivatives = gradient(machine)
     if response not in derivatives.responses:

@@ -144,7 +144,7 @@ class _Peaks:
         self._orders = orders_together(at.torques.orders)
 
     def response(self, kind: str, shaft: int, place: int) -> tuple[float, Floats, str]:
-        """Value, derivatives, and why it has one on either side only."""
+        """Value, derivatives, and why it has only one-sided ones."""
         along = self._shafts.along(shaft)
         if along is None:
             return self._at_station(kind, shaft, place, 0)
