@@ -69,7 +69,7 @@ def reach(machine: Machine, response: str, wanted: float, free: Limits) -> Drag:
     [SI].
     """
     if not free:
-        return Drag({}, "no entry follows: choose one")
+        return Drag({}, "no entry is ticked: choose one")
     return _Reach(machine, response, wanted, free).run()
 
 
@@ -122,7 +122,7 @@ class _Reach:
 
     def _walk(self, step: Floats, miss: float) -> str:
         """Go a part of the step that leads nearer; why there is none."""
-        reason = f"no further: {self._name()} has an extreme here"
+        reason = f"limit reached: {self._name()} has an extreme here"
         for halving in range(_HALVINGS):
             at = np.clip(self.at + 0.5**halving * step, self.low, self.high)
             try:
@@ -143,7 +143,7 @@ class _Reach:
             if rate != 0 and width > 0
         ]
         if not moved:
-            return f"{self._name()} does not depend on the entries that may follow"
+            return f"{self._name()} does not depend on the ticked entries"
         names = ", ".join(".".join(name.split(".")[-2:]) for name in moved)
         return f"at the limits of {names}"
 

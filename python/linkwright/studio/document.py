@@ -39,7 +39,7 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
         document = tomlkit.parse(text)
         raw = tomllib.loads(text)
     except (TOMLKitError, ValueError, RecursionError) as error:
-        raise InputError(f"the file is no TOML: {error}") from None
+        raise InputError(f"the file is not valid TOML: {error}") from None
     for address, value in entries.items():
         place = resolve(raw, address)
         if value is None:

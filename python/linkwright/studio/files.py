@@ -71,7 +71,7 @@ class Folder:
         """
         path = self.inside(name)
         if path.exists() and not (replace and path.is_file()):
-            raise InputError(f"{name} is there already; choose another name")
+            raise InputError(f"{name} exists already; choose another name")
         try:
             handle, made = tempfile.mkstemp(dir=path.parent, prefix=".linkwright-", suffix=".tmp")
         except OSError as error:

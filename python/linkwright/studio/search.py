@@ -49,7 +49,7 @@ def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
     """The study that the page describes."""
     entries = asked["entries"]
     if not entries:
-        raise InputError("no entry varies; choose one")
+        raise InputError("no entry varies: choose one")
     variables = {
         f"v{n}": {"address": entry["address"], "range": (float(entry["low"]), float(entry["high"]))}
         | ({"steps": int(entry["steps"])} if "steps" in entry else {})

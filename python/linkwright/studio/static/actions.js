@@ -306,7 +306,7 @@ function recover() {
   const text = localStorage.getItem(keptAs(state.place.value));
   if (text === null || text === state.text.value) return;
   write(text);
-  state.message.value = "Changes that were not saved are back; Undo takes them away.";
+  state.message.value = "Unsaved changes are restored; Undo removes them.";
 }
 
 /** The whole state of the page as letters for an address. */
@@ -348,7 +348,7 @@ async function begin() {
     try {
       return await restore(packed);
     } catch {
-      problem = "The link holds no state of a studio.";
+      problem = "The link contains no state of a studio.";
     }
   }
   const last = JSON.parse(localStorage.getItem(LAST) ?? "null");

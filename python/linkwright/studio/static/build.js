@@ -59,7 +59,7 @@ function Merge() {
         merge(joint, into);
         set(["", ""]);
       }}>Merge</button></div>
-    <p class="about">A joint that is dropped on another in the drawing merges with it: what hangs on the first hangs on the second, and its element goes.</p>`;
+    <p class="about">A joint dropped on another merges with it: elements of the first joint move to the second, and its element is removed.</p>`;
 }
 
 export function Build() {
@@ -67,7 +67,7 @@ export function Build() {
     <details class="part build" open=${!state.place.value.name} onToggle=${({ target }) => (state.building.value = target.open)}><summary>Add an element</summary>
       <div class="kinds">${kinds().map(([word, made, needs]) => html`
         <button key=${word} disabled=${!made} title=${made ? `Adds ${made[0]}` : `Needs ${needs}`} onClick=${() => made && settle({ [made[0]]: made[1] })}>${word}</button>`)}</div>
-      <p class="about">An element hangs on the point that was picked last, or on the first that fits; its entries say on which, and can be changed.</p>
+      <p class="about">New elements attach to the selected point, or to the first that fits; change it in their entries.</p>
       <${Merge} />
     </details>`;
 }

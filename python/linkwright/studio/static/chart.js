@@ -141,7 +141,7 @@ export function Chart({ plot }) {
   }
   // In the frame of the answer, not in the one after it.
   useLayoutEffect(refresh, [plot]);
-  return html`<div class="chart" ref=${holder} data-plot=${plot.key} role="img" aria-label="Plot of ${plot.title}; its numbers stand in the data table"></div>`;
+  return html`<div class="chart" ref=${holder} data-plot=${plot.key} role="img" aria-label="Plot of ${plot.title}; its numbers are in the data table"></div>`;
 }
 
 /** Whether a user looks at a part of the abscissa. @param {any} made */

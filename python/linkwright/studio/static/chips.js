@@ -22,7 +22,7 @@ export function Chips() {
   return html`
     <div class="chips" aria-label="Analyses">
       ${state.chips.value.map((chip) => html`<${Chip} key=${chip.name} chip=${chip} />`)}
-      ${runs ? html`<button class="quiet stop" onClick=${stop} title="End what is being computed beside">Stop</button>` : null}
+      ${runs ? html`<button class="quiet stop" onClick=${stop} title="Stop the background computation">Stop</button>` : null}
     </div>`;
 }
 

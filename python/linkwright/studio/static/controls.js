@@ -140,7 +140,7 @@ function Row({ entry, draggable }) {
   return html`
     <div class="row ${isPulled ? "pulled" : ""} ${isLong(entry) ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
-      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: joints that are dragged leave it as it is" : "Follows joints that are dragged; lock it"}
+      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: dragging joints does not change it" : "Follows dragged joints; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
       ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
       <${Problems} address=${address} />
@@ -206,7 +206,7 @@ const LAST = new Set(["format", "name", "description", "source"]);
 
 export function Controls() {
   const whole = state.controls.value;
-  if (!whole) return state.problems.value.length ? html`<p class="nothing">The text of the file is no TOML; mend it under File.</p>` : null;
+  if (!whole) return state.problems.value.length ? html`<p class="nothing">The text of the file is not valid TOML; correct it under File.</p>` : null;
   const draggable = new Set(state.draggable.value.split("\n"));
   const [heads, others] = [whole.entries.filter(({ key }) => LAST.has(key)), whole.entries.filter(({ key }) => !LAST.has(key))];
   const rank = ["mechanism", "drive", "bodies", "loads"];

@@ -30,7 +30,7 @@ function Goal() {
     <${Section} title="Pull a result">
       <label class="line"><span>Result</span> <${Choice} id="goal" value=${now ? state.goal.value : ""} choose=${(key) => (state.goal.value = key)}
         options=${[["", "none"], ...found.map(({ name, word, symbol }) => [`steady_state.${name}`, [word, symbol && `, ${symbol.replace("_", " ")}`]])]} /></label>
-      ${found.length ? null : html`<p class="about">A result can be pulled once there is a steady motion.</p>`}
+      ${found.length ? null : html`<p class="about">A result can be set once there is a steady motion.</p>`}
       ${now ? html`<${Pull} now=${now} />` : null}
     <//>`;
 }
@@ -94,7 +94,7 @@ function Following() {
       const { words } = effect(slopes, slope, entry, state.units.value);
       return html`<${Tick} key=${address} address=${address} words=${words} />`;
     })}</div>
-    <p class="about">They stay within the ends of their sliders. <button class="quiet" onClick=${() => setAll(!all)}>${all ? "Show fewer" : "Show all"}</button></p>`;
+    <p class="about">They stay within the ranges of their sliders. <button class="quiet" onClick=${() => setAll(!all)}>${all ? "Show fewer" : "Show all"}</button></p>`;
 }
 
 /** A point of a curve that is pulled in the drawing. */
@@ -109,7 +109,7 @@ function PointGoal() {
         state.trails.value = [...new Set([...state.trails.value, name])].filter(Boolean);
       }} /></label>
       ${state.pulled.value ? html`
-        <p class="about">Drag it in the drawing: the entries that are ticked follow, within the ends of their sliders.</p>
+        <p class="about">Drag it in the drawing: the ticked entries follow, within the ranges of their sliders.</p>
         <div class="following of-point">${lengths.map(({ address }) => html`<${Tick} key=${address} address=${address} />`)}</div>` : null}
     <//>`;
 }
@@ -128,7 +128,7 @@ function Variants() {
             ${pins.map(({ scalars: old }, n) => html`<td key=${n}>${key in old ? html`${number(old[key] / factor, 4)} <small>${against(value, old[key])}</small>` : "–"}</td>`)}</tr>`;
         })}</tbody></table></div>
         <div class="sets">${pins.map(({ name, text }, n) => html`<span key=${n} class="chip">${name} <button onClick=${() => settle({}, text)}>Back to it</button><button aria-label="Unpin ${name}" onClick=${() => unpin(n)}>×</button></span>`)}</div>
-        <p class="about">Their curves are dashed in the plots.</p>` : html`<p class="about">A pinned machine stays beside the one at hand: its curves in the plots, its measures here.</p>`}
+        <p class="about">Their curves are dashed in the plots.</p>` : html`<p class="about">A pinned machine stays for comparison: its curves in the plots, its measures here.</p>`}
     <//>`;
 }
 
@@ -170,7 +170,7 @@ function Search() {
         <p class="about">${free.length ? `${free.length === 1 ? "The entry" : "The entries"} ${free.map(named).join(", ")} may vary.` : "Choose under Pull a result which entries may vary."}</p>`}
       ${kind === "sweep" ? html`<label class="line"><span>Values</span> <input type="number" min="2" max="401" value=${steps} onChange=${({ target }) => setSteps(Math.min(Math.max(Math.round(Number(target.value)) || 2, 2), 401))} /></label>` : null}
       <p><button id="seek" class="main" disabled=${!chosen.length || !asked} onClick=${start}>Start</button> ${runs(state.search.value) ? html`<button onClick=${stopSearch}>Stop</button>` : null}</p>
-      <p class="about">Entries vary between the ends of their sliders.</p>
+      <p class="about">Entries vary within the ranges of their sliders.</p>
       <${Found} />
     <//>`;
 }
@@ -234,7 +234,7 @@ function Course({ found, words }) {
       const own = shownUnit(entryAt(address)?.unit ?? "", state.units.value);
       return html`<li key=${address}>${named(address)} = ${number(/** @type {number} */ (value) / own.factor, 5)} ${own.unit}</li>`;
     })}</ul>
-    ${found.value === null ? null : html`<p><button id="take" onClick=${() => settle(found.entries)}>Take it over</button></p>`}`;
+    ${found.value === null ? null : html`<p><button id="take" onClick=${() => settle(found.entries)}>Apply</button></p>`}`;
 }
 
 export const Design = () => html`<${Goal} /><${PointGoal} /><${Variants} /><${Search} />`;

@@ -17,7 +17,7 @@ function Units() {
     <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
       <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(unit) => (state.units.value = { ...choice, [si]: unit })} /></label>`)}</div>
-    <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
+    <p class="about">The file keeps its units. A number with its own unit, such as <code>8.5 in</code>, can be typed into every field.</p>`;
 }
 
 function SaveAs() {
@@ -59,7 +59,7 @@ function Elsewhere() {
     ${first ? html`<p class="about">${first}</p>` : null}
     <${Copy} label="Command line" words=${`linkwright ${isTrain ? "torsion" : "run"} ${file} --out out`} />
     <${Copy} label="Python" words=${`import linkwright as lw\n\nmachine = lw.read("${file}")\n${isTrain ? 'study = lw.torsion_study(machine)\nstudy.plot("mode_shapes").savefig("modes.png")' : 'study = lw.study(machine)\nlw.write_report(study, "report.html")'}`} />
-    <${Copy} label="This state, to be put behind the address of any studio" words=${link} />`;
+    <${Copy} label="This state, to be appended to the address of any studio" words=${link} />`;
 }
 
 const DIALOGS = /** @type {Record<string, [string, any]>} */ ({

@@ -96,7 +96,7 @@ function Card({ listed: { place, name, title } }) {
 }
 
 /** Whether the machine at hand may be left. */
-const leaves = () => !state.unsaved.value || confirm(said("Leave the changes that are not saved?"));
+const leaves = () => !state.unsaved.value || confirm(said("Discard unsaved changes?"));
 
 /** What a machine begins with that is built from nothing. */
 const EMPTY = 'format = 1\nname = "New machine"\n\n[mechanism]\n';

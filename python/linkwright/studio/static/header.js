@@ -25,7 +25,7 @@ export function Header() {
     <header class="bar">
       <img src="icon.svg" alt="" width="28" height="28" />
       <div class="title"><h1 translate="no">${state.machine.value || "Linkwright studio"}</h1>
-        <small>${name ? html`<span translate="no">${name}</span>` : "unnamed"}${place && place !== "folder" ? html`<span>${`, from the ${place}`}</span>` : null}${state.unsaved.value ? html` <span class="unsaved" title="There are changes that are not saved">● unsaved</span>` : null}</small></div>
+        <small>${name ? html`<span translate="no">${name}</span>` : "unnamed"}${place && place !== "folder" ? html`<span>${`, from the ${place}`}</span>` : null}${state.unsaved.value ? html` <span class="unsaved" title="There are unsaved changes">● unsaved</span>` : null}</small></div>
       <nav aria-label="File">
         <button onClick=${opens("gallery")}>Machines</button>
         <button onClick=${saveNow} title="Save (Ctrl+S)">Save</button>

@@ -42,7 +42,7 @@ export function Heat({ values, x, y, words }) {
   return html`
     <div class="heat">
       <div class="of-y"><small>${top}</small><small>${y.word}</small><small>${bottom}</small></div>
-      <canvas ref=${own} role="img" aria-label="Map of ${words.word}; its numbers stand in the data table"></canvas>
+      <canvas ref=${own} role="img" aria-label="Map of ${words.word}; its numbers are in the data table"></canvas>
       <span></span><div class="of-x"><small>${left}</small><small>${x.word}</small><small>${right}</small></div>
       <span></span><div class="of-x scale"><small>${number(low / scale.factor, 4)}</small><i></i><small>${number(high / scale.factor, 4)} ${scale.unit}</small></div>
     </div>

@@ -154,5 +154,5 @@ export function Hodograph({ plot }) {
     };
   }, []);
   useEffect(() => redraw.current(), [plot, shownLook.value, state.units.value, state.pins.value]);
-  return html`<div class="chart hodograph" data-plot=${plot.key}><canvas ref=${holder} role="img" aria-label="Hodograph of ${plot.title}; its numbers stand in the data table"></canvas></div>`;
+  return html`<div class="chart hodograph" data-plot=${plot.key}><canvas ref=${holder} role="img" aria-label="Hodograph of ${plot.title}; its numbers are in the data table"></canvas></div>`;
 }

@@ -87,7 +87,7 @@ export function Plots() {
       <label class="watch">Curves of a point <${Choice} value=${points.includes(state.watched.value) ? state.watched.value : ""} options=${[["", "none"], ...ofNames(points)]} choose=${(name) => (state.watched.value = name)} /></label>` : null}
     <div class="panels">
       ${shown.map(({ plot }) => html`<${Panel} key=${plot.key} plot=${plot} />`)}
-      ${shown.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing say what stands in the way."}</p>`}
+      ${shown.length ? null : html`<p class="nothing">${state.runs.value ? "Being computed …" : !state.controls.value && !state.problems.value.length ? "Opening …" : state.figures.value.length ? "No curves to read; Numbers and Diagrams have the results." : "No curves. The chips below the drawing state what is missing."}</p>`}
     </div>
     ${others.length ? html`
       <details class="others"><summary>${others.length} more plots</summary>

@@ -44,7 +44,7 @@ export function connect(hear) {
     waiting = [];
     const without = [...asked.values()];
     asked.clear();
-    for (const told of without) told({ of: "lost", words: "The connection was lost before the answer came." });
+    for (const told of without) told({ of: "lost", words: "The connection was lost before the answer arrived." });
   }
 
   /** @param {Asked} body @returns {number} */

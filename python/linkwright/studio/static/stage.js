@@ -45,7 +45,7 @@ export function Stage() {
             aria-label="Joint ${point}" aria-pressed=${state.picked.value === point}></button>`) : null}
       </div>
       ${state.reason.value ? html`<p class="reason" role="status">${state.reason.value}</p>` : null}
-      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems; they stand beside their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "Nothing of this machine moves as a linkage; its answers are in the plots.") : "Opening …"}</p>`}
+      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems, shown at their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "This machine has no moving linkage; its results are in the plots.") : "Opening …"}</p>`}
     </div>`;
 }
 

@@ -32,7 +32,7 @@ function TrainView({ view }) {
     <div class="playbar" role="group" aria-label="Motion">
       <${Play} />
       <label class="mode">Mode <${Choice} id="mode" value=${mode} choose=${(n) => setMode(Number(n))} options=${Array.from(view.frequencies, (f, n) => [n, `${n + 1}: ${number(f, 5)} ${shownUnit("Hz", state.units.value).unit}`])} /></label>
-      <span class="about words">Angles are drawn many times larger than they are. Red dots: nodes, at rest.</span>
+      <span class="about words">Angles are drawn greatly enlarged. Red dots: nodes, at rest.</span>
       <${Speed} />
     </div>`;
 }
