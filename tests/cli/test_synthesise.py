@@ -140,7 +140,7 @@ def test_units_of_the_reader(task: Path) -> None:
     found = json.loads(run("motion", task, "--json").stdout)["results"]["pose_guide"]
     text = run("motion", task, "--units", "mm").stdout
     assert f"{1e3 * found['frame']:.6g} mm" in text
-    assert re.search(r"origin from its place +0 mm", text)
+    assert re.search(r"position error of the body.s origin +0 mm", text)
     assert re.search(r"deviation of the body's rotation +0°", text)
     assert "244 um" in run("line", "--list", "--length", "0.2 m", "--units", "µm").stdout
 

@@ -109,7 +109,7 @@ def test_what_a_study_says_first(name: str, known: dict[str, str]) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "4 machines computed, 2 without an answer",
+        "4 machines computed, 2 without a result",
         "x is at its maximum, 0.1 m; y is at the lower end of its range, 3 kg",
         "0.001 m more at the upper end of y would make x 0.001 m larger",
         "derivatives exact",

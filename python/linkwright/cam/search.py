@@ -47,11 +47,11 @@ PER_TURN = 360
 class Cams(Result):
     """Many cams; arrays (n,), NaN where the dimensions do not go together."""
 
-    entries: Annotated[dict[str, Floats], About("What was varied, by name.")]
+    entries: Annotated[dict[str, Floats], About("Varied entries by name.")]
     laws: Annotated[tuple[str, ...], About("Names of the laws.")]
     law: Annotated[Indices, About("Number of the law of each cam.", "(n,)")]
     pressure_angle_max: Annotated[
-        Floats, Label("maximum pressure angle in size", "", "rad", over="pressure_angle_max")
+        Floats, Label("maximum absolute pressure angle", "", "rad", over="pressure_angle_max")
     ]
     curvature_radius_min: Annotated[
         Floats,

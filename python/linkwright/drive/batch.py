@@ -80,7 +80,7 @@ _STATUS_WORDS = "0 where solved; else a key of `linkwright.drive.batch.STATUS`."
 class SteadyStates(Record, evenness.Evenness[Floats]):
     """Steady motion of ``n`` machines; every array has shape (n,), NaN where there is no answer."""
 
-    entries: Annotated[dict[str, Floats], About("What was varied, by address.")]
+    entries: Annotated[dict[str, Floats], About("Varied entries by address.")]
     status: Annotated[NDArray[np.uint8], About(_STATUS_WORDS, "(rows,)")]
     speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s")]
     speed_max: Annotated[Floats, Label("maximum speed", "ω_max", "rad/s")]

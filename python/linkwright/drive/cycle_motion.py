@@ -82,7 +82,7 @@ class CycleMotion(Motion):
     """A mechanism over its cycle, in steady motion or at constant speed of the crank."""
 
     is_steady: Annotated[bool, About("Whether the crank moves as in steady motion, not at constant speed.")]
-    speed_source: Annotated[str, About("Where the speed of the crank comes from.")]
+    speed_source: Annotated[str, About("Source of the crank speed.")]
     extremes: Annotated[dict[str, Extremes], About("By name of the curve; without what is at rest.")]
     coupler_points: Annotated[
         tuple[str, ...], About("Points of links, without those whose paths are circles about fixed points.")

@@ -40,7 +40,7 @@ _ROUNDING = 1e-12
 # Speeds at which laws are integrated together; more only take memory.
 _SPEEDS = 64
 
-_LOADS = "Of all loads that do not depend on the size of the speed, crank turning forward."
+_LOADS = "Of all loads that do not depend on the magnitude of the speed, in forward rotation."
 
 
 @dataclass(frozen=True)

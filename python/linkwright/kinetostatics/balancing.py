@@ -51,7 +51,7 @@ class Counterweight(Record):
     angle: Annotated[float, Label("direction from that of the link", "", "rad")]
     mass: Annotated[float, Label("mass", "", "kg")]
     radius: Annotated[float, Label("distance from the pivot", "", "m")]
-    axial: Annotated[float, Label("place along the crankshaft", "z", "m")] = 0.0
+    axial: Annotated[float, Label("position along the crankshaft", "z", "m")] = 0.0
 
 
 @dataclass(frozen=True)

@@ -117,7 +117,7 @@ class Forces(Result):
             "shaking couple of inertia about x and y",
             "C_g",
             "N m",
-            "About the plane z = 0; None without a body that has a place along the crankshaft.",
+            "About the plane z = 0; None without a body that has a position along the crankshaft.",
             shape="(n, 2)",
         ),
     ] = field(default=None)

@@ -61,8 +61,8 @@ class CouplerCurve(Result):
     """The path of a point over the cycle."""
 
     crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad")]
-    x: Annotated[Floats, Label("place of the point, x", "x", "m")]
-    y: Annotated[Floats, Label("place of the point, y", "y", "m")]
+    x: Annotated[Floats, Label("x of the point", "x", "m")]
+    y: Annotated[Floats, Label("y of the point", "y", "m")]
     curvature: Annotated[
         Floats,
         Label(

@@ -111,7 +111,7 @@ class RodRotatorMotion(Result):
     loop_residual: Annotated[
         float, Label("maximum gap in the loop over the longest link", "", "", "Of equation (8).")
     ]
-    verdict: Annotated[str, About("Why the lever turns, rocks, or does not close.")]
+    verdict: Annotated[str, About("Why the lever rotates fully, oscillates, or does not close.")]
     findings: Annotated[tuple[str, ...], About(_FINDINGS)]
     worm_turns_per_cycle: Annotated[
         float,
@@ -283,7 +283,7 @@ def verdict(known: Lengths, least: float, greatest: float) -> str:
         return f"rotates fully, through two change points: {spare}"
     if any(meets):
         return f"touches a change point at one end of the stroke and turns back from there: {spare}"
-    return f"rocks, never in line with its link: {spare}"
+    return f"oscillates, never in line with its link: {spare}"
 
 
 def _days(rotator: RodRotator, speed: float | None, worm_turns: float) -> float | None:

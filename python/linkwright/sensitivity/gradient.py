@@ -33,7 +33,7 @@ class Gradient(Result):
     """Derivatives of ``n`` responses by ``m`` variables."""
 
     responses: Annotated[tuple[str, ...], About('Responses, as "steady_state.unevenness".')]
-    words: Annotated[tuple[str, ...], About("What each response is called.")]
+    words: Annotated[tuple[str, ...], About("Names of the responses in words.")]
     variables: Annotated[tuple[str, ...], About("Addresses of the entries.")]
     units: Annotated[tuple[str, ...], About("SI unit of each response.")]
     variable_units: Annotated[tuple[str, ...], About("SI unit of each variable.")]

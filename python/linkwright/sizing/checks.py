@@ -90,8 +90,8 @@ class Check(Record):
     """One check."""
 
     name: Annotated[str, About("Of the check.")]
-    value: Annotated[float | None, About("What was found, in ``unit``.")]
-    limit: Annotated[float | None, About("What it is compared with, in ``unit``.")]
+    value: Annotated[float | None, About("The value, in ``unit``.")]
+    limit: Annotated[float | None, About("The limit or requirement, in ``unit``.")]
     unit: Annotated[str, About("Unit of both.")]
     passed: Annotated[bool | None, About("None if it is not determined.")]
     at_most: Annotated[bool, About("Whether the value must be at most the limit, not at least.")] = False

@@ -121,8 +121,8 @@ _MOTOR_CHOICE_PRESENT = "The checks of the motor that the machine has; empty if 
 class MotorChoice(Record):
     """The choice of a motor."""
 
-    required: Annotated[RequiredPower, About("The power that the loads take.")]
-    reserve: Annotated[float, Label("rated power over required power", "", "", "That was asked for.")]
+    required: Annotated[RequiredPower, About("Power of the loads.")]
+    reserve: Annotated[float, Label("rated power over required power", "", "", "As required.")]
     by: Annotated[By, About('``"all"`` checks, ``"fixed-start"``, or ``"power"`` and start alone.')]
     candidates: Annotated[
         tuple[Candidate, ...],
@@ -130,7 +130,7 @@ class MotorChoice(Record):
     ]
     chosen: Annotated[Candidate | None, About("The smallest that passes.")]
     present: Annotated[tuple[Check, ...], About(_MOTOR_CHOICE_PRESENT)]
-    warnings: Annotated[tuple[str, ...], About("What the choice rests on.")]
+    warnings: Annotated[tuple[str, ...], About("Basis of the choice.")]
 
     @property
     def reason(self) -> str:

@@ -72,13 +72,13 @@ class Fit(Result):
         tuple[Direction, ...], About("Combinations of numbers, from the one that is known worst.")
     ]
     at_limits: Annotated[tuple[str, ...], About("Numbers that are at the end of their range.")]
-    warnings: Annotated[tuple[str, ...], About("Why intervals may be wrong, in sentences.")]
+    warnings: Annotated[tuple[str, ...], About("Reasons why intervals may be wrong, in sentences.")]
     jacobian_error: Annotated[
         float, Label("error of the derivatives", "", "", "Relative, as measured; 0 for exact ones.")
     ]
     freedom: Annotated[int, Label("degrees of freedom", "ν", "")]
     n_evaluations: Annotated[int, Label("motions that were computed", "", "")]
-    reasons: Annotated[dict[str, int], About("Why trials of the search had no result → how many.")]
+    reasons: Annotated[dict[str, int], About("Reasons for trials without a result → number of trials.")]
 
     @property
     def is_determined(self) -> Annotated[bool, About("Whether the record determines all parameters.")]:

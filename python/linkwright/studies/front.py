@@ -49,7 +49,9 @@ class Front(Result):
     machines: Annotated[
         tuple[Optimum, ...], About("From the best by the first goal to the best by the second.")
     ]
-    failed: Annotated[dict[str, str], About("Limits of the second goal that no machine was found for → why.")]
+    failed: Annotated[
+        dict[str, str], About("Limits of the second goal for which no machine was found → reason.")
+    ]
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     one_by_one: OneByOne = field(default_factory=dict)
 

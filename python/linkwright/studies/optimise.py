@@ -50,9 +50,9 @@ class Optimum(Result):
     active: Annotated[tuple[str, ...], About("Active limits of the best machine, in words.")]
     multipliers: Annotated[
         dict[str, float],
-        About("Active limit → by how much the goal would be better if it were wider by one unit [SI]."),
+        About("Active limit → improvement of the goal per unit of a wider limit [SI]."),
     ]
-    worth: Annotated[tuple[str, ...], About("The same in words, or why it is not known.")]
+    worth: Annotated[tuple[str, ...], About("The same in words, or the reason why it is unknown.")]
     tried: Annotated[
         tuple[dict[str, Any], ...],
         About(
@@ -62,9 +62,9 @@ class Optimum(Result):
     ]
     n_evaluations: Annotated[int, Label("machines that were computed", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "")]
-    reasons: Annotated[dict[str, int], About("Why machines had no result → how many.")]
+    reasons: Annotated[dict[str, int], About("Reasons for machines without a result → number of machines.")]
     fast_starts: Annotated[
-        str, About("What becomes of fast starts of the best machine that do not settle; empty if they do.")
+        str, About("Behaviour of fast starts of the best machine that do not settle; empty if all settle.")
     ]
     one_by_one: OneByOne = field(default_factory=dict)
     goal_range: Annotated[
@@ -72,7 +72,7 @@ class Optimum(Result):
     ] = (math.nan, math.nan)
     findings: Annotated[
         tuple[str, ...],
-        About("What the best machine does not do: a follower that leaves its cam, a slack cable."),
+        About("Failed checks of the best machine: a follower that leaves its cam, a slack cable."),
     ] = ()
 
     @property

@@ -28,13 +28,13 @@ SOLVED, FAILED, IMPOSSIBLE = 0, 1, 2
 # What a result says of rows that took longer than they do as a rule.
 OneByOne = Annotated[
     dict[str, int],
-    About("Why rows were computed one by one that are computed at once as a rule → how many."),
+    About("Reasons for computing rows one by one instead of as a batch → number of rows."),
 ]
 
 # What a result says of rows that do not settle from all starts.
 FastStarts = Annotated[
     dict[str, int],
-    About("What becomes of fast starts that do not settle to the steady motion → of how many rows."),
+    About("Behaviour of fast starts that do not settle to the steady motion → number of rows."),
 ]
 
 # What a row says that has no finite number.

@@ -38,7 +38,7 @@ class Sweep(Result):
     n_rows: Annotated[int, Label("rows of the sweep", "", "")]
     n_done: Annotated[int, Label("rows computed so far", "", "")]
     n_failed: Annotated[int, Label("rows without a result", "", "", "Each keeps its reason.")]
-    reasons: Annotated[dict[str, int], About("Reason of failed rows → how many rows.")]
+    reasons: Annotated[dict[str, int], About("Reason of failed rows → number of rows.")]
     extremes: Annotated[
         dict[str, dict[str, float]],
         About("Response → its minimum and maximum [SI], and the rows that have them."),

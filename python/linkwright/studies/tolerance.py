@@ -59,7 +59,7 @@ class Tolerance(Result):
 
     n_rows: Annotated[int, Label("machines drawn at random", "", "")]
     n_failed: Annotated[int, Label("machines without a result", "", "", "They count as outside the limits.")]
-    reasons: Annotated[dict[str, int], About("Why machines had no result → how many.")]
+    reasons: Annotated[dict[str, int], About("Reasons for machines without a result → number of machines.")]
     variables: Annotated[
         dict[str, dict[str, float]],
         About("Variable → mean, standard deviation and limits as they are computed with [SI]."),

@@ -74,8 +74,8 @@ class PathGenerator(TransmissionResult):
     crank: Annotated[float, Label("length of the crank", "", "m")]
     coupler: Annotated[float, Label("length of the coupler", "", "m")]
     rocker: Annotated[float, Label("length of the rocker", "", "m")]
-    along: Annotated[float, Label("place of the coupler point along the coupler", "", "m")]
-    across: Annotated[float, Label("place of the coupler point across the coupler", "", "m")]
+    along: Annotated[float, Label("position of the coupler point along the coupler", "", "m")]
+    across: Annotated[float, Label("position of the coupler point across the coupler", "", "m")]
     assembly: Annotated[str, About("Side of the joint.")]
     error_rms: Annotated[
         float,
@@ -101,8 +101,8 @@ class PathGenerator(TransmissionResult):
     seed: Annotated[int, About("Start of the random numbers.")]
     limited_by: Annotated[tuple[str, ...], About(_PATH_GENERATOR_LIMITED_BY)]
     crank_angles: Annotated[Floats, Label("crank angles of the points", "", "rad", "In the machine.")]
-    x: Annotated[Floats, Label("place of the coupler point along x", "", "m", "At these crank angles.")]
-    y: Annotated[Floats, Label("place of the coupler point along y", "", "m", "At these crank angles.")]
+    x: Annotated[Floats, Label("x of the coupler point", "", "m", "At these crank angles.")]
+    y: Annotated[Floats, Label("y of the coupler point", "", "m", "At these crank angles.")]
     history: Annotated[Floats, About(_PATH_GENERATOR_HISTORY)]
     machine: Annotated[Machine, About("The linkage; its point ``P`` draws the path.")]
 

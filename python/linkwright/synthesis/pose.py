@@ -63,9 +63,7 @@ class PoseGuide(TransmissionResult):
     ]
     pose_error: Annotated[
         float,
-        Label(
-            "maximum distance of the body's origin from its place", "", "m", "In the machine analysed again."
-        ),
+        Label("maximum position error of the body's origin", "", "m", "In the machine analysed again."),
     ]
     angle_error: Annotated[
         float, Label("maximum deviation of the body's rotation", "", "rad", "From pose to pose.")

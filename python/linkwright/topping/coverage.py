@@ -48,30 +48,28 @@ class Coverage(Result):
     length_needed: Annotated[
         Floats,
         Label(
-            "minimum length of the edge that cuts all of the head",
+            "minimum edge length for a complete cut",
             "",
             "m",
-            "Zero for a head without a disc.",
+            "Zero if the cut does not meet the root.",
             over="length_needed",
         ),
     ]
     last_x: Annotated[
         Floats,
         Label(
-            "place of the point that is reached last, along x",
+            "x of the point cut last",
             "",
             "m",
             "From the centre of the head.",
             over="last_x",
         ),
     ]
-    last_y: Annotated[
-        Floats, Label("place of the point that is reached last, along y", "", "m", "Likewise.", over="last_y")
-    ]
+    last_y: Annotated[Floats, Label("y of the point cut last", "", "m", "Likewise.", over="last_y")]
     uncut_right: Annotated[
         Floats,
         Label(
-            "area that is left on the right of the edge",
+            "uncut area beyond the right end of the edge",
             "",
             "m²",
             "Zero without a length.",
@@ -79,13 +77,11 @@ class Coverage(Result):
         ),
     ]
     uncut_left: Annotated[
-        Floats, Label("area that is left on the left of the edge", "", "m²", "Likewise.", over="uncut_left")
+        Floats, Label("uncut area beyond the left end of the edge", "", "m²", "Likewise.", over="uncut_left")
     ]
     uncut_between: Annotated[
         Floats,
-        Label(
-            "area that is left between two passes of the edge", "", "m²", "Likewise.", over="uncut_between"
-        ),
+        Label("uncut area between two passes of the edge", "", "m²", "Likewise.", over="uncut_between"),
     ]
 
     @property

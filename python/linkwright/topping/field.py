@@ -77,10 +77,10 @@ class TopperField(Result):
     length_needed: Annotated[
         Floats,
         Label(
-            "length that each head needs",
+            "required length of each head",
             "",
             "m",
-            "Infinite for one that is missed.",
+            "Infinite for a missed head.",
             shape="(n,)",
             over="length_needed",
         ),

@@ -34,7 +34,7 @@ class FieldSweep(Result):
     What is found is NaN for an edge that runs over heads and back again and again, and hardly goes on.
     """
 
-    entries: Annotated[dict[str, Floats], About("What was varied, by name; of each variant.")]
+    entries: Annotated[dict[str, Floats], About("Varied entries by name; values of each variant.")]
     shape: Annotated[tuple[int, ...], About("How many values of each entry.")]
     share_complete: Annotated[
         Floats,

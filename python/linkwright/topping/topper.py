@@ -26,8 +26,8 @@ NOTHING = 1e-12
 
 
 _OBSTACLE = (
-    "Why what is cut could not be computed: lengths for the motion of the knife, but for that in every "
-    "phase of an edge that never retreats, and shares that are left are then NaN."
+    "Why the cut could not be computed. Lengths for the motion of the knife, except that for every phase "
+    "of an edge that never retreats, and uncut shares are then NaN."
 )
 
 
@@ -48,7 +48,9 @@ class TopperStudy(Result):
     edge_use: Annotated[
         Floats, Label("mean path through a head", "", "m", "Of each place of the edge.", over="edge_place")
     ]
-    head_diameter: Annotated[float, Label("diameter of the head", "d", "m", "Of the disc that is cut.")]
+    head_diameter: Annotated[
+        float, Label("diameter of the head", "d", "m", "Of the disc in the plane of the cut.")
+    ]
     cap_volume: Annotated[float, Label("volume of the slice", "V", "m³", "Of the root above the cut.")]
     stroke: Annotated[
         float, Label("stroke of the knife", "S", "m", "Zero if it does not turn back over a head.")
@@ -97,21 +99,21 @@ class TopperStudy(Result):
             "At the worst offset, in the worst phase or the given one.",
         ),
     ]
-    worst_phase: Annotated[float, Label("phase of the head that needs the maximum length", "", "rad")]
-    worst_offset: Annotated[float, Label("offset of the head that needs the maximum length", "", "m")]
-    last_x: Annotated[float, Label("point of that head that is reached last, x", "", "m", "From its centre.")]
-    last_y: Annotated[float, Label("point of that head that is reached last, y", "", "m", "From its centre.")]
-    length_best_phase: Annotated[float, Label("length that heads in the best phase need", "", "m")]
-    best_phase: Annotated[float, Label("phase in which heads need the minimum length", "", "rad")]
-    uncut_share: Annotated[float, Label("maximum share of a head that the edge leaves", "", "")]
-    uncut_phase: Annotated[float, Label("phase of the head of which most is left", "", "rad")]
-    uncut_offset: Annotated[float, Label("offset of the head of which most is left", "", "m")]
-    uncut_right: Annotated[float, Label("share that is left there on the right of the edge", "", "")]
-    uncut_left: Annotated[float, Label("share that is left there on the left of the edge", "", "")]
-    uncut_between: Annotated[float, Label("share that is left there between two passes", "", "")]
+    worst_phase: Annotated[float, Label("phase of the head with the maximum required length", "", "rad")]
+    worst_offset: Annotated[float, Label("offset of the head with the maximum required length", "", "m")]
+    last_x: Annotated[float, Label("x of the point of that head cut last", "", "m", "From its centre.")]
+    last_y: Annotated[float, Label("y of the point of that head cut last", "", "m", "From its centre.")]
+    length_best_phase: Annotated[float, Label("required length in the best phase", "", "m")]
+    best_phase: Annotated[float, Label("phase of the minimum required length", "", "rad")]
+    uncut_share: Annotated[float, Label("maximum uncut share of a head", "", "")]
+    uncut_phase: Annotated[float, Label("phase of the head with the maximum uncut share", "", "rad")]
+    uncut_offset: Annotated[float, Label("offset of the head with the maximum uncut share", "", "m")]
+    uncut_right: Annotated[float, Label("uncut share of that head beyond the right end", "", "")]
+    uncut_left: Annotated[float, Label("uncut share of that head beyond the left end", "", "")]
+    uncut_between: Annotated[float, Label("uncut share of that head between two passes", "", "")]
     uncut_share_mean: Annotated[
         float,
-        Label("mean share of a head that the edge leaves", "", "", "Over phases and offsets, both even."),
+        Label("mean uncut share of a head", "", "", "Over phases and offsets, both even."),
     ]
     edge_retreats: Annotated[bool, About("Whether the edge runs backwards at times.")]
     least_advance: Annotated[float, Label("minimum advance normal to the edge", "u_n,min", "m/s")]

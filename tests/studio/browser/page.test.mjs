@@ -103,7 +103,7 @@ test("what was not saved is there after a crash of the studio", async () => {
   server = again.server;
   await page.close();
   page = await opened(context, again.address, faults);
-  await page.getByRole("alert").getByText("Changes that were not saved are back").waitFor();
+  await page.getByRole("alert").getByText("Unsaved changes are restored").waitFor();
   assert.ok((await text()).endsWith("# not saved\n"));
   await page.keyboard.press("Control+z");
   await known(page);

@@ -58,7 +58,7 @@ class ContactForce(Result):
     force_along: Annotated[
         Floats,
         Label(
-            "force that the follower needs along its way",
+            "force required along the follower's path",
             "F",
             "N",
             "Friction left out; N m of an oscillating follower.",
@@ -71,7 +71,7 @@ class ContactForce(Result):
     ]
     across: Annotated[
         Floats,
-        Label("force of the cam across the way", "", "N", "In the direction in which the surface moves."),
+        Label("force of the cam across the path", "", "N", "In the direction in which the surface moves."),
     ]
     near: Annotated[
         Floats,

@@ -111,7 +111,7 @@ class LoadedCam(Result):
     findings: Annotated[tuple[str, ...], About(_FINDINGS)] = ()
 
     @property
-    def force_size(self) -> Annotated[float, Label("largest normal force in size", "", "N")]:
+    def force_size(self) -> Annotated[float, Label("peak absolute normal force", "", "N")]:
         """Largest normal force in size."""
         return max(abs(self.force_max), abs(self.force_min))
 

@@ -127,7 +127,7 @@ class CamProfile(Result):
             "maximum velocity of the follower",
             "",
             "m/s or rad/s",
-            "Largest in size at the design speed; None without one.",
+            "Peak absolute value at the design speed; None without one.",
         ),
     ]
     acceleration_max: Annotated[
@@ -136,7 +136,7 @@ class CamProfile(Result):
             "maximum acceleration of the follower",
             "",
             "m/s² or rad/s²",
-            "Largest in size at the design speed; None without one.",
+            "Peak absolute value at the design speed; None without one.",
         ),
     ]
     jerk_max: Annotated[
@@ -145,7 +145,7 @@ class CamProfile(Result):
             "maximum jerk of the follower",
             "",
             "m/s³ or rad/s³",
-            "Largest in size at the design speed; None without one.",
+            "Peak absolute value at the design speed; None without one.",
         ),
     ]
     speed_constant: Annotated[
@@ -160,7 +160,7 @@ class CamProfile(Result):
     base_radius: Annotated[float, Label("base radius", "r₀", "m", "Of the first cam.")]
     prime_radius: Annotated[float, Label("prime radius", "", "m", "Of the first cam.")]
     pressure_angle_max: Annotated[
-        float, Label("maximum pressure angle", "γ_max", "rad", "Largest in size over all contacts.")
+        float, Label("maximum pressure angle", "γ_max", "rad", "Peak absolute value over all contacts.")
     ]
     pressure_angle_max_angle: Annotated[
         float, Label("cam angle of the maximum pressure angle", "φ(γ_max)", "rad")
@@ -171,7 +171,7 @@ class CamProfile(Result):
             "minimum radius of curvature",
             "ρ_min",
             "m",
-            "In size, convex or concave, negative where undercut.",
+            "Minimum magnitude, convex or concave; negative where undercut.",
         ),
     ]
     curvature_radius_min_angle: Annotated[
@@ -191,7 +191,7 @@ class CamProfile(Result):
             "minimum diameter",
             "d_min",
             "m",
-            "Of two followers on opposite sides that touch one cam; None for other closures.",
+            "For two followers on opposite sides of one cam; None for other closures.",
             table="cam",
         ),
     ]
@@ -201,14 +201,14 @@ class CamProfile(Result):
             "maximum diameter",
             "d_max",
             "m",
-            "Of two followers on opposite sides that touch one cam; None for other closures.",
+            "For two followers on opposite sides of one cam; None for other closures.",
             table="cam",
         ),
     ]
     face_min: Annotated[
         float | None,
         Label(
-            "minimum place of the contact on a flat face",
+            "minimum position of the contact on a flat face",
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",
@@ -218,7 +218,7 @@ class CamProfile(Result):
     face_max: Annotated[
         float | None,
         Label(
-            "maximum place of the contact on a flat face",
+            "maximum position of the contact on a flat face",
             "",
             "m",
             "To the left of its stem or along the arm; None for rollers.",

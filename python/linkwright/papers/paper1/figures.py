@@ -94,7 +94,7 @@ def _run_up(axes: Axes, drive: Drive) -> None:
     )
     axes.text(row["turns"], 0.3, " steady, as published", color=SOFT, fontsize=8.5)
     axes.set_title("run-up: speed of the crank ω [rad/s]", loc="left")
-    axes.set_xlabel("turns from the start")
+    axes.set_xlabel("revolutions from the start")
     axes.set_xlim(0, turns)
     axes.set_ylim(0, 1.1 * max(row["speed_max"], up.speed_peak))
 
@@ -159,7 +159,9 @@ def _evenness(paper: Paper1) -> Figure:
         bars = axes.bar(places + 0.2 * (n - 1.5), values, 0.18, color=colour, label=name)
         axes.bar_label(bars, fmt="%.2f", fontsize=7.5, padding=1.5)
     axes.set_xticks(places, [_carts(drive.published.carts) for drive in paper.drives])
-    axes.set_title("combined non-uniformity index $k_p = δ^2 + H$; less is more even", loc="left", **MATH)
+    axes.set_title(
+        "combined non-uniformity index $k_p = δ^2 + H$; smaller is more uniform", loc="left", **MATH
+    )
     axes.grid(visible=False, axis="x")
     axes.legend(ncols=2, loc="upper right")
     return figure

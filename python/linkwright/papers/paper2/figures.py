@@ -220,7 +220,7 @@ def _alternatives(paper: Paper2) -> Figure:
         (
             "velocity at the design speed [m/s]",
             "acceleration at the design speed [m/s²]",
-            "torque that the cart asks of the shaft in steady motion [N m]",
+            "torque of the cart on the shaft in steady motion [N m]",
         ),
         strict=True,
     ):

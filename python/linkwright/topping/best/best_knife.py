@@ -53,7 +53,7 @@ _OTHER_SEED = 1_000_003
 _ON = 1e-4
 
 
-_IS_VERIFIED = "Whether the other roots keep the limits, but for what the intervals over both leave open."
+_IS_VERIFIED = "Whether the other roots keep the limits within the confidence intervals."
 
 
 @dataclass(frozen=True)
@@ -143,11 +143,11 @@ class KnifeSearch(Result):
     ]
     map_slicing: Annotated[Floats, Label("mean draw-cut ratio", "", "–", shape="(a, b)")]
     objective: Annotated[Objective, About('``"shortest"`` or ``"fastest"``.')]
-    limits: Annotated[TopperLimits, About("What had to be kept.")]
+    limits: Annotated[TopperLimits, About("Limits of the search.")]
     length_max: Annotated[float, Label("maximum length of the edge", "", "m", "Infinite without a limit.")]
     tried: Annotated[int, About("Number of knives evaluated.")]
     best: Annotated[BestKnife | None, About("The best one; None if no knife keeps the limits.")]
-    failing: Annotated[LimitFailure | None, About("What cannot be kept then.")]
+    failing: Annotated[LimitFailure | None, About("Limit that cannot be kept in that case.")]
 
 
 @public

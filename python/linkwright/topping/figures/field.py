@@ -79,7 +79,7 @@ def field_length_figure(field: TopperField) -> Figure:
     finite = 1e3 * field.length_needed[np.isfinite(field.length_needed)]
     _histogram(axes, finite, field.n_roots)
     _edge(axes, field.edge_length)
-    axes.set_xlabel("length that a head needs [mm]")
+    axes.set_xlabel("required length of a head [mm]")
     legend_above(axes)
     return figure
 

@@ -97,11 +97,11 @@ class Diagnosis(Result):
     misfit: Annotated[
         float,
         About(
-            "What is left over for each degree of freedom, over the noise if that is known, else [rad/s]; "
-            "NaN without any degree of freedom."
+            "Residual per degree of freedom, relative to the noise if known, otherwise in rad/s; NaN "
+            "without a degree of freedom."
         ),
     ]
-    freedom: Annotated[int, About("Equations less factors told.")]
+    freedom: Annotated[int, About("Number of equations minus number of determined factors.")]
     is_noise_known: Annotated[bool, About("Whether the noise was given, or estimated.")]
     warnings: Annotated[tuple[str, ...], About("Limitations of the diagnosis.")]
     delay: Annotated[
@@ -110,7 +110,7 @@ class Diagnosis(Result):
             "crank angle by which the combustion is late",
             "",
             "rad",
-            "None where the orders measured do not tell it.",
+            "None if the measured orders do not determine it.",
             shape="(cylinders,)",
             over="delay",
         ),

@@ -154,17 +154,17 @@ class TorsionTransient(Result):
             "error of the energy",
             "",
             "",
-            "What the energy gained less work and losses, over the largest of all these.",
+            "Gain of energy less work and losses, over the largest of these.",
         ),
     ]
     method: Annotated[str, About('``"explicit"`` or ``"implicit"``.')]
     steps: Annotated[int, Label("steps", "", "")]
-    steps_rejected: Annotated[int, Label("steps that were done again", "", "")]
+    steps_rejected: Annotated[int, Label("rejected steps", "", "")]
     evaluations: Annotated[int, Label("evaluations of the train", "", "")]
-    frequency_bound: Annotated[float, Label("bound of the fastest swing at the start", "", "Hz")]
+    frequency_bound: Annotated[float, Label("bound of the highest frequency at the start", "", "Hz")]
     notes: Annotated[tuple[str, ...], About("What was assumed.")]
     balance: Annotated[
-        str, About("What was changed so that mean torques balance at the start; empty where nothing was.")
+        str, About("Changes that balance the mean torques at the start; empty if there are none.")
     ] = ""
     judgements: Annotated[
         tuple[PeakJudgement, ...],

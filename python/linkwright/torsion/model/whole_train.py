@@ -91,7 +91,7 @@ class RodShaft(Shaft):
     """A shaft whose inertia is distributed, and counted with the discs at its ends as well."""
 
     pieces: tuple[RodPiece, ...] = Field(description="From its first end to its second.")
-    end_inertias: tuple[float, float] = Field(description="What its two discs count of it [kg m²].")
+    end_inertias: tuple[float, float] = Field(description="Shares of its inertia in its two discs [kg m²].")
 
 
 def _light(train: Train) -> dict[str, Shaft]:

@@ -82,7 +82,7 @@ class DampedVibration(Result):
             "mode shapes",
             "θ",
             "",
-            "Complex; the largest is 1; of several, the first in the file.",
+            "Complex; the largest amplitude is 1, of several the first in the file.",
             shape="(modes, discs)",
         ),
     ]
@@ -99,7 +99,8 @@ class DampedVibration(Result):
             "share of each disc in the damping",
             "",
             "",
-            "Of its damping from outside; what shafts and discs leave over is the share of given ratios.",
+            "Of its external damping; the remainder after shafts and discs is the share of given damping "
+            "ratios.",
             shape="(modes, discs)",
         ),
     ]

@@ -104,8 +104,8 @@ class TorsionResponse(Result):
     places: Annotated[
         Mapping[str, Places],
         About(
-            "Where along each shaft with distributed inertia its torque is taken, as a piece of it at each "
-            "speed: where the torque comes closest to what the section bears."
+            "Station of each shaft with distributed inertia at which its torque is given, as a piece of "
+            "it at each speed: where the torque comes closest to the permitted torque of the section."
         ),
     ] = field(default_factory=dict, kw_only=True)
 
