@@ -118,8 +118,8 @@ def test_what_a_study_says_first(name: str, known: dict[str, str]) -> None:
         "no constraint limits them: they are at the upper end of the search",
         "6 samples of speed; derivatives by differences, to 3e-09; noise 0.0177 rad/s in speed",
         "in row",
-        "Least well determined: 2 % more mass is known to ±0.31 % (standard deviation)",
-        "Least well determined: 1 % more a and 0.3 % less b and 0.345 kg more c together are known to "
+        "Worst determined: 2 % more mass is known to ±0.31 % (standard deviation)",
+        "Worst determined: 1 % more a and 0.3 % less b and 0.345 kg more c together are known to "
         "±0.31 % (standard deviation)",
         "1 % more a would change the record by 0.02 of its noise: the record does not determine it",
         "1 % less a and 1 % more b and 2 % less c together would change the record by 0.02 of its noise: "

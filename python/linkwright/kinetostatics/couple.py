@@ -1,7 +1,7 @@
 r"""Shaking couples: forces of inertia at their places along the crankshaft.
 
-A body with the force of inertia **F** in the plane z, counted along the axis of the crankshaft towards who
-sees it turn counter-clockwise, adds to the frame the couple about the axes x and y
+A body with the force of inertia **F** in the plane z, counted along the axis of the crankshaft towards
+an observer who sees counter-clockwise rotation, adds to the frame the couple about the axes x and y
 
 .. math:: \mathbf C = \sum z\,(-F_y,\ F_x), \qquad \mathbf F = -m\,\ddot{\mathbf p}_S
 

@@ -274,8 +274,8 @@ def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
 def _none(task: PathTask, least: float, evaluated: int) -> str:
     """That nothing keeps the constraints, and by how much the best fails."""
     return (
-        f"none of {evaluated} linkages satisfies all constraints ({task.linkage}, transmission angle at "
-        f"least {np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} "
+        f"none of {evaluated} linkages satisfies all constraints ({task.linkage}, transmission angle "
+        f"at least {np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} "
         f"to 1, points in order, pivots in their box); the nearest violates them by {least:.3g} in sum. "
         "Lower transmission_angle_min, raise length_ratio_max, widen pivots, or raise population"
     )

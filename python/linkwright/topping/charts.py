@@ -159,7 +159,7 @@ class VerdictChart(Result):
     cut_heights: Annotated[Floats, Label("height of the cut", "h_p", "m", shape="(k,)", over="cut_heights")]
     offsets: Annotated[Floats, Label("offset of the head", "Δ", "m", shape="(m,)", over="offsets")]
     lengths: Annotated[tuple[float, float], About("Minimum and maximum length that is claimed [m].")]
-    edge_angle: Annotated[float, Label("magnitude of the edge angle of the machine", "α", "rad")]
+    edge_angle: Annotated[float, Label("edge angle of the machine, magnitude", "α", "rad")]
     band: Annotated[float, Label("band of the machine", "d + 2Δ", "m")]
     cut_height: Annotated[float, Label("height of the cut of the machine", "h_p", "m")]
     offset: Annotated[float, Label("offset of the machine", "Δ", "m")]

@@ -157,7 +157,7 @@ def _head(name: str, fitted: Fit) -> str:
     )
     lines = [name, f"{samples} samples of {channels}; derivatives {how}; noise {noise}"]
     weakest = next((direction for direction in fitted.directions if direction.is_determined), None)
-    return "\n".join([*lines, *([] if weakest is None else [f"Least well determined: {weakest.words}."])])
+    return "\n".join([*lines, *([] if weakest is None else [f"Worst determined: {weakest.words}."])])
 
 
 def _figures(fitted: Fit) -> dict[str, Any]:
