@@ -295,7 +295,7 @@ sections = [
     assert least < -1
     assert greatest < 1
     turns = (side == "left") == (rotation == "same")
-    rolls = any("rolls over" in each for each in cam_faults(both))
+    rolls = any("rolls on" in each for each in cam_faults(both))
     normal = both.flanks[0].contact.kernel.rows(DENSE)
     turned_by = np.unwrap(np.arctan2(normal["normal_y"], normal["normal_x"]))
     back = np.diff(turned_by) * np.sign(turned_by[-1] - turned_by[0]) < 0

@@ -269,7 +269,7 @@ def test_least_preload_is_the_other_side_of_lift_off() -> None:
 
 
 def test_what_cannot_be_held_is_told() -> None:
-    with pytest.raises(FindingError, match=r"at rest .* more preload"):
+    with pytest.raises(FindingError, match=r"at rest .* increase the preload"):
         lift_off(LIFT, FollowerLoad(1.0, 1e3, -5.0))
     with pytest.raises(FindingError, match="at any speed"):
         lift_off(turn(UNIFORM, 0.01), FOLLOWER)

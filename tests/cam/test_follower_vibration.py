@@ -224,7 +224,7 @@ def test_strikes_are_counted_and_told() -> None:
     expected = [(0.0, 0.005), (2.0, -0.005), (2.8, -0.01 / 1.7), (4.5, 0.01 / 1.7)]
     assert [each.cam_angle for each in found.impulses] == pytest.approx([at for at, _ in expected])
     assert [each.velocity_step for each in found.impulses] == pytest.approx([20 * v for _, v in expected])
-    assert sum("strikes" in text for text in found.findings) == 4
+    assert sum("impact" in text for text in found.findings) == 4
     assert follower_vibration(LIFT, FULL, 20.0).impulses == ()
 
 
@@ -274,7 +274,7 @@ def test_polydyne_asks_for_continuity() -> None:
     model = OneMass(1.0, 1e5)
     with pytest.raises(FindingError, match=r"derivative 2 .* jumps by"):
         polydyne(PARABOLIC, model, 10.0)
-    assert "strikes" in polydyne(POLYNOMIAL_345, model, 10.0).findings[0]
+    assert "impact" in polydyne(POLYNOMIAL_345, model, 10.0).findings[0]
     assert "acceleration of the lift jumps" in polydyne(POLYNOMIAL_4567, model, 10.0).findings[0]
     assert not polydyne(POLYNOMIAL_56789, model, 10.0).findings
     assert steps(polydyne(POLYNOMIAL_345, model, 10.0).lift, 1, "dwell").any()

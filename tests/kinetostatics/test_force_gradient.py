@@ -196,7 +196,7 @@ def test_a_machine_without_load_has_no_driving_torque() -> None:
     found = lw.gradient(machine, ["forces"])
     assert "forces.shaking_force_max" in found.responses
     assert "forces.torque_drive_max" not in found.responses
-    with pytest.raises(FindingError, match="zero but for rounding"):
+    with pytest.raises(FindingError, match="zero within rounding error"):
         lw.gradient(machine, ["forces.torque_drive_max"])
     # A load above rounding has one.
     loaded = lw.loads(_IDLE + '[loads]\nrub = { kind = "formula", on = "A", torque = "-1e-6" }')
@@ -206,5 +206,5 @@ def test_a_machine_without_load_has_no_driving_torque() -> None:
 
 def test_forces_of_nothing_have_no_derivative() -> None:
     machine = lw.read("examples/press_motion/machine.toml")
-    with pytest.raises(FindingError, match="zero but for rounding"):
+    with pytest.raises(FindingError, match="zero within rounding error"):
         lw.gradient(machine, ["forces.torque_drive_max"])

@@ -208,7 +208,7 @@ def test_folding_dyad_on_a_four_bar_linkage() -> None:
         (
             "[mechanism.points]\nB = { x = 0.1 }\n[mechanism.cranks]\nA = { radius = 0.1 }\n"
             '[mechanism.slotted_levers]\nL = { pin = "A", pivot = "B" }\n',
-            ["L reaches a change point at crank angle 0.00°", "passes over its pivot", "move the pivot"],
+            ["L reaches a change point at crank angle 0.00°", "passes through its pivot", "move the pivot"],
         ),
     ],
 )

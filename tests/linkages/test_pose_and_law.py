@@ -317,5 +317,5 @@ def test_pose_near_the_pivot_of_a_slotted_lever() -> None:
         assert pose.links["L"].velocity == pytest.approx(0.5, abs=1e-7)
         assert pose.links["L"].acceleration == pytest.approx(0.0, abs=1e-6)
     for angle in (0.0, 1e-5, -1e-4, 2 * np.pi):
-        with pytest.raises(AssemblyError, match="its pin passes over its pivot"):
+        with pytest.raises(AssemblyError, match="its pin passes through its pivot"):
             lw.pose(machine, angle)

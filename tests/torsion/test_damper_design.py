@@ -262,7 +262,7 @@ def test_the_written_damper_does_what_was_promised(kind: str) -> None:
 
 def test_a_disc_at_rest_carries_no_damper() -> None:
     machine = lw.loads(text({"hub": 1.0, "a": 2.0, "b": 2.0}, [("hub", "a", 18.0), ("hub", "b", 18.0)]))
-    with pytest.raises(FindingError, match=r"hub is at rest in mode 1.*does nothing"):
+    with pytest.raises(FindingError, match=r"hub is at rest in mode 1.*has no effect"):
         lw.design_damper(machine, "hub", 0.1)
 
 

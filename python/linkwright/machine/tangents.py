@@ -209,9 +209,9 @@ def _parting(compiled: CompiledMachine, derivatives: Mapping[str, Floats]) -> li
 class Derivatives:
     """Scalars of an analysis with their derivatives by `variables`.
 
-    `tangents`: by name, NaN for an entry without one; `ties`: names with one-sided derivatives only, or with none
-    for some entries, and the reason; `missing`: names that have none at all; `refused`: entries that have
-    none; `lost`: entries for which the shift of a kink was not found, with its crank angle [rad].
+    `tangents`: by name, NaN for an entry without one; `ties`: names with one-sided derivatives only, or
+    with none for some entries, and the reason; `missing`: names that have none at all; `refused`: entries
+    that have none; `lost`: entries for which the shift of a kink was not found, with its crank angle [rad].
     """
 
     variables: tuple[str, ...]
