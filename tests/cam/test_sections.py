@@ -285,8 +285,8 @@ def test_points_from_a_file(tmp_path: Path) -> None:
     ("content", "expected"),
     [
         (None, "a file of comma-separated values"),
-        ("", "a head such as"),
-        ("angle [deg, lift\n0, 0\n", "a head such as"),
+        ("", "a header such as"),
+        ("angle [deg, lift\n0, 0\n", "a header such as"),
         ("angle, lift\n0, 0, 0\n", "2 values"),
         ("angle [deg], lift [mm]\n0, 0\nx, 4\n", "rise.csv:3: cams.K.sections.0.law.file, column angle"),
         ("angle [deg], lift [mm]\n0, 0\n\n60,\n", "rise.csv:4: cams.K.sections.0.law.file, column lift"),

@@ -189,7 +189,7 @@ def test_constant_speed_needs_the_inertia_torque() -> None:
     need = reduced.torque_load + 0.5 * reduced.inertia_reduced_d1 * omega**2
     np.testing.assert_allclose(motion.torque_drive, need, rtol=1e-12)
     assert motion.unevenness == 0.0
-    with pytest.raises(InputError, match="constant speed"):
+    with pytest.raises(InputError, match="constant-speed motor"):
         lw.transient(fixed, duration=1.0)
 
 

@@ -64,7 +64,7 @@ def test_a_speed_without_load_makes_it_a_dc_motor(tmp_path: Path) -> None:
         (ROWS.replace("M3BP 160, M3BP, 11", "M3BP 160, M3BP, x"), "line 4|:4:"),
         (
             ROWS.replace("M3BP 160, M3BP, 11", "M3BP 160, M3BP, 11kW"),
-            r'"11kW"\n[^"]*the unit stands in the head, \[kW\]',
+            r'"11kW"\n[^"]*the unit belongs in the header, \[kW\]',
         ),
         (ROWS.replace("inertia [kgm^2]", "inertia [kg]"), "column inertia"),
         (ROWS.replace("power_rated [kW]", "power_rate [kW]"), "power_rated"),

@@ -178,7 +178,7 @@ def test_waterfall_tells_what_it_cannot_do() -> None:
     ):
         with pytest.raises(InputError, match=words):
             waterfall(t, angle, angle, **entries)
-    with pytest.raises(InputError, match="turns forward all the time"):
+    with pytest.raises(InputError, match="always rotates forward"):
         waterfall(t, np.sin(angle), angle)
     with pytest.raises(InputError, match="lists of one length"):
         waterfall(t, angle[:-1], angle)

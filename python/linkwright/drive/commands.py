@@ -45,12 +45,12 @@ Revolutions = Annotated[
 NoMotor = Annotated[bool, Option("--no-motor", help="Switch the motor off.")]
 Clockwise = Annotated[
     bool,
-    Option("--clockwise", help="Let the motor drive the crank clockwise; a start from rest goes that way."),
+    Option("--clockwise", help="Motor drives the crank clockwise, also in a start from rest."),
 ]
 WithBrake = Annotated[bool, Option("--brake", help="Apply the brake of the file.")]
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of a step.")]
 Steps = Annotated[
-    int, Option("--steps", metavar="N", help="Equal intervals of time in CSV and --curves.", min=1)
+    int, Option("--steps", metavar="N", help="Number of equal time intervals in CSV and --curves.", min=1)
 ]
 Folder = Annotated[
     Path | None, out_option("Write results.json, transient.csv and the figure as SVG and PNG there.")

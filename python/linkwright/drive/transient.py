@@ -276,7 +276,7 @@ def transient(
     if not 1e-14 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        raise InputError("a motor of constant speed has no run-up: it turns at its speed under any load")
+        raise InputError("a constant-speed motor has no run-up: it keeps its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
     require_half_turns(compiled, machine)
     require_finite_accelerations(machine)

@@ -65,7 +65,7 @@ Acceleration = Annotated[
     Option(
         "--acceleration",
         metavar="ACCELERATION",
-        help='Of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
+        help='Angular acceleration of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
     ),
 ]
 Folder = Annotated[

@@ -59,7 +59,8 @@ Duration = Annotated[
     ),
 ]
 Steps = Annotated[
-    int, Option("--steps", metavar="N", help="Intervals of the revolution or of the time.", min=1)
+    int,
+    Option("--steps", metavar="N", help="Number of intervals of the revolution or of the duration.", min=1),
 ]
 Csv = Annotated[bool, Option("--csv", help="CSV with all columns, in SI.")]
 File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]

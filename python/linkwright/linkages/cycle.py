@@ -225,7 +225,7 @@ class Linkage(Result):
             if name in (own, element.element, element.output):
                 return element
         known = [*self.names, *(element.output for element in self.elements)]
-        hint = suggestion(name, known) or "look at those of .elements"
+        hint = suggestion(name, known) or "see those of .elements"
         raise InputError(f"name: found {shown(name)}, expected an element, a link or a slide; {hint}")
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:

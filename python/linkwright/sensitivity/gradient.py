@@ -66,7 +66,7 @@ class Gradient(Result):
     def of(self, response: str) -> dict[str, float]:
         """Derivatives of one response by address [SI]; NaN where there is none."""
         if response not in self.responses:
-            hint = suggestion(response, self.responses) or "look at those of .responses"
+            hint = suggestion(response, self.responses) or "see those of .responses"
             raise InputError(f"response: found {cut(response)}, which was not derived; {hint}")
         row = self.derivatives[self.responses.index(response)]
         return dict(zip(self.variables, row.tolist(), strict=True))

@@ -59,7 +59,7 @@ Catalogue = Annotated[
     Option(
         "--catalogue",
         metavar="FILE",
-        help="Choose from the motors of a CSV file, induction, DC or servo, in place of the catalogue.",
+        help="Choose from the motors of a CSV file (induction, DC or servo) instead of the catalogue.",
     ),
 ]
 KeepMotor = Annotated[
@@ -71,16 +71,24 @@ MinimumCost = Annotated[
 ]
 PerKilowatt = Annotated[
     float | None,
-    Option("--per-kilowatt", metavar="X", help="Price of a kilowatt of motor, with --minimum-cost: 150."),
+    Option(
+        "--per-kilowatt", metavar="X", help="Price per kilowatt of motor, with --minimum-cost. Default: 150."
+    ),
 ]
 PerKilogram = Annotated[
     float | None,
-    Option("--per-kilogram", metavar="X", help="Price of a kilogram of flywheel, with --minimum-cost: 1.5."),
+    Option(
+        "--per-kilogram",
+        metavar="X",
+        help="Price per kilogram of flywheel, with --minimum-cost. Default: 1.5.",
+    ),
 ]
 FlywheelRadius = Annotated[
     str | None,
     Option(
-        "--flywheel-radius", metavar="LENGTH", help="Of the flywheel, a disc, with --minimum-cost: 0.6 m."
+        "--flywheel-radius",
+        metavar="LENGTH",
+        help="Radius of the flywheel disc, with --minimum-cost. Default: 0.6 m.",
     ),
 ]
 RunUpTime = Annotated[
@@ -96,7 +104,10 @@ ContactStress = Annotated[
     Option("--contact-stress", metavar="PRESSURE", help="Permitted contact pressure of that cam."),
 ]
 ShaftName = Annotated[
-    str | None, Option("--shaft", metavar="SHAFT", help="Size the smallest damper that keeps this shaft.")
+    str | None,
+    Option(
+        "--shaft", metavar="SHAFT", help="Size the smallest damper that keeps this shaft within its limit."
+    ),
 ]
 Stress = Annotated[
     str | None, Option("--stress", metavar="PRESSURE", help="Permitted vibratory stress of that shaft.")
@@ -104,7 +115,9 @@ Stress = Annotated[
 TorqueLimit = Annotated[
     str | None, Option("--torque", metavar="TORQUE", help="Permitted vibratory torque of that shaft.")
 ]
-Part = Annotated[str | None, Option("--part", metavar="NAME", help="Which cam or damper, of several.")]
+Part = Annotated[
+    str | None, Option("--part", metavar="NAME", help="Name of the cam or damper, if there are several.")
+]
 OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
 
 # Places from which derivatives lead to the minimum cost.
@@ -521,7 +534,7 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
 
 Poles = Annotated[int | None, Option("--poles", metavar="N", help="Only motors with this number of poles.")]
 PowerMin = Annotated[
-    str, Option("--power-min", metavar="POWER", help='Rated power at least, such as "5.5 kW".')
+    str, Option("--power-min", metavar="POWER", help='Minimum rated power, such as "5.5 kW".')
 ]
 Series = Annotated[str, Option("--series", metavar="NAME", help="Only motors of this series.")]
 

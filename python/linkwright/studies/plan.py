@@ -220,8 +220,8 @@ def _require_in_range(axis: Axis, values: Floats, what: str) -> None:
         row, unit = int(outside[0]), f" {axis.unit}".rstrip()
         expected = f"{axis.low:.6g} to {axis.high:.6g}{unit}, the range of the variable"
         raise InputError(
-            f"{what}, row {row}: found {values[row]:.6g}{unit}, expected {expected}; a unit stands in the "
-            "head of a column, as in phase [deg]"
+            f"{what}, row {row}: found {values[row]:.6g}{unit}, expected {expected}; give the unit in the "
+            "header of the column, as in phase [deg]"
         )
 
 

@@ -16,7 +16,7 @@ File = Annotated[
     str | None,
     Argument("[FILE]", "A machine file below the present folder, or a machine of the library."),
 ]
-NoBrowser = Annotated[bool, Option("--no-browser", help="Print the address alone.")]
+NoBrowser = Annotated[bool, Option("--no-browser", help="Print only the address.")]
 Port = Annotated[
     int,
     Option(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
 TaskFile = Annotated[Path | None, Argument("TASK", "Task file of the linkage.")]
-TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="Task file, in place of TASK.")]
+TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="Task file, instead of TASK.")]
 Swing = Annotated[
     str | None, Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.")
 ]
@@ -34,7 +34,9 @@ TimeRatio = Annotated[
         help="Crank angle from outer to inner dead centre over the rest of the revolution.",
     ),
 ]
-Frame = Annotated[str, Option("--frame", metavar="LENGTH", help="Distance of the pivots of a crank-rocker.")]
+Frame = Annotated[
+    str, Option("--frame", metavar="LENGTH", help="Distance between the pivots of a crank-rocker.")
+]
 CouplerMax = Annotated[
     float, Option("--coupler-max", metavar="X", help="Maximum ratio of coupler to rocker of a crank-rocker.")
 ]

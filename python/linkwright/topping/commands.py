@@ -36,7 +36,7 @@ Over = Annotated[
 ]
 Seed = Annotated[
     int | None,
-    Option("--seed", metavar="N", help="Seed of the random generator, in place of that of the field."),
+    Option("--seed", metavar="N", help="Seed of the random generator, instead of that of the field."),
 ]
 Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
 Folder = Annotated[

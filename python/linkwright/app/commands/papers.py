@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Number = Annotated[
     int | None,
-    Argument(metavar="[N]", help="Number of the paper; without it, a list of all."),
+    Argument(metavar="[N]", help="Number of the paper. Default: a list of all."),
 ]
 Folder = Annotated[Path | None, out_option("Write figures as SVG and PNG and a page there.")]
 

@@ -30,7 +30,7 @@ Folder = Annotated[Path | None, out_option("Write results.json, the curves as CS
 Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")]
 Method = Annotated[
     Literal["newton", "baranov"],
-    Option("--method", help="baranov: add the published step method."),
+    Option("--method", help="baranov: also compute by the published step method."),
 ]
 Step = Annotated[str, Option("--step", metavar="ANGLE", help="Step of the crank angle for --method baranov.")]
 

@@ -98,7 +98,7 @@ class _OnShaft(CheckedDescription):
     def _faults(self) -> Iterator[InitErrorDetails]:
         beside, on = getattr(self, "beside", None), getattr(self, "on", "")
         if beside not in (None, on, "gearbox"):
-            remedy = f'it sits on the {on} shaft; change "on" as well to put it on the other'
+            remedy = f'it is on the {on} shaft; to move it to the other, change "on" as well'
             yield fault("beside", found=beside, expected=f'"{on}" or "gearbox"', remedy=remedy)
 
 

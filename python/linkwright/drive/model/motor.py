@@ -237,7 +237,7 @@ class InductionMotor(Motor):
             own = ", ".join(name for name in type(self).model_fields if name in given and name in known)
             expected = f"nothing beside {own}, which replace all its data"
             yield fault(
-                "catalogue", found=self.catalogue, expected=expected, remedy="remove the one or the others"
+                "catalogue", found=self.catalogue, expected=expected, remedy="remove one or the other"
             )
 
     def _missing(self) -> Iterator[InitErrorDetails]:

@@ -131,7 +131,7 @@ class _Rows:
         lines = lines_of(path, _KEY)
         if not lines:
             raise _wrong(
-                path, 1, "an empty file", 'a head such as "type, power_rated [kW], speed_rated [rpm]"'
+                path, 1, "an empty file", 'a header such as "type, power_rated [kW], speed_rated [rpm]"'
             )
         self.heads = _heads(path, *lines[0])
         self.types: dict[str, tuple[int, dict[str, str]]] = {}
@@ -206,7 +206,7 @@ def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
     names = [name for name, _ in heads]
     known = ("type", *_ENTRIES, *_RATIOS, *_WORDS)
     if len(heads) < len(row) or "type" not in names:
-        expected = 'a head such as "type, power_rated [kW], speed_rated [rpm]"'
+        expected = 'a header such as "type, power_rated [kW], speed_rated [rpm]"'
         raise _wrong(path, line, show(",".join(row)), expected)
     for name in names:
         if name not in known:
@@ -225,7 +225,9 @@ def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[st
             continue
         if _WITH_UNIT.fullmatch(cells[name]):
             remedy = (
-                f"the unit stands in the head, [{unit}]" if unit else "give the unit in the head, in brackets"
+                f"the unit belongs in the header, [{unit}]"
+                if unit
+                else "give the unit in the header, in brackets"
             )
             raise _wrong(path, line, show(cells[name]), f"a number in the column {name}", remedy)
         try:

@@ -97,11 +97,11 @@ def columns_of(
     lines = lines_of(path, key)
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) == 1 and all(heads):
-        found, expected = "no rows below the head", "at least one row, its numbers separated by commas"
+        found, expected = "no rows below the header", "at least one row, its numbers separated by commas"
         raise MachineFileError([Problem(key, found, expected, path=str(path), line=lines[0][0])])
     if not lines or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
-        expected = f'a head such as "{_EXAMPLES[kind]}", and a row for each point, separated by commas'
+        expected = f'a header such as "{_EXAMPLES[kind]}", and a row for each point, separated by commas'
         raise MachineFileError(
             [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
         )
@@ -109,7 +109,7 @@ def columns_of(
     twice = next((name for name, n in Counter(names).items() if n > 1), None)
     if twice is not None:
         found, line = show(",".join(lines[0][1])), lines[0][0]
-        remedy = f'"{twice}" stands there twice'
+        remedy = f'"{twice}" occurs twice'
         raise MachineFileError([Problem(key, found, "each column once", remedy, str(path), line)])
     wanted = frozenset(names if numbers is None else numbers)
     for line, row in lines[1:]:
@@ -146,7 +146,7 @@ def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
                 problem = Problem(key, "more rows", ROWS.words, path=str(path), line=reader.line_num)
                 raise MachineFileError([problem])
     except csv.Error:
-        found, expected = "a cell that does not end", f"cells of at most {csv.field_size_limit()} characters"
+        found, expected = "an unterminated cell", f"cells of at most {csv.field_size_limit()} characters"
         remedy = 'close the quotation mark (")'
         raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
     return rows
@@ -188,7 +188,7 @@ def read_columns(
     if missing:
         wanted = ", ".join([*(f"{name} [{kind.unit}]" for name, kind in kinds.items()), *choices])
         found = f"no column {missing[0]} among {show(', '.join(columns))}"
-        remedy = f"begin the file with a head such as: {wanted}"
+        remedy = f"begin the file with a header such as: {wanted}"
         raise MachineFileError([Problem("", found, "a column of each name", remedy, str(place), lines[0])])
     read = {name: _values(columns[name], kind, name, place, lines[1:]) for name, kind in kinds.items()}
     return read | {

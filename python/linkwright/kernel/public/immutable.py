@@ -19,7 +19,7 @@ class Table(dict[K, V]):
 
     def _refuse(self, *_: Any, **__: Any) -> NoReturn:
         """Refuse the change."""
-        raise TypeError("this table is part of a description or a result, which do not change: make a copy")
+        raise TypeError("this table is part of an immutable description or result: make a copy")
 
     __setitem__ = __delitem__ = __ior__ = _refuse
     clear = pop = popitem = setdefault = update = _refuse

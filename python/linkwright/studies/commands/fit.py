@@ -20,7 +20,7 @@ Recorded = Annotated[
     Option(
         "--record",
         metavar="CSV",
-        help="File with a head such as `time [s], speed [rpm]`; without it, that of the study.",
+        help="CSV file with a header such as `time [s], speed [rpm]`. Default: that of the study.",
     ),
 ]
 Vary = Annotated[

@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 
 Evaluations = Annotated[
     int,
-    Option("--evaluations", metavar="N", help="Machines at most for each combination of values.", min=10),
+    Option(
+        "--evaluations",
+        metavar="N",
+        help="Maximum number of machines for each combination of values.",
+        min=10,
+    ),
 ]
 Way = Annotated[
     Literal["both", "global", "gradient"],
@@ -28,7 +33,7 @@ Way = Annotated[
         help="both: CMA-ES, then derivatives; global: CMA-ES; gradient: derivatives from several starts.",
     ),
 ]
-Starts = Annotated[int, Option("--starts", metavar="N", help="Starts of --method gradient.", min=1)]
+Starts = Annotated[int, Option("--starts", metavar="N", help="Number of starts of --method gradient.", min=1)]
 Points = Annotated[
     int, Option("--points", metavar="N", help="Number of machines of the front of two goals.", min=3)
 ]

@@ -31,14 +31,12 @@ if TYPE_CHECKING:
 StudyArgument = Annotated[
     Path, Argument(metavar="FILE", help="A study file, or a machine file with a table `study`.")
 ]
-Folder = Annotated[Path, Argument(metavar="DIR", help="The folder of a sweep.")]
+Folder = Annotated[Path, Argument(metavar="DIR", help="Folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
 Drawn = Annotated[Path | None, out_option("Write figures and results.json there.")]
 Chunks = Annotated[
     str | None,
-    Option(
-        "--chunks", metavar="A:B", help="Compute the files A to B - 1 alone: a share, as one of many jobs."
-    ),
+    Option("--chunks", metavar="A:B", help="Compute only the files A to B - 1, as one of many jobs."),
 ]
 Workers = Annotated[int, Option("--workers", metavar="N", help="Number of processes.", min=1)]
 Cluster = Annotated[

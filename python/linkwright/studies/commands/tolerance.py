@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from linkwright.studies.plan import StudyPlan
     from linkwright.studies.tolerance import Tolerance
 
-RowCount = Annotated[int, Option("--rows", metavar="N", help="Machines drawn at random.", min=2)]
+RowCount = Annotated[int, Option("--rows", metavar="N", help="Number of random machines.", min=2)]
 Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
 Blocks = Annotated[
-    int, Option("--indices", metavar="N", help="Blocks for Sobol indices, such as 1000; 0 for none.", min=0)
+    int,
+    Option(
+        "--indices", metavar="N", help="Number of blocks for Sobol indices, such as 1000; 0 for none.", min=0
+    ),
 ]
 
 Wanted = Annotated[
@@ -26,7 +29,7 @@ Wanted = Annotated[
     Option(
         "--allocate",
         metavar="SHARE",
-        help="Find the cheapest tolerances for this yield, such as 0.99, by the `cost` of each.",
+        help="Find the cheapest tolerances for this yield, such as 0.99, from the `cost` of each.",
     ),
 ]
 Power = Annotated[

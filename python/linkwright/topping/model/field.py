@@ -139,13 +139,13 @@ class MeasuredField(RootField):
             if diameter <= 0:
                 yield fault("root_diameter", i, found=diameter, expected=_POSITIVE)
             elif diameter > _LARGEST:
-                remedy = "without a unit it counts in metres: name the unit in the head, root_diameter [mm]"
+                remedy = "without a unit it counts in metres: give the unit in the header, root_diameter [mm]"
                 expected = f"up to {_LARGEST:g} m"
                 yield fault("root_diameter", i, found=diameter, expected=expected, remedy=remedy)
         for i, (height, diameter) in enumerate(zip(self.cut_height, self.root_diameter, strict=False)):
             if height >= diameter > 0:
                 expected = f"less than root_diameter, {diameter:.6g} m"
-                remedy = "so deep a cut passes below the root"
+                remedy = "such a deep cut passes below the root"
                 yield fault("cut_height", i, found=height, expected=expected, remedy=remedy)
         for i, distance in enumerate((self.spacing or ())[1:], start=1):
             if distance <= 0:

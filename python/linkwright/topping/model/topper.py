@@ -179,7 +179,7 @@ class Topper(CheckedDescription):
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.cut_height >= self.root_diameter:
             expected = f"less than root_diameter, {self.root_diameter:.6g} m"
-            remedy = "so deep a cut passes below the root"
+            remedy = "such a deep cut passes below the root"
             yield fault("cut_height", found=self.cut_height, expected=expected, remedy=remedy)
         is_moved = isinstance(self.motion, MemberKnife)
         if is_moved and self.knife_speed is not None:

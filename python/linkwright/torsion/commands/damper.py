@@ -27,12 +27,16 @@ class Kind(StrEnum):
     rubber = "rubber"
 
 
-On = Annotated[str, Option("--on", metavar="DISC", help="The disc that carries it.")]
-Ring = Annotated[str, Option("--ring-inertia", metavar="J", help='Of its ring, such as "0.4 kg m^2".')]
+On = Annotated[str, Option("--on", metavar="DISC", help="Disc that carries the damper.")]
+Ring = Annotated[
+    str, Option("--ring-inertia", metavar="J", help='Moment of inertia of the ring, such as "0.4 kg m^2".')
+]
 Mode = Annotated[
     int | None,
     Option(
-        "--mode", metavar="N", help="Number of the mode, as f_N in the table. Default: the first that twists."
+        "--mode",
+        metavar="N",
+        help="Number of the mode, as f_N in the table. Default: the first elastic mode.",
     ),
 ]
 Kinds = Annotated[Kind, Option("--kind", help="viscous: fluid; tuned: spring and fluid; rubber: elastomer.")]

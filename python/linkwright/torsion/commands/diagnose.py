@@ -18,10 +18,10 @@ Measured = Annotated[
     Path,
     Argument(
         metavar="CSV",
-        help="Speed over the crank angle, at even steps over whole cycles; head: angle [deg], speed [rpm].",
+        help="Speed over the crank angle, at even steps over whole cycles; header: angle [deg], speed [rpm].",
     ),
 ]
-On = Annotated[str, Option("--on", metavar="DISC", help="The disc that was measured.")]
+On = Annotated[str, Option("--on", metavar="DISC", help="Measured disc.")]
 Noise = Annotated[
     str | None,
     Option(

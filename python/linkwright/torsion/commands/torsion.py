@@ -39,7 +39,8 @@ MeasuredFile = Annotated[
     Option(
         "--measured",
         metavar="FILE.csv",
-        help="Curves measured over the speed, laid over the computed ones: speed [rpm], line [MPa], …",
+        help="Measured curves over the speed, drawn over the computed ones; header: speed [rpm], line "
+        "[MPa], …",
     ),
 ]
 

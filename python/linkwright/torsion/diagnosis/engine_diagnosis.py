@@ -161,8 +161,8 @@ def _unsettled(values: Floats, asked: Floats, n: int) -> str:
     before, after = np.array([values[worst], asked[worst]]) + (0.0 if kind == 1 else 1.0)
     return (
         f"the factors do not converge: {what} of cylinder {cylinder + 1} goes from {before:.4g} to "
-        f"{after:.4g} and back, as the stiffness of couplings follows the mean torque; look at "
-        "[train.couplings] there, or take the coupling as linear"
+        f"{after:.4g} and back, as the stiffness of couplings follows the mean torque; check "
+        "[train.couplings] there, or assume a linear coupling"
     )
 
 

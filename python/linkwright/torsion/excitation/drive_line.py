@@ -78,7 +78,7 @@ def drive_line(machine: Machine) -> Train:
     """
     if machine.drive is None or not machine.drive.twists:
         raise InputError(
-            f"{machine.name} has no [train], and its driveline does not twist: expected [train.discs] and "
+            f"{machine.name} has no [train], and its driveline is rigid: expected [train.discs] and "
             f"[train.shafts], or one of {', '.join(STIFFNESS_KEYS)}"
         )
     return drive_train(machine.drive, mean_inertia(machine))

@@ -208,7 +208,7 @@ def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
             return q
         q[fixed:] += np.linalg.lstsq(stiffness[fixed:, fixed:], left[fixed:], rcond=1e-13)[0]
     raise ConvergenceError(
-        "no twist of the shafts carries the mean torques at the start; start without them: loaded = false",
+        "no twist of the shafts balances the mean torques at the start; start without them: loaded = false",
         method="Newton",
         iterations=_STEPS,
     )

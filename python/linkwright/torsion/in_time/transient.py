@@ -387,9 +387,9 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     if moved.end == "rounded":
         shaft = int(np.argmax(train.stiffness))
         return (
-            f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not known "
-            f"to the accuracy {accuracy:g}: its twist is lost in the rounding of the angles of its ends; "
-            'take method "auto" or "implicit", or ask for less'
+            f"the torque of shaft {train.shafts[shaft]}, {train.stiffness[shaft]:.4g} N m/rad, is not "
+            f"known to the accuracy {accuracy:g}: its twist is lost in the rounding of the angles at its "
+            'ends; take method "auto" or "implicit", or ask for less'
         )
     when = f"the integration stopped at {moved.time:.6g} s after {moved.steps} steps"
     if moved.end == "not finite":
@@ -397,9 +397,9 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
     stiff = f"{disc} vibrates on its shafts at up to {frequency:.4g} Hz"
     if moved.method == "explicit":
-        remedy = 'take method "implicit", or take it together with its neighbour as one disc'
+        remedy = 'take method "implicit", or combine it with its neighbour into one disc'
     else:
-        remedy = "ask for less accuracy, or look for a torque that jumps back and forth"
+        remedy = "ask for less accuracy, or check for a torque that jumps back and forth"
     many = moved.end == "too many steps"
     why = "that is the maximum" if many else f"no step keeps the accuracy {accuracy:g}"
     return f"{when}: {why}, and {stiff}; {remedy}"

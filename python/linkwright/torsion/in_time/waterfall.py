@@ -138,7 +138,7 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
     advance = np.diff(phi)
     if not (np.diff(t) > 0).all() or not (advance > 0).all():
         raise InputError(
-            "a waterfall needs a disc that turns forward all the time; cut the motion where it does"
+            "a waterfall needs a disc that always rotates forward; select such a part of the motion"
         )
     if phi[-1] - phi[0] < 2 * np.pi * turns:
         done = (phi[-1] - phi[0]) / (2 * np.pi)

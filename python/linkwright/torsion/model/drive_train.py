@@ -38,13 +38,13 @@ STIFFNESS_KEYS = ("drive.motor_shaft.stiffness", "drive.gearbox.stiffness", "dri
 
 # What a disc without inertia lacks.
 _LACKS = {
-    MOTOR: ("drive.motor.inertia", "the rotor at the end of a shaft that twists"),
-    GEARBOX: ("drive.gearbox.inertia", "the gears at the end of a shaft that twists"),
+    MOTOR: ("drive.motor.inertia", "the rotor at the end of a flexible shaft"),
+    GEARBOX: ("drive.gearbox.inertia", "the gears at the end of a flexible shaft"),
     WHEEL: ("drive.gearbox.wheel_inertia", "the wheel between elastic gears and an elastic crankshaft"),
-    CRANK: ("bodies", "what the crankshaft moves"),
+    CRANK: ("bodies", "the mechanism on the crankshaft"),
 }
 
-_REMEDY = "give it, however small, or leave out the stiffness of one of the two that meet there"
+_REMEDY = "give it, however small, or omit the stiffness of one of the two adjacent parts"
 
 
 def drive_train(drive: Drive, inertia: float) -> Train:

@@ -67,7 +67,7 @@ from linkwright.torsion.model.train_torques import (
 )
 from linkwright.torsion.model.train_transient import TrainTransient
 
-_BELOW = "a ratio from 0 to below 1, as a mode that vibrates has"
+_BELOW = "a ratio from 0 to below 1, for an oscillatory mode"
 
 
 class ModalDamping(CheckedDescription):

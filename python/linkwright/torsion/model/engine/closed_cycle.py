@@ -268,7 +268,7 @@ def _split(gas: ClosedGas, p: Floats, gamma: Floats, C: Floats | None) -> Split:
     course, total = gas.mesh.integrals(decay), (decay @ w)[:, None]
     if not (np.abs(course) <= _FASTEST).all():
         raise FindingError(
-            "the walls change the pressure of the gas by a factor of more than e^300 within a cycle; check "
+            "the walls change the gas pressure by a factor of more than e^300 within a cycle; check "
             "speed, bore, charge pressure and the factor of [train.engine.gas.walls]"
         )
     E, E_end = np.exp(course), np.exp(total)

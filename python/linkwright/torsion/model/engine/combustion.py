@@ -134,9 +134,9 @@ class Combustion(Gas):
         speeds = np.asarray(speeds, dtype=float)
         if isinstance(self.walls, WallHeat) and not (speeds > 0).all():
             raise InputError(
-                f"speeds: found {speeds.min():g} rad/s, expected speeds above 0: at rest a cycle never ends, "
-                "and [train.engine.gas.walls] takes all heat from the gas; give a lowest speed, or walls of "
-                "a share"
+                f"speeds: found {speeds.min():g} rad/s, expected speeds above 0: at rest the cycle never "
+                "ends, and [train.engine.gas.walls] removes all heat from the gas; give a lowest speed, "
+                "or walls of a share"
             )
         points, share = self._points(speeds)
         cycle, wanted = self.operating_points(cylinder, points)

@@ -82,7 +82,7 @@ def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Ite
         )
     elif top < _ATMOSPHERE:
         found = f"a maximum pressure of {top:.6g} Pa, below that of the air"
-        remedy = 'without a unit a number is in pascals: write "pressure [bar]" in the head of the file'
+        remedy = 'without a unit a number is in pascals: write "pressure [bar]" in the header of the file'
         yield fault("pressure", found=found, expected="absolute pressures of a cylinder", remedy=remedy)
     elif top > _HIGHEST:
         found = f"a maximum pressure of {top:.6g} Pa"
@@ -141,7 +141,7 @@ def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDe
         "angle",
         found=f"angles from {a:.6g} to {b:.6g} deg, {how} the cycle",
         expected=f"one working cycle, {span:.6g} deg",
-        remedy='check the strokes of the engine, and the unit: "angle [deg]" in the head of the file',
+        remedy='check the strokes of the engine, and the unit: "angle [deg]" in the header of the file',
     )
 
 

@@ -84,8 +84,8 @@ def two_point_centre(length_big_end: float, length_small_end: float, distance: f
     if excess == 0.0:
         raise InputError(
             f"length_small_end: found {length_small_end:.6g} m, which with the other pendulum of "
-            f"{length_big_end:.6g} m makes twice the distance of the edges: any centre of mass would do; "
-            "find it by weighing"
+            f"{length_big_end:.6g} m is twice the distance of the edges: the centre of mass is "
+            "undetermined; find it by weighing"
         )
     return distance * (length_big_end - distance) / excess
 

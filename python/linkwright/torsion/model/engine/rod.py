@@ -129,13 +129,16 @@ class Rod(CheckedDescription):
             found = f"pendulums of {big:.6g} m in the big end and {small:.6g} m in the small end"
             expected = f"both longer or both shorter than the {apart:.6g} m between the edges"
             remedy = (
-                "no centre of mass between the edges fits: count again, or weigh the rod and give one swing"
+                "no centre of mass between the edges is consistent: count again, or weigh the rod and "
+                "give one swing"
             )
             yield fault("two_point_swing", found=found, expected=expected, remedy=remedy)
         elif abs(big + small - 2 * apart) < _TELLING * apart:
             found = f"pendulums of {big:.6g} m in the big end and {small:.6g} m in the small end"
             expected = f"pendulums that differ from the {apart:.6g} m between the edges"
-            remedy = "so close to it they do not tell the centre of mass: weigh the rod and give one swing"
+            remedy = (
+                "this close to it they do not determine the centre of mass: weigh the rod and give one swing"
+            )
             yield fault("two_point_swing", found=found, expected=expected, remedy=remedy)
 
     def _body_faults(self) -> Iterator[InitErrorDetails]:
@@ -154,7 +157,7 @@ class Rod(CheckedDescription):
         elif m * (c - low) * (high - c) < J:
             found = f"{J:.6g} kg m^2 about the centre of mass"
             expected = f"up to {m * (c - low) * (high - c):.6g} kg m^2"
-            remedy = "more would need mass far beyond the heads"
+            remedy = "more would require mass far beyond the ends"
             yield fault(self._way, found=found, expected=expected, remedy=remedy)
 
     def _too_small(self, J: float) -> InitErrorDetails:

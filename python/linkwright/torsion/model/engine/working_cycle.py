@@ -244,6 +244,6 @@ def _check_work(work: Floats) -> None:
     """Refuse heat that does no work, or raises no pressure, so that no heat gives what is wanted."""
     if not (work > 0).all():
         raise FindingError(
-            "the heat released in a cylinder does no work: it comes so early, so late or so suddenly that no "
-            "load goes with it; check start, duration and form factor of [train.engine.gas] releases"
+            "the heat released in a cylinder does no work: it is so early, so late or so sudden that no "
+            "load corresponds to it; check start, duration and form factor of [train.engine.gas] releases"
         )
