@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,24 @@ def test_wrong_entries_are_refused(
     machine[table][key] = value
     with pytest.raises(jsonschema.ValidationError):
         validator.validate(machine)
+
+
+# A description that goes on from its key: "offset: Of the guide …".
+ELLIPTIC = re.compile(
+    r"(?:Of|From|To|At|On|By|Between|Above|Along|Whether|Its|Their|How|What|When|Where|Which)\b"
+)
+
+
+def test_descriptions_stand_by_themselves() -> None:
+    """The description of an entry begins with the noun of what it gives, as a handbook prints it."""
+    parts = {"Machine": schema(), **schema()["$defs"]}
+    texts = {
+        f"{name}.{key}": each.get("description", "")
+        for name, node in parts.items()
+        for key, each in node.get("properties", {}).items()
+    }
+    assert len(texts) > 500
+    assert {place: text for place, text in texts.items() if ELLIPTIC.match(text)} == {}
 
 
 def test_every_key_is_described() -> None:

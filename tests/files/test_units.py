@@ -26,6 +26,15 @@ SPELLINGS = [
 ]
 
 
+def test_quantities_have_their_plural() -> None:
+    """Lists are of velocities, masses per length and moments of inertia."""
+    plurals = {kind.noun: kind.plural for kind in units.KINDS}
+    assert plurals["velocity"] == "velocities"
+    assert plurals["mass per length"] == "masses per length"
+    assert plurals["moment of inertia"] == "moments of inertia"
+    assert plurals["angular speed"] == "angular speeds"
+
+
 @pytest.mark.parametrize(("text", "factor", "dimension"), SPELLINGS, ids=[each[0] for each in SPELLINGS])
 def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: units.Dimension) -> None:
     parsed = REGISTRY.parse_units(text.replace("%", "percent"))

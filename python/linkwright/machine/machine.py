@@ -92,7 +92,7 @@ class Machine(WholeDescription):
     )
     bodies: dict[str, Body] = Field(default_factory=dict, description="Masses by name.")
     loads: dict[Name, AnyLoad] = Field(default_factory=dict, description="Forces and torques by name.")
-    run_up: RunUp = Field(default_factory=RunUp, description="How the run-up starts and ends.")
+    run_up: RunUp = Field(default_factory=RunUp, description="Start and end of the run-up.")
     units: ShownUnits | None = Field(None, description="Units of tables, figures and CSV.")
     tolerances: dict[str, str] = Field(
         default_factory=dict,

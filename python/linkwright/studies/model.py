@@ -267,4 +267,4 @@ class StudyFile(WholeDescription):
         default_factory=dict, description="Goals, by the name of the response."
     )
     sweep: Sweep = Field(default_factory=Sweep, description="Rows of a sweep.")
-    fit: FitOptions | None = Field(None, description="A measured record that the variables are fitted to.")
+    fit: FitOptions | None = Field(None, description="Measured record for fitting the variables.")

@@ -115,5 +115,5 @@ def _not_monotone(plan: StudyPlan, column: Floats, own: Indices, solved: Indices
     leads = np.flatnonzero((beyond.reshape(2, -1, 3) > room).any(axis=(0, 2)))
     names = [plan.axes[i].name for i in leads]
     return (
-        f"it is not monotone in {', '.join(names)}" if names else ("machines inside the tolerances exceed it")
+        f"it is not monotone in {', '.join(names)}" if names else "machines inside the tolerances exceed it"
     )

@@ -32,7 +32,7 @@ class RootField(CheckedDescription):
         None, description="Density of the roots, for the lost mass."
     )
     cut_height_shift: Length = Field(
-        0.0, description="Added to each cut height, as if the knife were set lower."
+        0.0, description="Shift added to each cut height, as if the knife were set lower."
     )
 
 

@@ -126,7 +126,7 @@ class BellScatter(Scatter):
     """A bell curve, cut off at its ends."""
 
     mean: Length = Field(description="Mean of the whole distribution.")
-    deviation: Deviation = Field(description="Its standard deviation; 0 for a constant.")
+    deviation: Deviation = Field(description="Standard deviation; 0 for a constant.")
     least: Length | None = Field(None, description="Lower truncation.")
     greatest: Length | None = Field(None, description="Upper truncation.")
 
