@@ -110,7 +110,7 @@ def search_cams(
     law: ArrayLike | None = None,
     per_turn: int = PER_TURN,
 ) -> Cams:
-    """Look at many variants of a cam.
+    """Evaluate many variants of a cam.
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ class MotionExtreme(NamedTuple):
 
 @public
 def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...]:
-    """What happens during a motion in time: start, kinks of the loads, jumps, standstill, and how it ends.
+    """Events of a motion in time: start, kinks of the loads, jumps, standstill, end.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def motion_events(machine: Machine, motion: Transient) -> tuple[MotionEvent, ...
 
 @public
 def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
-    """Extremes of speed and acceleration of the crank, as exact as the motion.
+    """Extremes of speed and acceleration of the crank, as accurate as the motion.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ class RunUp(Result):
 
 @public
 def run_up(machine: Machine, *, steady: SteadyState | None = None) -> RunUp:
-    """Run the machine up from its start angle and speed (``[run_up]`` of the file).
+    """Run-up from the start angle and speed (``[run_up]`` of the file).
 
     Parameters
     ----------
@@ -267,7 +267,7 @@ class RunDown(Result):
 
 @public
 def run_down(machine: Machine, *, steady: SteadyState | None = None) -> RunDown:
-    """Let the machine run down from steady motion, motor off, brake applied if there is one.
+    """Run-down from steady motion: motor off, brake applied if there is one.
 
     Parameters
     ----------

@@ -302,7 +302,7 @@ def partial_balance(
     radius: float | None = None,
     n: int = 360,
 ) -> Balance:
-    """A counterweight on a crank against what turns and a share of what a slider moves back and forth.
+    """Counterweight on a crank for the rotating mass and a share of the reciprocating mass.
 
     Parameters
     ----------

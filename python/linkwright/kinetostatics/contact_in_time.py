@@ -86,7 +86,7 @@ class ContactLoss(NamedTuple):
 
 @public
 def contact_losses(machine: Machine, motion: Transient) -> tuple[ContactLoss, ...]:
-    """Contacts that a motion loses, by the forces at 17 places of each step of the solver.
+    """Losses of contact in a motion, from the forces at 17 stations of each step of the solver.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ class Extent(Record):
 
 @public
 def envelope(result: Forces) -> list[Extent]:
-    """How large every force and torque becomes.
+    """Peak, mean and root mean square of every force and torque.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ class Harmonics(Record):
 
 @public
 def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmonics:
-    """Fourier's series of a quantity over one revolution.
+    """Fourier series of a quantity over one revolution.
 
     Parameters
     ----------

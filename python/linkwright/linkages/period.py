@@ -28,7 +28,7 @@ _ROUNDING = 1e-9
 
 @public
 def period_turns(machine: Machine) -> int | None:
-    """Revolutions of the crank after which every point and link is again where it was.
+    """Revolutions of the crank after which the motion of the mechanism repeats.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ ENDS = ("outer", "inner", "top", "bottom")
 
 @public
 def zero_angle(machine: Machine, where: str) -> Zero:
-    """The crank angle of a dead centre, to count others from it.
+    """Crank angle of a dead centre, as zero for other angles.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ from linkwright.machine.machine import Machine
 
 @public
 def addresses(machine: Machine) -> dict[str, float]:
-    """All numbers of a machine.
+    """Addresses of all numbers of a machine.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def _kind_of(model: type[Description], key: str) -> Kind | None:
 
 @public
 def replace(machine: Machine, entries: Mapping[str, Any]) -> Machine:
-    """Copy of a machine with some entries exchanged, each checked by itself and not against the others.
+    """Copy of a machine with some entries replaced, each checked separately.
 
     Parameters
     ----------

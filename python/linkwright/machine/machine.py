@@ -59,7 +59,7 @@ class RunUp(Description):
 
 
 class Machine(WholeDescription):
-    """A machine, complete: everything that an analysis needs to know, in SI.
+    """Complete description of a machine, in SI.
 
     Raises
     ------

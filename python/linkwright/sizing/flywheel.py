@@ -108,7 +108,7 @@ class FlywheelChoice(Result):
 
 @public
 def choose_flywheel(machine: Machine, unevenness: float, *, keep: bool = False) -> FlywheelChoice:
-    """Find the flywheel on the crankshaft that gives a wanted speed fluctuation.
+    """Size the flywheel on the crankshaft for a required speed fluctuation.
 
     Parameters
     ----------

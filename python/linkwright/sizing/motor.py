@@ -210,7 +210,7 @@ def choose_motor(
     catalogue: Sequence[CatalogueMotor] | None = None,
     track: Track = iter,
 ) -> MotorChoice:
-    """Choose the smallest motor of the catalogue that will do.
+    """Choose the smallest motor of the catalogue that passes the checks.
 
     Parameters
     ----------

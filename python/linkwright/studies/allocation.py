@@ -83,7 +83,7 @@ class Allocation(Result):
 def allocate(
     plan: StudyPlan, wanted: float, *, power: float = 1.0, rows: int = 10_000, seed: int = 0
 ) -> Allocation:
-    """Find the cheapest tolerances with which a share of all machines keeps all limits.
+    """Find the cheapest tolerances for a required yield.
 
     Parameters
     ----------

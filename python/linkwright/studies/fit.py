@@ -108,7 +108,7 @@ class Fit(Result):
 
 @public
 def fit(plan: StudyPlan, record: MeasuredRecord, *, level: float = 0.95) -> Fit:
-    """Find the numbers of a machine that explain a measured record best.
+    """Fit parameters of a machine to a measured record.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ def front(
     starts: int = 8,
     log: str | os.PathLike[str] | None = None,
 ) -> Front:
-    """Seek the machines of which none is better in both of two goals.
+    """Pareto front of two goals.
 
     Parameters
     ----------

@@ -125,7 +125,7 @@ def sweep_field(
     level : float
         Confidence level of the intervals.
     watch : callable, optional
-        Told how much is done, from 0 to 1.
+        Progress callback, 0 to 1.
 
     Returns
     -------

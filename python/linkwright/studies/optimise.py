@@ -98,7 +98,7 @@ def optimise(
     watch: Callable[..., None] | None = None,
     log: str | os.PathLike[str] | None = None,
 ) -> Optimum:
-    """Seek the machine that is best by the goal of a study and keeps its constraints.
+    """Find the best machine for the goal of a study within its constraints.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ def read_study(
     *,
     allow_outside: bool = False,
 ) -> StudyPlan:
-    """Read a study and its machine, and check one against the other.
+    """Read a study and its machine, and check them against each other.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def read_study(
 
 @public
 def new_study(machine: Machine, tables: Mapping[str, Any]) -> StudyPlan:
-    """Make a study of a machine from tables, as they stand in a study file.
+    """Make a study of a machine from the tables of a study file.
 
     Parameters
     ----------

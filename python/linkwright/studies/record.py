@@ -35,7 +35,7 @@ UNITS = {
 @public_type
 @dataclass(frozen=True)
 class MeasuredRecord:
-    """What was measured.
+    """A measured record.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class MeasuredRecord:
 
 @public
 def read_record(path: str | os.PathLike[str], machine: Machine | None = None) -> MeasuredRecord:
-    """Read a measured record from a file of comma-separated values.
+    """Read a measured record from a CSV file.
 
     Parameters
     ----------

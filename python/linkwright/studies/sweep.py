@@ -93,7 +93,7 @@ def sweep(
     cluster: str = "",
     watch: Callable[..., None] | None = None,
 ) -> Sweep:
-    """Compute the rows of a study that a folder does not have yet.
+    """Compute the missing rows of a study into a folder.
 
     Parameters
     ----------

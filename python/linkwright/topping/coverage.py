@@ -140,7 +140,7 @@ def _stations(edge: Edge, fine: int, diameter: float, offset: float) -> int:
     return max(fine, aslant)
 
 
-# Told how much is done, from 0 to 1.
+# Progress callback, 0 to 1.
 Watch = Callable[[float], None]
 
 # Heads in a portion: some milliseconds, or a second for an edge that runs backwards.

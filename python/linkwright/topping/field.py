@@ -194,7 +194,7 @@ def topper_field(
     fine : int
         Stations per revolution of the law.
     watch : callable, optional
-        Told how much is done, from 0 to 1.
+        Progress callback, 0 to 1.
 
     Returns
     -------

@@ -131,7 +131,7 @@ class LengthVerdict(Result):
 def length_verdict(
     claim: Claim, edge_angle: float, diameter: float, offset: float, stroke: Stroke | None = None
 ) -> LengthVerdict:
-    """For which heads a claim holds.
+    """Heads for which a published length holds.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@
 | `figures/` | Figures of trains |
 | `gradient/` | How frequencies, shapes and torques follow the numbers of the file |
 | `in_time/` | Manoeuvres of trains, followed in time |
-| `limits/` | Whether a train bears its vibration |
+| `limits/` | Check of a train against its limits |
 | `model/` | Trains in a machine file: discs, shafts, gears, couplings, dampers, engines, manoeuvres |
 | `modes/` | Free vibration: frequencies, mode shapes, damping, the Campbell diagram, equivalent schemes |
 | `page` | The page of a study of torsional vibration, from the template of all reports |

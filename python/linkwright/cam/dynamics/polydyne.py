@@ -51,7 +51,7 @@ class Polydyne(Result):
 
 @public
 def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwell") -> Polydyne:
-    """Lift for a wanted motion of the follower's mass.
+    """Lift for a required motion of the follower mass.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""What is left of a rise: how the follower vibrates during it, and after it in the dwell.
+r"""Residual vibration after a rise: motion of the follower during the rise and in the dwell after it.
 
 Of a rise with total lift h in the time T, the answer depends on τ = T/T_n alone, rise time over natural
 period. With u = t/T, ν = 2πτ and the pole μ of all damping, the free vibration after the rise has the

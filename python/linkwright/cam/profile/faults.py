@@ -47,7 +47,7 @@ _SHARP = 1e-9
 
 @public
 def cam_faults(profile: CamProfile) -> tuple[str, ...]:
-    """What makes the cam impossible, in sentences.
+    """Faults of a cam that cannot be manufactured or driven, in sentences.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def cam_faults(profile: CamProfile) -> tuple[str, ...]:
 
 @public
 def cam_cautions(profile: CamProfile) -> tuple[str, ...]:
-    """What the designer should know, in sentences.
+    """Warnings, in sentences.
 
     Parameters
     ----------

@@ -188,7 +188,7 @@ class LeastSizes(Result):
 
 @public
 def least_sizes(profile: CamProfile) -> LeastSizes:
-    """The smallest sizes of a cam.
+    """Minimum dimensions of a cam.
 
     Parameters
     ----------

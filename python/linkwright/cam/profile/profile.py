@@ -294,7 +294,7 @@ def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
 
 @public
 def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -> CamProfile:
-    """Look at a cam over one revolution.
+    """Profile of a cam over one revolution.
 
     Parameters
     ----------

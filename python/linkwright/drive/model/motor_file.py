@@ -92,7 +92,7 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
 
 @public
 def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
-    """Motors of one's own, to size with.
+    """Read motors from a CSV file, for sizing.
 
     Parameters
     ----------

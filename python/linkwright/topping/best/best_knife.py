@@ -170,7 +170,7 @@ def best_knife(
     seed : int, optional
         Seed of the random generator, in place of that of the field.
     watch : callable, optional
-        Told how much is done, from 0 to 1.
+        Progress callback, 0 to 1.
 
     Returns
     -------

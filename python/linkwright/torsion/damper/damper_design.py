@@ -219,7 +219,7 @@ def design_damper(
     kind: Kind = "viscous",
     loss_factor: float | None = None,
 ) -> DamperDesign:
-    """Find the damping, and the stiffness, with which a ring damps a mode best.
+    """Optimum damping and stiffness of a torsional damper for a mode.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ _SAME = 1e-3
 def engine_diagnosis(
     machine: Machine, measured: MeasuredSpeed, speed: float, *, rigid: bool = False
 ) -> Diagnosis:
-    """Which cylinder of an engine is weak, from the speed measured at a disc.
+    """Identify weak cylinders of an engine from the measured speed of a disc.
 
     Parameters
     ----------

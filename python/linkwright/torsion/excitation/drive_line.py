@@ -135,7 +135,7 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
 
 @public
 def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
-    r"""How much motor and mechanism damp where their torques follow the speed.
+    r"""Damping of a driveline by the speed-dependent torques of motor and loads.
 
     Parameters
     ----------

@@ -213,7 +213,7 @@ class EngineData(Result):
 
 @public
 def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
-    """What an engine is in a train.
+    """Data of an engine in a train.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Whether a train bears its vibration.
+"""Check of a train against its limits.
 
 | module | |
 | --- | --- |

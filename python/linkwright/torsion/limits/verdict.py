@@ -1,4 +1,4 @@
-"""Whether a train bears its vibration: each limit with what was found, where, and what follows.
+"""Check of a train against its limits: each limit with the value found, its speed, and the consequence.
 
 A state is `ok`, `bar` (speeds are to be barred, and may be passed quickly), or `exceeds`. Speeds may be
 barred for vibratory stresses of shafts; all else that is above its limit exceeds it, with the speeds at
@@ -124,7 +124,7 @@ class Verdict(Result):
 
 
 def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
-    """Whether a train bears its vibration.
+    """Check of a train against its limits.
 
     Empty where nothing is limited and no teeth mesh. Looked at are the speeds of the run and all resonances
     between them.

@@ -212,7 +212,7 @@ def measured_tables(overlays: Sequence[Overlay]) -> Iterator[Table]:
 
 
 def words(one: Overlay) -> str:
-    """What was measured."""
+    """A measured record."""
     order = "" if one.order is None else f", order {one.order:.4g}"
     return f"{one.what} of {one.part}{order}"
 
