@@ -245,7 +245,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         pumping_unit=unit,
         rotator=rotator,
         turning_moment=diagram,
-        linkage=moved if moved is not None and moved.elements else None,
+        linkage=moved if moved is not None and _has_outputs(machine, moved) else None,
         accuracy=accuracy,
     )
     result = _with_cams(result, findings)
@@ -351,6 +351,13 @@ def _turned(machine: Machine, findings: Findings, accuracy: float, step: float |
     # Angles without an answer for forces are no fault of the motion: they are said as warnings.
     borne = findings.beside_of(_forces, machine, steady) if steady else None
     return Study(**vars(driven), forces=borne)
+
+
+def _has_outputs(machine: Machine, moved: Linkage) -> bool:
+    """Whether anything moves that does not turn with the crankshaft: dyads, or a driver such as a cam's."""
+    own = machine.linkage
+    laws = any(crank.follows() is not None or crank.law is not None for crank in own.cranks.values())
+    return bool(moved.elements or own.linear_drivers or laws)
 
 
 def _is_motion_alone(machine: Machine) -> bool:

@@ -290,7 +290,7 @@ class _Scalars:
         for phi, side in places[1:]:
             if self._differ(first, sign * curve.tangent(phi, side), size):
                 both = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (places[0][0], phi))
-                return first, f"it is reached at cam angles of {both}"
+                return first, f"it is reached at cam angles θ = {both}"
         return first, ""
 
     def _compare(self, name: str, extremes: Sequence[Any], what: str) -> None:

@@ -112,7 +112,7 @@ class StemGuide:
         if (overhang < 0).any():
             k = int(np.argmin(overhang))
             raise FindingError(
-                f"the lift of {course.lift[k]:.6g} m at {np.degrees(course.cam_angle[k]):.4g}° draws the end "
+                f"the lift of {course.lift[k]:.6g} m at cam angle θ = {np.degrees(course.cam_angle[k]):.4g}° draws the end "
                 f"of the follower into its guide, {self.overhang:.6g} m away; {-overhang[k]:.6g} m more "
                 "overhang make it possible"
             )

@@ -57,7 +57,7 @@ class LiftOff(Result):
             "minimum speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."
         ),
     ]
-    cam_angle: Annotated[float, Label("cam angle where it leaves first", "φ", "rad")]
+    cam_angle: Annotated[float, Label("cam angle where it leaves first", "θ", "rad")]
     lift_d2: Annotated[float, Label("second derivative of the lift there", "s″", "m/rad²")]
     force_spring: Annotated[float, Label("force of spring and load there", "", "N", "ks + F₀ + F_load.")]
 
@@ -93,7 +93,7 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     low = held.extremes()[0]
     if low.value <= 0:
         raise FindingError(
-            f"at rest the follower is not held on the cam at {np.degrees(low.at):.4g}°: spring and load "
+            f"at rest the follower is not held on the cam at cam angle θ = {np.degrees(low.at):.4g}°: spring and load "
             f"press with {low.value:.4g} N; {-low.value:.4g} N more preload is the minimum that can hold it"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
@@ -106,7 +106,7 @@ def _no_drop(lift: MotionLaw, consequence: str) -> None:
     if (drops < 0).any():
         k = int(np.argmin(drops))
         raise FindingError(
-            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at {np.degrees(lift.breaks[k]):.4g}°: "
+            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at cam angle θ = {np.degrees(lift.breaks[k]):.4g}°: "
             f"{consequence}; choose a law without jumps of the velocity"
         )
 
