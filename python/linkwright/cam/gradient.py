@@ -2,7 +2,7 @@ r"""Derivatives of what is known of a cam by the numbers of its description: siz
 
 The law is worked out a second time with tangents, and with it the contact where a quantity is largest:
 
-.. math:: \frac{\mathrm d}{\mathrm dp} \max_\varphi f = \left.\frac{\partial f}{\partial p}\right|_{\varphi^*}
+.. math:: \frac{\mathrm d}{\mathrm dp} \max_\theta f = \left.\frac{\partial f}{\partial p}\right|_{\theta^*}
 
 at a fixed angle inside a piece, along the joint where the extreme sits on one (envelope theorem). Where two
 extremes tie and follow an entry differently, there is a derivative on either side only.

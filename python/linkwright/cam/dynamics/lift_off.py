@@ -2,7 +2,7 @@ r"""At which speed a spring-closed follower leaves its cam, and which preload ho
 
 Without friction the follower presses along its way with
 
-.. math:: F(\varphi, \omega) = m s''\omega^2 + c s'\omega + ks + F_0 + F_\mathrm{load}
+.. math:: F(\theta, \omega) = m s''\omega^2 + c s'\omega + ks + F_0 + F_\mathrm{load}
 
 It first leaves the cam at the speed at which the minimum F over the revolution becomes zero; without damper,
 at
