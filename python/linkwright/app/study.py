@@ -105,6 +105,7 @@ class Study(DriveStudy):
     accuracy: float = field(default=1e-10, repr=False)
 
     @cached_property
+    @public
     def motion(self) -> CycleMotion | None:
         """Motion of every point, link and slide over the cycle; computed when it is first asked for."""
         if self.linkage is None:
