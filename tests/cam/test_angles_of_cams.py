@@ -97,7 +97,7 @@ def test_an_offset_moves_the_start_of_a_follower() -> None:
 
 @pytest.mark.parametrize("words", FOLLOWERS.values(), ids=FOLLOWERS)
 def test_followers_have_rows_figures_and_columns(words: str) -> None:
-    """The report has a follower in *Motion over the cycle* and in a figure, `plot` and `motion` its curves."""
+    """The report has a follower in *Motion over the cycle* and a figure, `plot` and `motion` its curves."""
     results = lw.study(cam(words))
     rows = {table.name: table.rows for table in tables(results)}["motion"]
     swings = "oscillating" in words
@@ -152,5 +152,7 @@ def test_angles_of_the_programme_are_marked() -> None:
 def test_a_curve_of_a_cam_is_drawn_over_its_own_angle() -> None:
     """`plot cam.lift` has the cam angle θ below its axis, `plot cam_force.force` the crank angle φ."""
     known = curves_of(lw.study(cam(FOLLOWERS["knife edge"])))
-    labels = {name: curves_figure([known[name]]).axes[-1].get_xlabel() for name in ("cam.lift", "cam_force.force")}
+    labels = {
+        name: curves_figure([known[name]]).axes[-1].get_xlabel() for name in ("cam.lift", "cam_force.force")
+    }
     assert labels == {"cam.lift": "cam angle θ [°]", "cam_force.force": "crank angle φ [°]"}

@@ -115,7 +115,9 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
             mark = declared(type(result))[name][1] if is_declared else None
             word = mark.word if isinstance(mark, Label) else ""
             x = along, units[along], curves[along]
-            yield Curve(f"{analysis}.{name}", curve, units[name], *x, scale, word, _with_symbol(result, along))
+            yield Curve(
+                f"{analysis}.{name}", curve, units[name], *x, scale, word, _with_symbol(result, along)
+            )
 
 
 def _with_symbol(result: Result, name: str) -> str:

@@ -192,7 +192,7 @@ class ShapeError(InputError):
 
 
 class FrozenError(InputError, FrozenInstanceError):
-    """An attribute of a description or a result was to be set; the message says how to make a changed copy."""
+    """An attribute of a description or result was to be set; the message says how to make a changed copy."""
 
 
 class CoreError(InputError):

@@ -252,7 +252,9 @@ class Linkage(Result):
     def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
         """Travel, time ratio, ratio of speeds and transmission angle of each element."""
         for name, element in zip(self.names, self.elements, strict=True):
-            travel = (element.swing, "swing", "rad") if element.stroke is None else (element.stroke, "stroke", "m")
+            travel = (
+                (element.swing, "swing", "rad") if element.stroke is None else (element.stroke, "stroke", "m")
+            )
             for value, word, unit in (
                 travel,
                 (element.turns, "revolutions in a period", ""),

@@ -72,7 +72,7 @@ class Kinematics(Result):
     slides: Annotated[Mapping[str, SlideMotion], About("Motion of each slide.")]
 
     def curves(self) -> dict[str, np.ndarray]:
-        """The angles and all columns by name: ``K.x``, ``K.x.d1``, ``R.rocker.angle``, ``ram.place.d2``, …."""
+        """The angles and all columns: ``K.x``, ``K.x.d1``, ``R.rocker.angle``, ``ram.place.d2``, …."""
         curves = {"angles": self.angles}
         for name, point in self.points.items():
             for k, axis in enumerate("xy"):

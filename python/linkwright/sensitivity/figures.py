@@ -33,7 +33,9 @@ def influence_figure(gradient: Gradient, *responses: str) -> Figure:
 def _shown(gradient: Gradient, response: str) -> list[int]:
     """Places of the variables that have a bar, what matters most last."""
     row = gradient.responses.index(response)
-    return [at for at in gradient.ranked(response) if np.isfinite(gradient.elasticities[row, at])][:ROWS][::-1]
+    return [at for at in gradient.ranked(response) if np.isfinite(gradient.elasticities[row, at])][:ROWS][
+        ::-1
+    ]
 
 
 def _bars(axes: Axes, gradient: Gradient, row: int, shown: list[int]) -> None:

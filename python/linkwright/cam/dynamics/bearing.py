@@ -112,8 +112,9 @@ class StemGuide:
         if (overhang < 0).any():
             k = int(np.argmin(overhang))
             raise FindingError(
-                f"the lift of {course.lift[k]:.6g} m at cam angle θ = {np.degrees(course.cam_angle[k]):.4g}° draws the end "
-                f"of the follower into its guide, {self.overhang:.6g} m away; {-overhang[k]:.6g} m more "
+                f"the lift of {course.lift[k]:.6g} m at cam angle θ = "
+                f"{np.degrees(course.cam_angle[k]):.4g}° draws the end of the follower into its guide, "
+                f"{self.overhang:.6g} m away; {-overhang[k]:.6g} m more "
                 "overhang make it possible"
             )
         lever = overhang - 0.5 * self.coefficient * push.moving * self.diameter

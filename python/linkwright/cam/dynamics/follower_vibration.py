@@ -249,8 +249,9 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     ]
     if low.value <= 0:
         sentences.append(
-            f"the train would have to pull with {-low.value:.4g} N at cam angle θ = {np.degrees(low.at):.4g}°: the "
-            f"follower leaves the cam there; {-low.value:.4g} N more preload would hold it"
+            f"the train would have to pull with {-low.value:.4g} N at cam angle θ = "
+            f"{np.degrees(low.at):.4g}°: the follower leaves the cam there; "
+            f"{-low.value:.4g} N more preload would hold it"
         )
     return tuple(sentences)
 

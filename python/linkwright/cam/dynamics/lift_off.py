@@ -93,8 +93,9 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     low = held.extremes()[0]
     if low.value <= 0:
         raise FindingError(
-            f"at rest the follower is not held on the cam at cam angle θ = {np.degrees(low.at):.4g}°: spring and load "
-            f"press with {low.value:.4g} N; {-low.value:.4g} N more preload is the minimum that can hold it"
+            f"at rest the follower is not held on the cam at cam angle θ = {np.degrees(low.at):.4g}°: "
+            f"spring and load press with {low.value:.4g} N; "
+            f"{-low.value:.4g} N more preload is the minimum that can hold it"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
     return _least(lift, follower, held)
@@ -106,8 +107,8 @@ def _no_drop(lift: MotionLaw, consequence: str) -> None:
     if (drops < 0).any():
         k = int(np.argmin(drops))
         raise FindingError(
-            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at cam angle θ = {np.degrees(lift.breaks[k]):.4g}°: "
-            f"{consequence}; choose a law without jumps of the velocity"
+            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at cam angle θ = "
+            f"{np.degrees(lift.breaks[k]):.4g}°: {consequence}; choose a law without jumps of the velocity"
         )
 
 

@@ -45,7 +45,8 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
 
 def _cam_words(profile: CamProfile) -> str:
     """What is drawn, and its circles."""
-    words = "Position at the start of the programme, θ = 0, seen along the line to the follower's guide or pivot. "
+    words = "Position at the start of the programme, θ = 0, seen along the line to the follower's guide "
+    words += "or pivot. "
     words += f"Base circle {_mm(profile.base_radius)}"
     if profile.prime_radius > profile.base_radius:
         words += f", prime circle {_mm(profile.prime_radius)}"

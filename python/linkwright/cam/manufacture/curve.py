@@ -148,7 +148,8 @@ def _refuse_gaps(parts: list[Stretch], extent: float) -> None:
         length = math.hypot(*gap)
         if not length <= SAME * extent:
             raise ExchangeError(
-                f"the curve has a gap of {1e3 * length:.6g} mm at cam angle θ = {math.degrees(after.low):.6g}°: "
+                f"the curve has a gap of {1e3 * length:.6g} mm at cam angle θ = "
+                f"{math.degrees(after.low):.6g}°: "
                 "only a closed outline can be manufactured; choose a motion law that closes there"
             )
 

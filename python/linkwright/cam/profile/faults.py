@@ -140,8 +140,7 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             )
         else:
             what = (
-                f"under the flat face its radius of curvature is {_mm(worst.value)} "
-                f"at {_theta(worst.angle)}"
+                f"under the flat face its radius of curvature is {_mm(worst.value)} at {_theta(worst.angle)}"
             )
         where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; use {change}"
@@ -215,8 +214,9 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
         base = base_without_crossing(flank.contact)
         change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (
-            f"the profile of {_subject(profile, flank)} crosses itself: at cam angles θ = {at[0]} and {at[1]} it passes "
-            f"the same point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; use {change}"
+            f"the profile of {_subject(profile, flank)} crosses itself: at cam angles "
+            f"θ = {at[0]} and {at[1]} it passes the same point, "
+            f"({1e3 * x:.4g}, {1e3 * y:.4g}) mm; use {change}"
         )
 
 
