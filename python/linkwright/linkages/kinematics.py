@@ -91,17 +91,11 @@ class Kinematics(Result):
     def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
         """Numbers of angles and machines; of one machine the range of each slide and link."""
         yield "crank angles", "", len(self.angles), ""
-        if self._machines is not None:
-            yield "machines", "", self._machines, ""
+        if machines := _machines(self):
+            yield "machines", "", machines, ""
         curves = self.curves()
         for name in self.usual_curves():
             yield name, "", (float(curves[name].min()), float(curves[name].max())), self.unit_of(name)
-
-    @property
-    def _machines(self) -> int | None:
-        """How many machines a batch has; None of one machine."""
-        place = next(iter(self.points.values())).position
-        return len(place) if place.ndim > 2 else None
 
     def to_frame(self) -> pd.DataFrame:
         """The angles and all columns of one machine as a table, SI.
@@ -109,9 +103,9 @@ class Kinematics(Result):
         Raises `ShapeError` of a batch, of which an entry is an array over machines, and `InputError` without
         pandas.
         """
-        if self._machines is not None:
+        if machines := _machines(self):
             raise ShapeError(
-                f"to_frame: found a batch of {self._machines} machines, expected one; take the arrays of "
+                f"to_frame: found a batch of {machines} machines, expected one; take the arrays of "
                 "points, links and slides"
             )
         return super().to_frame()
@@ -126,6 +120,12 @@ class Kinematics(Result):
         if last in _DERIVATIVES:
             return _DERIVATIVES[last] if self.unit_of(of) == "m" else ""
         return unit
+
+
+def _machines(motion: Kinematics) -> int:
+    """How many machines a batch has; 0 of one machine."""
+    place = next(iter(motion.points.values())).position
+    return len(place) if place.ndim > 2 else 0
 
 
 # Units of coordinates by the last word of their name, and of their derivatives by the crank angle.

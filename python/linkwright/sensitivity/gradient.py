@@ -114,11 +114,6 @@ class Gradient(Result):
         known = np.flatnonzero(np.isfinite(slopes) & (slopes != 0) & ~is_rounding).tolist()
         return sorted(known, key=lambda at: (-effect[at], -abs(slopes[at])))
 
-    def derivative_unit(self, row: int, at: int) -> str:
-        """Unit of the derivative of a response by a variable."""
-        unit = self.variable_units[at]
-        return f"{self.units[row]} per {unit}".strip() if unit else self.units[row]
-
     def curves(self) -> dict[str, np.ndarray]:
         """None: derivatives run over nothing."""
         return {}
@@ -129,7 +124,7 @@ class Gradient(Result):
             yield self.words[row], "", float(self.values[row]), self.units[row]
             for at in self.ranked(response)[:_SHOWN]:
                 words = f"by {self.variables[at]}"
-                yield words, "", float(self.derivatives[row, at]), self.derivative_unit(row, at)
+                yield words, "", float(self.derivatives[row, at]), derivative_unit(self, row, at)
 
     def to_frame(self) -> pd.DataFrame:
         """The derivatives as a table: a row for each variable, a column for each response.
@@ -195,6 +190,12 @@ class Gradient(Result):
         at = dict(zip(self.variables, self.at.tolist(), strict=True))
         reasons = {"ties": self.ties, "refused": self.refused, "missing": self.missing}
         return tables | {"values": values, "at": at} | reasons
+
+
+def derivative_unit(gradient: Gradient, row: int, at: int) -> str:
+    """Unit of the derivative of a response by a variable, both by their places."""
+    unit = gradient.variable_units[at]
+    return f"{gradient.units[row]} per {unit}".strip() if unit else gradient.units[row]
 
 
 @public

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
-from linkwright.sensitivity.gradient import Gradient
+from linkwright.sensitivity.gradient import Gradient, derivative_unit
 
 # Rows of a table: what comes after changes a response by less than these.
 ROWS = 12
@@ -25,7 +25,7 @@ def gradient_tables(gradient: Gradient) -> Iterator[Table]:
 
 def _row(gradient: Gradient, row: int, at: int) -> Row:
     entry, value = gradient.variables[at], float(gradient.at[at])
-    derivative, per = float(gradient.derivatives[row, at]), gradient.derivative_unit(row, at)
+    derivative, per = float(gradient.derivatives[row, at]), derivative_unit(gradient, row, at)
     elasticity = float(gradient.elasticities[row, at])
     share = "–" if not np.isfinite(elasticity) or value == 0 else f"{number(elasticity, 3)} %"
     return entry, "", measured(value, gradient.variable_units[at]), measured(derivative, per), share

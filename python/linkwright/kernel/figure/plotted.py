@@ -21,7 +21,7 @@ _HEIGHT = 1.9
 _LETTERS = 22
 
 
-class _Drawn(NamedTuple):
+class _PlotCurve(NamedTuple):
     """A curve of a result."""
 
     word: str
@@ -50,7 +50,7 @@ def plotted(result: Any, names: tuple[str, ...]) -> Figure:
     return _figure(known[over], [curve for curve in chosen if curve.over == over])
 
 
-def _curves(result: Any) -> dict[str, _Drawn]:
+def _curves(result: Any) -> dict[str, _PlotCurve]:
     """All curves of a result by name; those of its parts run over its first one."""
     owner: type = type(result)
     words = {quantity.name: quantity for quantity in quantities_of(owner)}
@@ -63,11 +63,11 @@ def _curves(result: Any) -> dict[str, _Drawn]:
         over = words[name].over if name in words else first
         if not over or values.shape == columns.get(over, values[:0]).shape:
             word = words[name].word if name in words else named(name)
-            curves[name] = _Drawn(word, result.unit_of(name), over, values)
+            curves[name] = _PlotCurve(word, result.unit_of(name), over, values)
     return curves
 
 
-def _figure(over: _Drawn, chosen: list[_Drawn]) -> Figure:
+def _figure(over: _PlotCurve, chosen: list[_PlotCurve]) -> Figure:
     units = list(dict.fromkeys(curve.unit for curve in chosen))
     figure, axes = panels(len(units), height=_HEIGHT * len(units) + 0.5)
     x, unit = over.values, over.unit
