@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.app.curves import curves_figure, curves_of
+from linkwright.app.curves import chosen, curves_figure, curves_of
 from linkwright.app.report.figures import figures
 from linkwright.app.report.tables import tables
 from linkwright.cam.figures.captions import cam_figures
@@ -113,8 +113,14 @@ def test_followers_have_rows_figures_and_columns(words: str) -> None:
     known = curves_of(results)
     coordinate = "angle" if swings else "place"
     assert known[f"motion.F.{coordinate}.velocity"].over == "crank_angle"
-    # The lift of an arm is an angle, which no slide has.
-    assert list(lw.kinematics(results.machine).slides) == ([] if swings else ["F"])
+    assert chosen(results, ["F.velocity"])[0].unit == "m/s"
+    # The lift of an arm is an angle.
+    moved = lw.kinematics(results.machine)
+    for name, unit in (("place", "m"), ("place.d1", "m/rad"), ("place.d2", "m/rad²")):
+        assert moved.unit_of(f"F.lift.{name}") == (unit if not swings else "rad" if name == "place" else "")
+    assert known["motion.F.lift.place.velocity"].unit == ("rad/s" if swings else "m/s")
+    lift = known["motion.F.lift.place"]
+    assert lift.values == pytest.approx(course(lift.x)[0], abs=1e-12)
 
 
 def test_a_driver_by_a_law_has_curves_too() -> None:

@@ -167,8 +167,8 @@ def _name(asked: str, known: dict[str, Curve]) -> str:
         # What is asked for in full below the analysis goes before what has more parts between.
         exact = [name for name in fitting if name.endswith("." + ".".join(parts))]
         fitting = exact or fitting
-        # A slide has a point of its own: its velocity is that along the guide.
-        along = [name for name in fitting if ".place." in name]
+        # A slide has a point of its own: its velocity is that along the guide, which a cam's lift has too.
+        along = [name for name in fitting if ".place." in name and ".lift." not in name]
         fitting = along if len(along) == 1 else fitting
     if len(fitting) == 1:
         return fitting[0]

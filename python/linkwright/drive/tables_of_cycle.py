@@ -48,7 +48,9 @@ def speed_words(motion: CycleMotion) -> str:
 def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[tuple[str, str, str], ...]]]:
     """Names of sliders, followers, rockers and coupler points, each with its quantities."""
     listed = [element.output for element in linkage.elements]
-    for name in dict.fromkeys([*motion.followers, *listed, *motion.slides]):
+    # The lift of a follower is its own motion, counted from the base circle.
+    slides = [name for name in motion.slides if not name.endswith(".lift")]
+    for name in dict.fromkeys([*motion.followers, *listed, *slides]):
         if name in motion.slides:
             yield name, _SLIDE
         if name in motion.links:

@@ -116,10 +116,9 @@ class Kinematics(Result):
         of, _, last = name.rpartition(".")
         if not of:
             return super().unit_of(name)
-        unit = COORDINATES.get(last, "")
         if last in _DERIVATIVES:
             return _DERIVATIVES[last] if self.unit_of(of) == "m" else ""
-        return unit
+        return unit_of_coordinate(name, self.links)
 
 
 def _machines(motion: Kinematics) -> int:
@@ -129,8 +128,14 @@ def _machines(motion: Kinematics) -> int:
 
 
 # Units of coordinates by the last word of their name, and of their derivatives by the crank angle.
-COORDINATES = {"x": "m", "y": "m", "place": "m", "angle": "rad"}
+_COORDINATES = {"x": "m", "y": "m", "place": "m", "angle": "rad"}
 _DERIVATIVES = {"d1": "m/rad", "d2": "m/rad²", "d3": "m/rad³"}
+
+
+def unit_of_coordinate(name: str, links: Mapping[str, Any]) -> str:
+    """SI unit of a coordinate by its name; the lift of a cam whose follower is a link is an angle."""
+    follower = name.removesuffix(".lift.place")
+    return "rad" if follower != name and follower in links else _COORDINATES.get(name.rpartition(".")[2], "")
 
 
 def columns_of(head: str, position: Floats, rates: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -200,7 +205,7 @@ def kinematics_of(
 def everything(compiled: CompiledMachine) -> list[tuple[str, str]]:
     """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
     names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    hidden = (".angle", ".law", ".lift", " reversed")
+    hidden = (".angle", ".law", " reversed")
     return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
 
 

@@ -25,11 +25,11 @@ from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME, Quantity
 from linkwright.linkages.closure import Closure, closure_of, require_closed
 from linkwright.linkages.kinematics import (
-    COORDINATES,
     checked_angles,
     columns_of,
     everything,
     kinematics_of,
+    unit_of_coordinate,
 )
 from linkwright.linkages.law import Law, as_law
 from linkwright.machine.machine import Machine
@@ -84,7 +84,9 @@ class Motion(Result):
         of, _, last = name.rpartition(".")
         if not of:
             return super().unit_of(name)
-        return self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else COORDINATES.get(last, "")
+        return (
+            self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else unit_of_coordinate(name, self.links)
+        )
 
 
 # What a rate adds to the unit of its coordinate.
