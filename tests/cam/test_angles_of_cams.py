@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.app.curves import chosen, curves_figure, curves_of
 from linkwright.app.report.figures import figures
 from linkwright.app.report.tables import tables
 from linkwright.cam.figures.captions import cam_figures
 from linkwright.cam.tables import cam_tables
+from linkwright.drive.motion_events import course as course_of
+from linkwright.drive.tables_in_time import in_time_tables
+from linkwright.kernel.page.angle_zero import Zero
+from linkwright.linkages.motion import motion_along
 
 TURN = 2 * np.pi
 PHASE, RISE, LIFT, SPEED = np.radians(40.0), np.radians(120.0), 0.012, 9.0
@@ -43,7 +50,7 @@ def cam(words: str) -> Any:
     dwell = f"[[mechanism.cams.F.sections]]\nangle = {TURN - 2 * RISE}\n"
     points = "[mechanism.points]\nP = { x = '90 mm', y = 0 }\n"
     return lw.loads(
-        f"format = 1\nname = 'Cam'\n[drive]\nspeed = {SPEED}\n{points}"
+        f"format = 1\nname = 'Cam'\n[drive]\nspeed = {SPEED}\n[drive.flywheel]\ninertia = 2\n{points}"
         f"[mechanism.cams.F]\nphase = {PHASE}\n{words}\n{sections}{dwell}[bodies]\n"
         f"F = {{ {'inertia' if size == 'swing' else 'mass'} = 0.4 }}\n"
     )
@@ -162,3 +169,20 @@ def test_a_curve_of_a_cam_is_drawn_over_its_own_angle() -> None:
         name: curves_figure([known[name]]).axes[-1].get_xlabel() for name in ("cam.lift", "cam_force.force")
     }
     assert labels == {"cam.lift": "cam angle θ [°]", "cam_force.force": "crank angle φ [°]"}
+
+
+@pytest.mark.parametrize("words", ["arm with a roller, left", "knife edge"])
+def test_the_lift_of_an_arm_is_shown_as_an_angle(words: str, tmp_path: Path) -> None:
+    """A pose and a motion in time have the lift of a swinging arm as an angle, that of a slide in metres."""
+    machine, file = cam(FOLLOWERS[words]), tmp_path / "cam.toml"
+    lw.write(machine, file)
+    told = CliRunner().invoke(application(), ["motion", str(file), "--at", "80 deg"])
+    assert told.exit_code == 0, told.output
+    assert f"F.lift place [{'°' if 'arm' in words else 'm'}" in told.output
+    found = lw.transient(machine, speed=SPEED, duration=0.1, motor=False)
+    along = motion_along(machine, *course_of(found, 4))
+    *_, table = in_time_tables(found, lw.motion_extremes(found), (), along, Zero())
+    row = dict(zip(table.heads, table.rows[-1], strict=True))
+    unit = "rad" if "arm" in words else "m"
+    assert row["F.lift"].endswith(f" {unit}")
+    assert row["velocity of F.lift"].endswith(f" {unit}/s")
