@@ -137,6 +137,9 @@ class Study(DriveStudy):
             "forces",
         )
         results: dict[str, Result | None] = {name: getattr(self, name) for name in names}
+        if self.linkage is not None and not self.linkage.elements:
+            # Followers and other drivers alone: their motion says all.
+            results["linkage"] = None
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{cam.name}": cam for cam in self.cams}
         cams |= {"cam_sizes" if single else f"cam_sizes.{size.name}": size for size in self.cam_sizes}
