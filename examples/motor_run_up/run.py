@@ -6,7 +6,6 @@ Source: the worked case of paper 1; the catalogue's starting torque against Klos
 from pathlib import Path
 
 import linkwright as lw
-from linkwright.kernel.errors import StartError
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
@@ -17,7 +16,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
     try:
         lw.run_up(weak)
         starts = 1.0
-    except StartError as reason:
+    except lw.StartError as reason:
         print(reason)
         starts = 0.0
     return {"turns": result.turns, "time": result.time, "starts_by_kloss_alone": starts}

@@ -167,6 +167,29 @@ _HOME = {
     "read_heading": "app.report.company",
     "write_report": "app.report.page",
     "widget": "studio.widget",
+    **dict.fromkeys(
+        (
+            "AssemblyError",
+            "CamError",
+            "ConvergenceError",
+            "CoreError",
+            "ExchangeError",
+            "FindingError",
+            "FrozenError",
+            "InputError",
+            "InternalError",
+            "LawError",
+            "LinkwrightError",
+            "MachineError",
+            "MachineFileError",
+            "ShapeError",
+            "StartError",
+            "SteadyStateError",
+            "SynthesisError",
+            "UnitError",
+        ),
+        "kernel.errors",
+    ),
 }
 
 __all__ = ["__version__", *_HOME]
@@ -229,6 +252,24 @@ if TYPE_CHECKING:
     from linkwright.drive.steady_state import steady_state as steady_state
     from linkwright.drive.step_method import step_method as step_method
     from linkwright.drive.transient import transient as transient
+    from linkwright.kernel.errors import AssemblyError as AssemblyError
+    from linkwright.kernel.errors import CamError as CamError
+    from linkwright.kernel.errors import ConvergenceError as ConvergenceError
+    from linkwright.kernel.errors import CoreError as CoreError
+    from linkwright.kernel.errors import ExchangeError as ExchangeError
+    from linkwright.kernel.errors import FindingError as FindingError
+    from linkwright.kernel.errors import FrozenError as FrozenError
+    from linkwright.kernel.errors import InputError as InputError
+    from linkwright.kernel.errors import InternalError as InternalError
+    from linkwright.kernel.errors import LawError as LawError
+    from linkwright.kernel.errors import LinkwrightError as LinkwrightError
+    from linkwright.kernel.errors import MachineError as MachineError
+    from linkwright.kernel.errors import MachineFileError as MachineFileError
+    from linkwright.kernel.errors import ShapeError as ShapeError
+    from linkwright.kernel.errors import StartError as StartError
+    from linkwright.kernel.errors import SteadyStateError as SteadyStateError
+    from linkwright.kernel.errors import SynthesisError as SynthesisError
+    from linkwright.kernel.errors import UnitError as UnitError
     from linkwright.kinetostatics.balancing import balance as balance
     from linkwright.kinetostatics.balancing import partial_balance as partial_balance
     from linkwright.kinetostatics.contact_in_time import contact_losses as contact_losses

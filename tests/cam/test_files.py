@@ -183,7 +183,7 @@ def _without_corner(text: str) -> str:
 DXF_FAULTS: dict[str, tuple[Callable[[str], str], str]] = {
     "a corner moved by 5 µm": (
         _moved("10", 5e-3),
-        r"mm from the curve at cam angle [\d.]+°; the tolerance is 0.001 mm",
+        r"mm from the curve at cam angle θ = [\d.]+°; the tolerance is 0.001 mm",
     ),
     "a bulge grown by 0.001": (_moved("42", 1e-3), "mm from the curve at cam angle"),
     "a bulge of another sign": (lambda text: _moved("42", -0.2)(text), "mm from the curve at cam angle"),

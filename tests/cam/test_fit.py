@@ -203,14 +203,14 @@ def test_undercut_is_told_with_its_angle() -> None:
     )
     cam = roller(law, 0.04, 0.02)
     with pytest.raises(
-        ExchangeError, match=r"turns back on itself at cam angle \d+\.?\d*°.*larger base circle"
+        ExchangeError, match=r"turns back on itself at cam angle θ = \d+\.?\d*°.*larger base circle"
     ):
         Track.of(cam)
 
 
 def test_gap_is_told_with_its_angle_and_size() -> None:
     law = MotionLaw.of(0.0, (math.pi, Piece((0.0, 0.02))), (math.pi, Piece((0.02, -0.01))))
-    with pytest.raises(ExchangeError, match=r"gap of 10 mm at cam angle 0°"):
+    with pytest.raises(ExchangeError, match=r"gap of 10 mm at cam angle θ = 0°"):
         Track.of(knife_edge(law, 0.03))
 
 

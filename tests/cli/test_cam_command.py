@@ -53,7 +53,7 @@ def test_tables_and_warnings() -> None:
     assert result.exit_code == 0
     for words in ("Cam cart", "maximum pressure angle", "23.448°", "constant velocity", "0.15385 m/s"):
         assert words in result.output
-    assert "The jerk of cam cart jumps at 0°, 180°" in result.output
+    assert "The jerk of cam cart jumps at cam angle θ = 0°, 180°" in result.output
     assert "Forces on cam cart" in result.output
 
 

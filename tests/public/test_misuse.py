@@ -364,7 +364,8 @@ def _arguments() -> Iterator[tuple[str, str, str, Callable[[str, Any], Any] | No
     """Function, argument, annotation and check of every argument that is public."""
     for name in dir(lw):
         member = getattr(lw, name)
-        if name.startswith("_") or not callable(member) or member is lw.Machine:
+        is_error = inspect.isclass(member) and issubclass(member, Exception)
+        if name.startswith("_") or not callable(member) or member is lw.Machine or is_error:
             continue
         function = inspect.unwrap(member.__init__ if inspect.isclass(member) else member)
         checks = checks_of(function)

@@ -26,7 +26,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 # Two words of three letters and more: a sentence or a term, no symbol and no name.
 ENGLISH_WORDS = re.compile(r"\b[A-Za-z]{3,} [a-z]{3,}\b")
 
-FOLLOWER = "Штовхач піднімається на 5,5 мм; похідні — за кутом кулачка."
+FOLLOWER = "Штовхач піднімається на 5,5 мм; похідні — за кутом кулачка θ."
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def test_parts_that_the_file_does_not_name_have_a_word(path: Path) -> None:
         ("velocity v [m/s]", "швидкість v [м/с]"),
         ("pin, A1 on cart1.rod", "шарнір, A1 на cart1.rod"),
         ("Press #3", "Press #3"),
-        ("The follower rises by 5.5 mm; derivatives are by the cam angle.", FOLLOWER),
+        ("The follower rises by 5.5 mm; derivatives are by the cam angle θ.", FOLLOWER),
         ("≥ 4.85 1/m", "≥ 4,85 1/м"),
         ("Measured angle of front, order 8", "Виміряний кут front, порядок 8"),
         ("trial: torque of line, order 4.5", "trial: момент line, порядок 4,5"),

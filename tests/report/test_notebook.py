@@ -132,7 +132,73 @@ def test_a_curve_that_is_none_is_refused() -> None:
     steady = lw.steady_state(lw.read("roller_two_carts"))
     with pytest.raises(InputError, match="no curve 'sped'"):
         steady.plot("sped")
-    linkage = lw.study(lw.read("roller_two_carts")).linkage
-    assert linkage is not None
     with pytest.raises(InputError, match="no curves"):
-        linkage.plot()
+        lw.law_factors(lw.cam_profile(lw.read("roller_cam")).cam.lift).plot()
+
+
+def test_derivatives_are_a_table_and_bars() -> None:
+    """A notebook shows each response with its derivatives by influence, `plot` the bars, `to_frame` all."""
+    pytest.importorskip("pandas")
+    found = lw.gradient(lw.read("roller_two_carts"), ["steady_state.unevenness", "steady_state.speed_max"])
+    slope = found.of("steady_state.unevenness")["mechanism.cranks.A2.phase"]
+    shown = found._repr_html_()
+    assert 'scope="row" style="text-align:left">by mechanism.cranks.A2.phase</th>' in shown
+    assert f'<td style="text-align:left">{slope:.5g}</td><td style="text-align:left">per rad</td>' in shown
+    frame = found.to_frame()
+    assert frame.shape == (len(found.variables), 2)
+    assert frame.loc["mechanism.cranks.A2.phase", "steady_state.unevenness"] == slope
+    above, below = found.plot().axes
+    first = [label.get_text() for label in above.get_yticklabels()][-1]
+    assert first == found.variables[found.ranked("steady_state.unevenness")[0]]
+    assert "maximum speed" in below.get_xlabel()
+    (alone,) = found.plot("steady_state.speed_max").axes
+    assert [bar.get_width() for bar in alone.patches] == [bar.get_width() for bar in below.patches]
+    with pytest.raises(InputError, match="was not derived"):
+        found.plot("steady_state.sped")
+
+
+def test_kinematics_are_columns_by_the_parts_of_the_mechanism() -> None:
+    """Names as of `motion`, with derivatives by the crank angle and their units; one machine, no batch."""
+    pytest.importorskip("pandas")
+    machine = lw.read("roller_two_carts")
+    found = lw.kinematics(machine, third=True)
+    frame, cart = found.to_frame(), found.slides["cart1"]
+    for name, values in (
+        ("cart1.place", cart.position),
+        ("cart1.place.d3", cart.d3),
+        ("A1.y", found.points["A1"].position[:, 1]),
+    ):
+        assert np.array_equal(frame[name], values), name
+    units = ("", "m", "m/rad", "m/rad³", "rad", "")
+    names = ("A1.angle.d1", "A1.x", "A1.y.d1", "cart1.place.d3", "A1.angle", "sped")
+    assert tuple(found.unit_of(name) for name in names) == units
+    assert "0.6 … 1</td>" in found._repr_html_()
+    curves = found.plot("cart1.place", "cart1.place.d1").axes
+    assert [axis.get_ylabel() for axis in curves] == ["cart1.place\n[m]", "cart1.place.d1\n[m/rad]"]
+    assert curves[-1].get_xlabel() == "crank angles [°]"
+    assert len(found.plot().axes) == 2
+    many = lw.kinematics(lw.replace(machine, {"mechanism.cranks.A1.radius": np.array([0.19, 0.2])}))
+    assert "machines" in many._repr_html_()
+    with pytest.raises(InputError, match="a batch of 2 machines"):
+        many.to_frame()
+    with pytest.raises(InputError, match="no curves"):
+        many.plot()
+
+
+def test_a_linkage_shows_strokes_and_draws_transmission_angles() -> None:
+    """A notebook has a row for each stroke and transmission angle; `plot` the curves of all elements."""
+    found = lw.linkage(lw.read("roller_two_carts"))
+    assert "stroke of cart1</th>" in found._repr_html_()
+    angles, ratios = found.plot().axes
+    assert np.array_equal(angles.lines[0].get_ydata(), found.transmission_angles["cart1"])
+    assert [label.get_text() for label in ratios.get_legend().get_texts()] == [
+        "cart1.stroke_ratio",
+        "cart2.stroke_ratio",
+    ]
+
+
+def test_columns_of_a_motion_are_plotted_by_name() -> None:
+    motion = lw.motion(lw.read("roller_two_carts"), lambda t: 10 * t, np.linspace(0, 1, 51))
+    (axes,) = motion.plot("cart1.place.velocity").axes
+    assert np.array_equal(axes.lines[0].get_ydata(), motion.slides["cart1"].velocity)
+    assert axes.get_xlabel() == "time [s]"

@@ -73,13 +73,12 @@ def test_closed_areas_from_an_extreme_tie_by_single_areas_alone() -> None:
 
 def test_rounding_errors_are_no_influence() -> None:
     """Extreme speeds follow from mean and fluctuation alone, whatever the areas."""
-    from linkwright.sensitivity.tables import ranked
 
     machine = lw.loads(
         f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{areas(np.random.default_rng(3))}\n'
     )
     found = lw.gradient(machine, ["turning_moment.speed_max"])
-    named = {found.variables[at] for at in ranked(found, "turning_moment.speed_max")}
+    named = {found.variables[at] for at in found.ranked("turning_moment.speed_max")}
     assert named == {"turning_moment.speed", "turning_moment.unevenness"}
 
 

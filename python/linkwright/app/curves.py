@@ -64,6 +64,7 @@ class Curve:
     x: Floats  # (n,): what it runs over
     scale: float = 0.0  # largest value of its analysis with its unit; what is rounding beside it is zero
     word: str = ""  # of a declared quantity: ``"driving torque"``
+    over_word: str = ""  # with the symbol, of what is declared: ``"crank angle φ"``
 
     @property
     def words(self) -> str:
@@ -73,7 +74,7 @@ class Curve:
     @property
     def over_words(self) -> str:
         """What it runs over."""
-        return coordinate_words(self.over).replace("_", " ")
+        return self.over_word or coordinate_words(self.over).replace("_", " ")
 
 
 def coordinate_words(name: str) -> str:
@@ -113,9 +114,16 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
             scale = scales.get(units[name], 0.0)
             mark = declared(type(result))[name][1] if is_declared else None
             word = mark.word if isinstance(mark, Label) else ""
+            x = along, units[along], curves[along]
             yield Curve(
-                f"{analysis}.{name}", curve, units[name], along, units[along], curves[along], scale, word
+                f"{analysis}.{name}", curve, units[name], *x, scale, word, _with_symbol(result, along)
             )
+
+
+def _with_symbol(result: Result, name: str) -> str:
+    """The word of a declared quantity with its symbol: a cam angle θ is no crank angle φ."""
+    mark = declared(type(result)).get(name, (None, None))[1]
+    return f"{mark.word} {mark.symbol}".rstrip() if isinstance(mark, Label) else ""
 
 
 def _scales(curves: Mapping[str, Floats], units: Mapping[str, str]) -> dict[str, float]:
@@ -159,8 +167,8 @@ def _name(asked: str, known: dict[str, Curve]) -> str:
         # What is asked for in full below the analysis goes before what has more parts between.
         exact = [name for name in fitting if name.endswith("." + ".".join(parts))]
         fitting = exact or fitting
-        # A slide has a point of its own: its velocity is that along the guide.
-        along = [name for name in fitting if ".place." in name]
+        # A slide has a point of its own: its velocity is that along the guide, which a cam's lift has too.
+        along = [name for name in fitting if ".place." in name and ".lift." not in name]
         fitting = along if len(along) == 1 else fitting
     if len(fitting) == 1:
         return fitting[0]
@@ -184,7 +192,8 @@ def _over(curve: Curve, along: str, known: dict[str, Curve]) -> Curve:
     analysis = curve.name.split(".")[0]
     same = {name: curve for name, curve in known.items() if name.split(".")[0] == analysis}
     other = known[_name(along, same or known)]
-    return replace(curve, over=other.name.removeprefix(f"{analysis}."), over_unit=other.unit, x=other.values)
+    over = other.name.removeprefix(f"{analysis}.")
+    return replace(curve, over=over, over_unit=other.unit, x=other.values, over_word="")
 
 
 def from_zero(curve: Curve, zero: float) -> Curve:
@@ -336,7 +345,7 @@ def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
     """What is along x."""
     first = curves[0]
     unit, factor = _shown(first.over_unit)
-    word = "crank angle φ" if first.over == CRANK_ANGLE else first.over_words
+    word = first.over_words
     if zero and first.over == CRANK_ANGLE:
         word += f" from the {zero}"
     axes.set_xlabel(f"{word} [{unit or '–'}]")

@@ -105,6 +105,7 @@ class Study(DriveStudy):
     accuracy: float = field(default=1e-10, repr=False)
 
     @cached_property
+    @public
     def motion(self) -> CycleMotion | None:
         """Motion of every point, link and slide over the cycle; computed when it is first asked for."""
         if self.linkage is None:
@@ -136,6 +137,9 @@ class Study(DriveStudy):
             "forces",
         )
         results: dict[str, Result | None] = {name: getattr(self, name) for name in names}
+        if self.linkage is not None and not self.linkage.elements:
+            # Followers and other drivers alone: their motion says all.
+            results["linkage"] = None
         single = len(self.cams) == 1
         cams: dict[str, Result] = {"cam" if single else f"cam.{cam.name}": cam for cam in self.cams}
         cams |= {"cam_sizes" if single else f"cam_sizes.{size.name}": size for size in self.cam_sizes}
@@ -245,7 +249,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
         pumping_unit=unit,
         rotator=rotator,
         turning_moment=diagram,
-        linkage=moved if moved is not None and moved.elements else None,
+        linkage=moved if moved is not None and _has_outputs(machine, moved) else None,
         accuracy=accuracy,
     )
     result = _with_cams(result, findings)
@@ -351,6 +355,13 @@ def _turned(machine: Machine, findings: Findings, accuracy: float, step: float |
     # Angles without an answer for forces are no fault of the motion: they are said as warnings.
     borne = findings.beside_of(_forces, machine, steady) if steady else None
     return Study(**vars(driven), forces=borne)
+
+
+def _has_outputs(machine: Machine, moved: Linkage) -> bool:
+    """Whether anything moves that does not turn with the crankshaft: dyads, or a driver such as a cam's."""
+    own = machine.linkage
+    laws = any(crank.follows() is not None or crank.law is not None for crank in own.cranks.values())
+    return bool(moved.elements or own.linear_drivers or laws)
 
 
 def _is_motion_alone(machine: Machine) -> bool:

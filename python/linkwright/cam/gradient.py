@@ -2,7 +2,7 @@ r"""Derivatives of what is known of a cam by the numbers of its description: siz
 
 The law is worked out a second time with tangents, and with it the contact where a quantity is largest:
 
-.. math:: \frac{\mathrm d}{\mathrm dp} \max_\varphi f = \left.\frac{\partial f}{\partial p}\right|_{\varphi^*}
+.. math:: \frac{\mathrm d}{\mathrm dp} \max_\theta f = \left.\frac{\partial f}{\partial p}\right|_{\theta^*}
 
 at a fixed angle inside a piece, along the joint where the extreme sits on one (envelope theorem). Where two
 extremes tie and follow an entry differently, there are only one-sided derivatives.
@@ -290,7 +290,7 @@ class _Scalars:
         for phi, side in places[1:]:
             if self._differ(first, sign * curve.tangent(phi, side), size):
                 both = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (places[0][0], phi))
-                return first, f"the extreme occurs at cam angles of {both}"
+                return first, f"the extreme occurs at cam angles θ = {both}"
         return first, ""
 
     def _compare(self, name: str, extremes: Sequence[Any], what: str) -> None:

@@ -55,8 +55,10 @@ def profile_table(profile: CamProfile) -> Table:
 
 
 def _motion_rows(profile: CamProfile) -> Iterator[Row]:
-    """Lift, and its derivatives in time at the design speed."""
+    """Zero of the cam angle, lift, and its derivatives in time at the design speed."""
     unit = "rad" if profile.cam.is_oscillating else "m"
+    start = crank_angle(float(profile.cam.phase) % (2 * math.pi), "φ = ")
+    yield "start of the programme", "θ = 0", start, "crank angle"
     yield "lift", "h", _lift(profile, profile.stroke), ""
     at = "" if profile.speed is None else f"at {quantity(profile.speed, 'rad/s')}"
     for word, symbol, value, per in (
@@ -83,14 +85,14 @@ def _size_rows(profile: CamProfile) -> Iterator[Row]:
     if profile.prime_radius > profile.base_radius:
         yield "prime circle", "r_p", _mm(profile.prime_radius), ""
     limit = f"limit {degrees(profile.cam.limit)}"
-    steep = f"at {degrees(profile.pressure_angle_max_angle % (2 * math.pi))}, {limit}"
+    steep = f"at θ = {degrees(profile.pressure_angle_max_angle % (2 * math.pi))}, {limit}"
     yield "maximum pressure angle", "γ_max", degrees(profile.pressure_angle_max), steep
     flanks = profile.flanks if profile.cam.closure == "conjugate" else profile.flanks[:1]
     for flank in flanks:
         which = f" of the {flank.contact.name}" if len(flanks) > 1 else ""
         for word, extreme in (("convex", flank.convex), ("concave", flank.concave)):
             if extreme is not None:
-                where = f"at {degrees(extreme.angle % (2 * math.pi))}"
+                where = f"at θ = {degrees(extreme.angle % (2 * math.pi))}"
                 yield f"minimum {word} radius{which}", "ρ_min", _mm(extreme.value), where
     yield from known_rows(profile, "cam", length="mm")
 
@@ -118,7 +120,8 @@ def section_table(profile: CamProfile) -> Table:
     speed, length = profile.speed, "rad" if profile.cam.is_oscillating else "m"
     rows: list[Row] = []
     for count, section in enumerate(profile.sections, start=1):
-        place = f"{count}, {degrees(section['start'])} to {degrees(section['end'])}, {_law_words(section)}"
+        span = f"{degrees(section['start'])} to {degrees(section['end'])}"
+        place = f"{count}, θ = {span}, {_law_words(section)}"
         cells: list[str] = []
         for order, name in enumerate(("lift_d1", "lift_d2", "lift_d3"), start=1):
             ends = (f"{name}_max", f"{name}_min")
@@ -130,8 +133,8 @@ def section_table(profile: CamProfile) -> Table:
                 degrees(at) if value else "",
             ]
         rows.append((place, "", *cells))
-    heads = ("section", "", "velocity", "at φ", "acceleration", "at φ", "jerk", "at φ")
-    by = "by the cam angle" if speed is None else f"at {quantity(speed, 'rad/s')}"
+    heads = ("section", "", "velocity", "at θ", "acceleration", "at θ", "jerk", "at θ")
+    by = "by the cam angle θ" if speed is None else f"at {quantity(speed, 'rad/s')}"
     title = f"Extremes of the sections of cam {profile.name}, {by}"
     return Table(f"cam_{profile.name}_sections", title, heads, rows)
 
@@ -153,7 +156,7 @@ def joint_table(profile: CamProfile) -> Table:
         (joint.words(unit).replace("-", "−"), "", degrees(joint.angle))
         for joint in profile.cam.programme.joints
     ]
-    heads = ("continuity at segment boundaries", "", "cam angle")
+    heads = ("continuity at segment boundaries", "", "cam angle θ")
     return Table(f"cam_{profile.name}_joints", f"Segment boundaries of cam {profile.name}", heads, rows)
 
 

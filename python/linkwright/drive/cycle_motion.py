@@ -87,6 +87,9 @@ class CycleMotion(Motion):
     coupler_points: Annotated[
         tuple[str, ...], About("Points of links, without those whose paths are circles about fixed points.")
     ]
+    followers: Annotated[
+        tuple[str, ...], About("Links that a cam swings about a pivot, or that follow a law of the crank.")
+    ]
 
     def curves(self) -> dict[str, np.ndarray]:
         """Those of `Motion`, and speed and size of the acceleration of points: ``K.velocity``, ….
@@ -179,6 +182,7 @@ def cycle_motion_of(
         speed_source=source,
         extremes={},
         coupler_points=_coupler_points(machine),
+        followers=_followers(machine),
     )
     search = _Search(machine, crank, list(cycle.curves())[len(_CRANK) :])
     looked = _looked_at(compiled, low, high, turns)
@@ -276,6 +280,12 @@ def _coupler_points(machine: Machine) -> tuple[str, ...]:
     return tuple(name for name, part in parts if links[part.link].start not in fixed)
 
 
+def _followers(machine: Machine) -> tuple[str, ...]:
+    """Driven links that do not turn with the crankshaft."""
+    cranks = machine.linkage.cranks.items()
+    return tuple(name for name, crank in cranks if crank.follows() is not None or crank.law is not None)
+
+
 def _along(machine: Machine, crank: CrankMotion, phi: Floats) -> Motion:
     time, speed, acceleration = crank(phi)
     return motion_along(machine, time, phi, speed, acceleration)
@@ -307,7 +317,7 @@ class _Search:
         """All columns at crank angles, (k, n)."""
         motion = _along(self.machine, self.crank, phi)
         curves = CycleMotion(
-            **vars(motion), is_steady=False, speed_source="", extremes={}, coupler_points=()
+            **vars(motion), is_steady=False, speed_source="", extremes={}, coupler_points=(), followers=()
         ).curves()
         return np.array([curves[name] for name in self.names]).reshape(len(self.names), len(phi))
 

@@ -121,7 +121,9 @@ def _course(course: Motion, zero: Zero) -> Table:
     heads: Row = ("time", "", "crank angle", "speed", "acceleration")
     heads = (*heads, *(word for name, _ in slides for word in (name, f"velocity of {name}")))
     curves = [(course.speed, _SPEED), (course.acceleration, _ACCELERATION)]
-    curves += [curve for _, path in slides for curve in ((path.position, "m"), (path.velocity, "m/s"))]
+    for name, path in slides:
+        unit = course.unit_of(f"{name}.place")
+        curves += [(path.position, unit), (path.velocity, f"{unit}/s")]
     columns = [_column(curve, si) for curve, si in curves]
     first = [
         (quantity(float(time), "s"), "", _angle(float(angle), zero))

@@ -46,9 +46,11 @@ def speed_words(motion: CycleMotion) -> str:
 
 
 def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[tuple[str, str, str], ...]]]:
-    """Names of sliders, rockers and coupler points, each with its quantities."""
-    listed = list(dict.fromkeys(element.output for element in linkage.elements))
-    for name in dict.fromkeys([*listed, *motion.slides]):
+    """Names of sliders, followers, rockers and coupler points, each with its quantities."""
+    listed = [element.output for element in linkage.elements]
+    # The lift of a follower is its own motion, counted from the base circle.
+    slides = [name for name in motion.slides if not name.endswith(".lift")]
+    for name in dict.fromkeys([*motion.followers, *listed, *slides]):
         if name in motion.slides:
             yield name, _SLIDE
         if name in motion.links:

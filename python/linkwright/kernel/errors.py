@@ -7,6 +7,7 @@
 | `MachineFileError` | input | the same for a file: with file and line |
 | `LawError` | input | a motion law cannot do what it was asked for |
 | `ShapeError` | input | arrays do not fit together |
+| `FrozenError` | input | an attribute of a description or a result was to be set |
 | `CoreError` | input | the compiled core is not that of this package |
 | `AssemblyError` | finding | the links do not close |
 | `StartError` | finding | the drive does not start, stalls or runs backwards |
@@ -25,7 +26,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import FrozenInstanceError, dataclass
 from typing import ClassVar
 
 from linkwright.kernel.limits import MESSAGE_LINE, PROBLEMS, Limit, grouped
@@ -188,6 +189,10 @@ class LawError(InputError):
 
 class ShapeError(InputError):
     """Arrays do not fit together."""
+
+
+class FrozenError(InputError, FrozenInstanceError):
+    """An attribute of a description or result was to be set; the message says how to make a changed copy."""
 
 
 class CoreError(InputError):

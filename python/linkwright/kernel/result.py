@@ -5,14 +5,14 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import Field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import Label, attributes_section, declared
+from linkwright.kernel.quantities import Label, attributes_section, declared, quantities_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -182,7 +182,7 @@ class Result(Record):
         Parameters
         ----------
         *names : str
-            Attributes, such as ``"speed"``; all curves without any.
+            Names of `curves`, such as ``"speed"``; without any, `usual_curves`.
 
         Returns
         -------
@@ -209,6 +209,16 @@ class Result(Record):
         arrays = {name: value for name, value in self._entries().items() if isinstance(value, np.ndarray)}
         length = len(next(iter(arrays.values()))) if arrays else 0
         return {name: value for name, value in arrays.items() if value.shape == (length,)}
+
+    def usual_curves(self) -> list[str]:
+        """Names of the curves that `plot` draws without names: attributes, or if there are none all."""
+        curves = self.curves()
+        own = [quantity.name for quantity in quantities_of(type(self)) if quantity.over]
+        return [name for name in own if name in curves] or list(curves)[1:]
+
+    def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
+        """What a notebook shows beside the scalars: words, symbol, a number or a range of numbers, unit."""
+        return iter(())
 
     def columns(self) -> dict[str, np.ndarray]:
         """Curves of the result's parts, named with their unit such as ``A_x [N]``; none for most."""

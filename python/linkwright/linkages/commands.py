@@ -212,14 +212,17 @@ def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str
 
 def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
     """Name, quantity with its unit, and position, velocity, acceleration."""
+    from linkwright.linkages.kinematics import unit_of_coordinate
+
     rows: list[tuple[str, str, tuple[float, ...]]] = []
     for name, point in pose.points.items():
         for k, axis in enumerate("xy"):
             numbers = (point.position[k], point.velocity[k], point.acceleration[k])
             rows.append((name, f"{axis} [m]", numbers))
-    for unit, part in (("angle [rad]", pose.links), ("place [m]", pose.slides)):
+    for word, part in (("angle", pose.links), ("place", pose.slides)):
         for name, entry in part.items():
-            rows.append((name, unit, (entry.position, entry.velocity, entry.acceleration)))
+            quantity = f"{word} [{unit_of_coordinate(f'{name}.{word}', pose.links)}]"
+            rows.append((name, quantity, (entry.position, entry.velocity, entry.acceleration)))
     for name, mu in pose.transmission_angles.items():
         rows.append((name, "μ [rad]", (mu,)))
     return rows

@@ -252,6 +252,23 @@ class Linkage(Result):
             curves[f"{name}.velocity_ratio" if element.stroke is None else f"{name}.stroke_ratio"] = curve
         return curves
 
+    def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
+        """Travel, time ratio, ratio of speeds and transmission angle of each element."""
+        for name, element in zip(self.names, self.elements, strict=True):
+            travel = (
+                (element.swing, "swing", "rad") if element.stroke is None else (element.stroke, "stroke", "m")
+            )
+            for value, word, unit in (
+                travel,
+                (element.turns, "revolutions in a period", ""),
+                (element.time_ratio, "time ratio", ""),
+            ):
+                if value is not None:
+                    yield f"{word} of {name}", "", value, unit
+            low, high = element.transmission_angle_min, element.transmission_angle_max
+            if low is not None and high is not None:
+                yield f"transmission angle of {name}", "μ", (low, high), "rad"
+
     @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a curve by its name."""

@@ -68,7 +68,9 @@ def course_figure(motion: Motion, names: list[str]) -> Figure:
 
 def _moving(motion: Motion, kind: str) -> list[str]:
     """Names of the curves of a kind that change by more than rounding."""
-    curves = {name: curve for name, curve in motion.curves().items() if name.endswith(_KINDS[kind])}
+    # The lift of a follower is its own motion, counted from the base circle.
+    every = {name: curve for name, curve in motion.curves().items() if not name.endswith(".lift.place")}
+    curves = {name: curve for name, curve in every.items() if name.endswith(_KINDS[kind])}
     least = _AT_REST * max((float(np.abs(curve).max()) for curve in curves.values()), default=0.0)
     return [name for name, curve in curves.items() if float(np.ptp(curve)) > least]
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,12 +17,15 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
 from linkwright.kernel.public.immutable import LazyTable
 from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.result import Record
+from linkwright.kernel.result import Record, Result
 from linkwright.linkages.closure import has_levers, require_closed, require_finite_rates
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 from linkwright.machine.program.motion import WIDTHS
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # What the core takes for a point, a link and a slide, and how many numbers it gives at each angle.
 _CHANNELS = {"points": Channel.Point, "links": Channel.Link, "slides": Channel.Slide}
@@ -60,13 +63,90 @@ class SlideMotion(Record):
 
 
 @dataclass(frozen=True)
-class Kinematics(Record):
-    """Motion of a mechanism over given crank angles."""
+class Kinematics(Result):
+    """Motion of a mechanism over given crank angles; its curves are those of one machine, not of a batch."""
 
     angles: Annotated[Floats, Label("crank angles", "φ", "rad")]
     points: Annotated[Mapping[str, PointMotion], About("Motion of each point.")]
     links: Annotated[Mapping[str, LinkMotion], About("Motion of each link.")]
     slides: Annotated[Mapping[str, SlideMotion], About("Motion of each slide.")]
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """The angles and all columns: ``K.x``, ``K.x.d1``, ``R.rocker.angle``, ``ram.place.d2``, …."""
+        curves = {"angles": self.angles}
+        for name, point in self.points.items():
+            for k, axis in enumerate("xy"):
+                curves |= columns_of(f"{name}.{axis}", point.position[..., k], _derivatives(point, k))
+        for name, link in self.links.items():
+            curves |= columns_of(f"{name}.angle", link.angle, _derivatives(link))
+        for name, slide in self.slides.items():
+            curves |= columns_of(f"{name}.place", slide.position, _derivatives(slide))
+        return {name: curve for name, curve in curves.items() if curve.shape == self.angles.shape}
+
+    def usual_curves(self) -> list[str]:
+        """Positions of slides and links; of a mechanism without such, of points."""
+        names = [name for name in self.curves() if name.endswith((".place", ".angle"))]
+        return names or super().usual_curves()
+
+    def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
+        """Numbers of angles and machines; of one machine the range of each slide and link."""
+        yield "crank angles", "", len(self.angles), ""
+        if machines := _machines(self):
+            yield "machines", "", machines, ""
+        curves = self.curves()
+        for name in self.usual_curves():
+            yield name, "", (float(curves[name].min()), float(curves[name].max())), self.unit_of(name)
+
+    def to_frame(self) -> pd.DataFrame:
+        """The angles and all columns of one machine as a table, SI.
+
+        Raises `ShapeError` of a batch, of which an entry is an array over machines, and `InputError` without
+        pandas.
+        """
+        if machines := _machines(self):
+            raise ShapeError(
+                f"to_frame: found a batch of {machines} machines, expected one; take the arrays of "
+                "points, links and slides"
+            )
+        return super().to_frame()
+
+    @public
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute or a column by its name."""
+        of, _, last = name.rpartition(".")
+        if not of:
+            return super().unit_of(name)
+        if last in _DERIVATIVES:
+            return _DERIVATIVES[last] if self.unit_of(of) == "m" else ""
+        return unit_of_coordinate(name, self.links)
+
+
+def _machines(motion: Kinematics) -> int:
+    """How many machines a batch has; 0 of one machine."""
+    place = next(iter(motion.points.values())).position
+    return len(place) if place.ndim > 2 else 0
+
+
+# Units of coordinates by the last word of their name, and of their derivatives by the crank angle.
+_COORDINATES = {"x": "m", "y": "m", "place": "m", "angle": "rad"}
+_DERIVATIVES = {"d1": "m/rad", "d2": "m/rad²", "d3": "m/rad³"}
+
+
+def unit_of_coordinate(name: str, links: Mapping[str, Any]) -> str:
+    """SI unit of a coordinate by its name; the lift of a cam whose follower is a link is an angle."""
+    follower = name.removesuffix(".lift.place")
+    return "rad" if follower != name and follower in links else _COORDINATES.get(name.rpartition(".")[2], "")
+
+
+def columns_of(head: str, position: Floats, rates: Mapping[str, Floats]) -> dict[str, Floats]:
+    """A coordinate and its derivatives by name."""
+    return {head: position} | {f"{head}.{rate}": values for rate, values in rates.items()}
+
+
+def _derivatives(part: Any, at: Any = slice(None)) -> dict[str, Floats]:
+    """The derivatives of a part by the crank angle, as far as they are known."""
+    known = {name: getattr(part, name) for name in _DERIVATIVES}
+    return {name: values[..., at] for name, values in known.items() if values is not None}
 
 
 @public

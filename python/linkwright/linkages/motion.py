@@ -24,7 +24,13 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME, Quantity
 from linkwright.linkages.closure import Closure, closure_of, require_closed
-from linkwright.linkages.kinematics import checked_angles, everything, kinematics_of
+from linkwright.linkages.kinematics import (
+    checked_angles,
+    columns_of,
+    everything,
+    kinematics_of,
+    unit_of_coordinate,
+)
 from linkwright.linkages.law import Law, as_law
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -65,11 +71,11 @@ class Motion(Result):
         curves = super().curves()
         for name, path in self.points.items():
             for k, axis in enumerate("xy"):
-                curves |= _columns(f"{name}.{axis}", path, k)
+                curves |= columns_of(f"{name}.{axis}", path.position[..., k], _rates_of(path, k))
         for name, path in self.links.items():
-            curves |= _columns(f"{name}.angle", path, ...)
+            curves |= columns_of(f"{name}.angle", path.position, _rates_of(path))
         for name, path in self.slides.items():
-            curves |= _columns(f"{name}.place", path, ...)
+            curves |= columns_of(f"{name}.place", path.position, _rates_of(path))
         return curves
 
     @public
@@ -78,23 +84,19 @@ class Motion(Result):
         of, _, last = name.rpartition(".")
         if not of:
             return super().unit_of(name)
-        return self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else _COORDINATES.get(last, "")
+        return (
+            self.unit_of(of) + _PER_TIME[last] if last in _PER_TIME else unit_of_coordinate(name, self.links)
+        )
 
 
-# Units of the columns of parts by the last word of their name; what a rate adds to that of its coordinate.
-_COORDINATES = {"x": "m", "y": "m", "place": "m", "angle": "rad"}
+# What a rate adds to the unit of its coordinate.
 _PER_TIME = {"velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
 
 
-def _columns(head: str, path: Path, at: Any) -> dict[str, Floats]:
-    """Position and three rates of one coordinate."""
-    places = {head: path.position[..., at] if at is not ... else path.position}
-    for rate in _PER_TIME:
-        values = getattr(path, rate)
-        if values is None:
-            continue
-        places[f"{head}.{rate}"] = values[..., at] if at is not ... else values
-    return places
+def _rates_of(path: Path, at: Any = slice(None)) -> dict[str, Floats]:
+    """The derivatives of a path by time, as far as they are known."""
+    known = {rate: getattr(path, rate) for rate in _PER_TIME}
+    return {rate: values[..., at] for rate, values in known.items() if values is not None}
 
 
 @public

@@ -7,25 +7,41 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.figure.style import ADDRESS_LETTERS, BLUE, INK, RED, panels, shortened, styled
-from linkwright.sensitivity.tables import ROWS, ranked
+from linkwright.sensitivity.tables import ROWS
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from linkwright.sensitivity.gradient import Gradient
 
 
 @styled
-def influence_figure(gradient: Gradient, response: str) -> Figure:
-    """Draw by how much a response changes for 1 % more of each entry, what matters most at the top.
+def influence_figure(gradient: Gradient, *responses: str) -> Figure:
+    """Draw by how much responses change for 1 % more of each entry, what matters most at the top.
 
-    `response`: one of ``gradient.responses`` that is not zero.
+    `responses`: those of ``gradient.responses`` that are wanted, none of them zero.
     """
+    shown = {response: _shown(gradient, response) for response in responses}
+    height = sum(0.9 + 0.24 * max(len(entries), 3) for entries in shown.values())
+    figure, axes = panels(len(shown), height=height, shared=False)
+    for axis, (response, entries) in zip(axes, shown.items(), strict=True):
+        _bars(axis, gradient, gradient.responses.index(response), entries)
+    return figure
+
+
+def _shown(gradient: Gradient, response: str) -> list[int]:
+    """Places of the variables that have a bar, what matters most last."""
     row = gradient.responses.index(response)
-    shown = [at for at in ranked(gradient, response) if np.isfinite(gradient.elasticities[row, at])][:ROWS]
-    shares = gradient.elasticities[row, shown][::-1]
-    names = [shortened(gradient.variables[at], ADDRESS_LETTERS) for at in shown][::-1]
-    figure, (axes,) = panels(1, height=0.9 + 0.24 * max(len(shown), 3))
+    return [at for at in gradient.ranked(response) if np.isfinite(gradient.elasticities[row, at])][:ROWS][
+        ::-1
+    ]
+
+
+def _bars(axes: Axes, gradient: Gradient, row: int, shown: list[int]) -> None:
+    """The bars of one response."""
+    shares = gradient.elasticities[row, shown]
+    names = [shortened(gradient.variables[at], ADDRESS_LETTERS) for at in shown]
     axes.barh(range(len(names)), shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)
     axes.set_yticks(range(len(names)), names)
     axes.axvline(0.0, color=INK, linewidth=0.8)
@@ -44,4 +60,3 @@ def influence_figure(gradient: Gradient, response: str) -> Figure:
             va="center",
             fontsize=8,
         )
-    return figure

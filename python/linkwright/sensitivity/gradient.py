@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from numbers import Number
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -26,6 +26,17 @@ from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, entry_of, kind
 from linkwright.machine.machine import Machine
 from linkwright.sensitivity.sources import SOURCES, Source, analysis_of, chosen, source, usual_analysis
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+
+# Elasticity that is rounding error: a derivative is exact to some 1e-14 of the largest of its sum.
+ROUNDED = 1e-13
+
+# Entries of each response that a notebook shows; `to_frame` has all. Responses of a figure without names.
+_SHOWN, _PLOTTED = 8, 6
 
 
 @dataclass(frozen=True)
@@ -65,11 +76,15 @@ class Gradient(Result):
     @public
     def of(self, response: str) -> dict[str, float]:
         """Derivatives of one response by address [SI]; NaN where there is none."""
+        row = self.derivatives[self._row(response)]
+        return dict(zip(self.variables, row.tolist(), strict=True))
+
+    def _row(self, response: str) -> int:
+        """Place of a response."""
         if response not in self.responses:
             hint = suggestion(response, self.responses) or "see those of .responses"
             raise InputError(f"response: found {cut(response)}, which was not derived; {hint}")
-        row = self.derivatives[self.responses.index(response)]
-        return dict(zip(self.variables, row.tolist(), strict=True))
+        return self.responses.index(response)
 
     @public
     def only(self, responses: Sequence[str]) -> Gradient:
@@ -85,6 +100,77 @@ class Gradient(Result):
             derivatives=self.derivatives[rows],
             ties={name: why for name, why in self.ties.items() if name in names},
         )
+
+    @public
+    def ranked(self, response: str) -> list[int]:
+        """Places of the variables by their influence: change of the response for 1 % of each, largest first.
+
+        Entries that are zero follow, by the size of the derivative. Rounding errors are left out.
+        """
+        row = self._row(response)
+        slopes = self.derivatives[row]
+        effect = np.abs(slopes * self.at)
+        is_rounding = (self.at != 0) & (effect <= ROUNDED * np.abs(self.values[row]))
+        known = np.flatnonzero(np.isfinite(slopes) & (slopes != 0) & ~is_rounding).tolist()
+        return sorted(known, key=lambda at: (-effect[at], -abs(slopes[at])))
+
+    def curves(self) -> dict[str, np.ndarray]:
+        """None: derivatives run over nothing."""
+        return {}
+
+    def shown_rows(self) -> Iterator[tuple[str, str, float | tuple[float, float], str]]:
+        """Each response, and its derivatives by the entries that influence it most."""
+        for row, response in enumerate(self.responses):
+            yield self.words[row], "", float(self.values[row]), self.units[row]
+            for at in self.ranked(response)[:_SHOWN]:
+                words = f"by {self.variables[at]}"
+                yield words, "", float(self.derivatives[row, at]), derivative_unit(self, row, at)
+
+    def to_frame(self) -> pd.DataFrame:
+        """The derivatives as a table: a row for each variable, a column for each response.
+
+        Returns
+        -------
+        pandas.DataFrame
+            SI; NaN where `ties` says that there is no derivative.
+
+        Raises
+        ------
+        InputError
+            pandas is not installed, an extra; the message has the command that installs it.
+        """
+        from linkwright.kernel.extras import require
+
+        require("pandas", "frame", "to_frame needs pandas")
+        import pandas as pd
+
+        index = pd.Index(self.variables, name="variable")
+        return pd.DataFrame(self.derivatives.T, index=index, columns=list(self.responses))
+
+    def plot(self, *names: str) -> Figure:
+        """The change of responses for 1 % more of each entry as bars, those that matter most at the top.
+
+        Parameters
+        ----------
+        *names : str
+            Responses, such as ``"steady_state.unevenness"``; the first six without any.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            A notebook shows it; ``figure.savefig(path)`` writes it.
+
+        Raises
+        ------
+        InputError
+            There is no such response, or none that is not zero.
+        """
+        from linkwright.sensitivity.figures import influence_figure
+
+        drawn = [name for name in names or self.responses if self.values[self._row(name)] != 0]
+        if not drawn:
+            raise InputError("a response that is zero has no share of change to plot; use .to_frame()")
+        return influence_figure(self, *(drawn if names else drawn[:_PLOTTED]))
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Derivatives and elasticities by response and address, as far as there are some."""
@@ -104,6 +190,12 @@ class Gradient(Result):
         at = dict(zip(self.variables, self.at.tolist(), strict=True))
         reasons = {"ties": self.ties, "refused": self.refused, "missing": self.missing}
         return tables | {"values": values, "at": at} | reasons
+
+
+def derivative_unit(gradient: Gradient, row: int, at: int) -> str:
+    """Unit of the derivative of a response by a variable, both by their places."""
+    unit = gradient.variable_units[at]
+    return f"{gradient.units[row]} per {unit}".strip() if unit else gradient.units[row]
 
 
 @public

@@ -50,7 +50,7 @@ class SideChange:
     def __str__(self) -> str:
         """A sentence."""
         to = "the lifting flank" if self.side > 0 else "the other flank"
-        text = f"the force goes to {to} at {np.degrees(self.cam_angle):.4g}°"
+        text = f"the force goes to {to} at cam angle θ = {np.degrees(self.cam_angle):.4g}°"
         if self.impact_speed:
             text += f", through the clearance with {self.impact_speed:.4g} m/s at its end"
         return text

@@ -112,9 +112,9 @@ class StemGuide:
         if (overhang < 0).any():
             k = int(np.argmin(overhang))
             raise FindingError(
-                f"the lift of {course.lift[k]:.6g} m at {np.degrees(course.cam_angle[k]):.4g}° moves the "
-                f"end of the follower into its guide, {self.overhang:.6g} m away; increase the overhang by "
-                f"{-overhang[k]:.6g} m"
+                f"the lift of {course.lift[k]:.6g} m at cam angle θ = "
+                f"{np.degrees(course.cam_angle[k]):.4g}° moves the end of the follower into its guide, "
+                f"{self.overhang:.6g} m away; increase the overhang by {-overhang[k]:.6g} m"
             )
         lever = overhang - 0.5 * self.coefficient * push.moving * self.diameter
         far = (course.offset * push.along + lever * push.across) / self.length

@@ -54,7 +54,7 @@ _NORMAL = (
 class ContactForce(Result):
     """Forces between cam and follower over the cam angle."""
 
-    cam_angle: Annotated[Floats, Label("cam angle", "φ", "rad")]
+    cam_angle: Annotated[Floats, Label("cam angle", "θ", "rad")]
     force_along: Annotated[
         Floats,
         Label(
@@ -97,7 +97,7 @@ class ContactForce(Result):
     jammed: Annotated[Bools, About("Where no force of the cam moves the follower, shape (n,).")]
     lost: Annotated[Bools, About("Where a force-closed follower leaves the cam, shape (n,).")]
     normal_max: Annotated[float, Label("maximum normal force", "N_max", "N", "Largest size.")]
-    normal_max_angle: Annotated[float, Label("cam angle of the maximum normal force", "φ(N_max)", "rad")]
+    normal_max_angle: Annotated[float, Label("cam angle of the maximum normal force", "θ(N_max)", "rad")]
     normal_min: Annotated[float, Label("minimum normal force", "N_min", "N")]
     torque_max: Annotated[
         float, Label("maximum driving torque of the cam shaft", "", "N m", "Over the angles given.")
@@ -287,7 +287,8 @@ def _stretches(flags: Bools) -> Iterator[tuple[int, int]]:
 def _from_to(course: CamCourse, low: int, high: int) -> str:
     """A range of angles in words."""
     first, last = np.degrees(course.cam_angle[[low, high]])
-    return f"at {first:.4g}°" if low == high else f"from {first:.4g}° to {last:.4g}°"
+    angle = "cam angle θ ="
+    return f"at {angle} {first:.4g}°" if low == high else f"from {angle} {first:.4g}° to {last:.4g}°"
 
 
 def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, jammed: Bools) -> Iterator[str]:
@@ -298,7 +299,7 @@ def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, ja
         limit = _limit(course, bearing, friction, side, k)
         yield (
             f"the follower jams {_from_to(course, low, high)}: the pressure angle is "
-            f"{np.degrees(course.pressure_angle[k]):.4g}° at {np.degrees(course.cam_angle[k]):.4g}°, and "
+            f"{np.degrees(course.pressure_angle[k]):.4g}° at θ = {np.degrees(course.cam_angle[k]):.4g}°, and "
             f"friction allows {np.degrees(limit):.4g}° there; give a larger base circle, a longer guide, "
             "less overhang or less friction"
         )
@@ -332,5 +333,5 @@ def _losses(course: CamCourse, force: Floats, lost: Bools) -> Iterator[str]:
         k = low + int(np.argmin(force[low : high + 1]))
         yield (
             f"the follower leaves the cam {_from_to(course, low, high)}: increase the force along its "
-            f"path by {-force[k]:.4g} at {np.degrees(course.cam_angle[k]):.4g}°"
+            f"path by {-force[k]:.4g} at θ = {np.degrees(course.cam_angle[k]):.4g}°"
         )

@@ -100,7 +100,7 @@ class CamCourse(PlainRecord):
     Attributes
     ----------
     cam_angle : ndarray, shape (n,)
-        φ, increasing [rad].
+        θ, increasing [rad].
     lift, lift_d1, lift_d2 : ndarray, shape (n,)
         s, s′, s″ [m, or rad of an oscillating follower].
     pressure_angle : ndarray, shape (n,)
@@ -175,7 +175,7 @@ def cam_course(
     Parameters
     ----------
     cam_angle : array_like, shape (n,)
-        φ, increasing [rad].
+        θ, increasing [rad].
     lift : tuple of array_like, shape (n,)
         s, s′, s″ [m, or rad of an oscillating follower].
     speed, acceleration : array_like, shape (n,) or ()

@@ -69,7 +69,7 @@ class FollowerVibration(Result):
     """Motion of the follower's mass over one revolution."""
 
     cam_angle: Annotated[
-        Floats, Label("cam angle", "φ", "rad", "One revolution in even steps.", shape="(n + 1,)")
+        Floats, Label("cam angle", "θ", "rad", "One revolution in even steps.", shape="(n + 1,)")
     ]
     lift: Annotated[Floats, Label("lift", "s", "m")]
     position: Annotated[Floats, Label("position of the mass", "x", "m")]
@@ -137,7 +137,7 @@ class Train:
     def force_slope(self, step: Indices, phi: Floats) -> Floats:
         """Derivative of the force by the cam angle.
 
-        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → dF/dφ
+        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → dF/dθ
         [N/rad], (m,).
         """
         return self._force(self.departure.at(step, phi), step, phi, 1)
@@ -243,13 +243,13 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     """What a designer must know."""
     sentences = [
         f"the velocity of the lift jumps by {impulse.velocity_step:.4g} m/s at "
-        f"{np.degrees(impulse.cam_angle):.4g}°: impact"
+        f"cam angle θ = {np.degrees(impulse.cam_angle):.4g}°: impact"
         for impulse in impulses
     ]
     if low.value <= 0:
         sentences.append(
-            f"the train would have to pull with {-low.value:.4g} N at {np.degrees(low.at):.4g}°: the "
-            f"follower leaves the cam there; increase the preload by {-low.value:.4g} N"
+            f"the train would have to pull with {-low.value:.4g} N at cam angle θ = "
+            f"{np.degrees(low.at):.4g}°: the follower leaves the cam there; increase the preload by {-low.value:.4g} N"
         )
     return tuple(sentences)
 

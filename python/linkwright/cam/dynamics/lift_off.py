@@ -2,7 +2,7 @@ r"""At which speed a spring-closed follower leaves its cam, and which preload ho
 
 Without friction the follower presses along its way with
 
-.. math:: F(\varphi, \omega) = m s''\omega^2 + c s'\omega + ks + F_0 + F_\mathrm{load}
+.. math:: F(\theta, \omega) = m s''\omega^2 + c s'\omega + ks + F_0 + F_\mathrm{load}
 
 It first leaves the cam at the speed at which the minimum F over the revolution becomes zero; without damper,
 at
@@ -57,7 +57,7 @@ class LiftOff(Result):
             "minimum speed at which the follower leaves the cam", "ω", "rad/s", "Infinite if it never does."
         ),
     ]
-    cam_angle: Annotated[float, Label("cam angle where it leaves first", "φ", "rad")]
+    cam_angle: Annotated[float, Label("cam angle where it leaves first", "θ", "rad")]
     lift_d2: Annotated[float, Label("second derivative of the lift there", "s″", "m/rad²")]
     force_spring: Annotated[float, Label("force of spring and load there", "", "N", "ks + F₀ + F_load.")]
 
@@ -93,8 +93,8 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     low = held.extremes()[0]
     if low.value <= 0:
         raise FindingError(
-            f"at rest the follower does not stay on the cam at {np.degrees(low.at):.4g}°: spring and load "
-            f"give a contact force of {low.value:.4g} N; increase the preload by at least {-low.value:.4g} "
+            f"at rest the follower does not stay on the cam at cam angle θ = {np.degrees(low.at):.4g}°: "
+            f"spring and load give a contact force of {low.value:.4g} N; increase the preload by at least {-low.value:.4g} "
             "N"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
@@ -107,7 +107,7 @@ def _no_drop(lift: MotionLaw, consequence: str) -> None:
     if (drops < 0).any():
         k = int(np.argmin(drops))
         raise FindingError(
-            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at "
+            f"the velocity of the lift drops by {-drops[k]:.4g} m/rad at cam angle θ = "
             f"{np.degrees(lift.breaks[k]):.4g}°: {consequence}; choose a law with continuous velocity"
         )
 

@@ -45,7 +45,7 @@ Limit = tuple[float, str, str]
 # A limit is drawn within so many times the largest value.
 _FAR = 2.5
 
-_ANGLE = "cam angle from the start of the programme [°]"
+_ANGLE = "cam angle θ from the start of the programme [°]"
 
 # Points of a curve between two joints of its law: chords of an eighth of a degree and finer cannot be seen.
 _POINTS = 721
@@ -53,7 +53,7 @@ _POINTS = 721
 
 @styled
 def lift_figure(profile: CamProfile) -> Figure:
-    """Draw lift, velocity, acceleration and jerk over the cam angle."""
+    """Draw lift, velocity, acceleration and jerk over the cam angle θ."""
     figure, axes = panels(4, height=7.6)
     swings = profile.cam.is_oscillating
     scale, unit, letter = (180 / math.pi, "°", "ψ") if swings else (1e3, "mm", "s")

@@ -45,7 +45,8 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
 
 def _cam_words(profile: CamProfile) -> str:
     """What is drawn, and its circles."""
-    words = "Position at the start of the programme, seen along the line to the follower's guide or pivot. "
+    words = "Position at the start of the programme, θ = 0, seen along the line to the follower's guide "
+    words += "or pivot. "
     words += f"Base circle {_mm(profile.base_radius)}"
     if profile.prime_radius > profile.base_radius:
         words += f", prime circle {_mm(profile.prime_radius)}"
@@ -68,12 +69,12 @@ def _lift_words(profile: CamProfile) -> str:
         for order, name in enumerate(names)
     }
     sentences = [
-        f"the {name} jumps at {', '.join(degrees(angle) for angle in angles)}"
+        f"the {name} jumps at θ = {', '.join(degrees(angle) for angle in angles)}"
         for name, angles in jumps.items()
         if angles
     ]
     verb = "swings" if swings else "rises"
-    return f"The follower {verb} by {reach}; derivatives are by the cam angle. " + (
+    return f"The follower {verb} by {reach}; derivatives are by the cam angle θ. " + (
         f"At segment boundaries (dotted), {'; '.join(sentences)}."
         if sentences
         else "It is continuous up to the jerk."

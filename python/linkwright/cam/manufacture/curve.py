@@ -148,7 +148,8 @@ def _refuse_gaps(parts: list[Stretch], extent: float) -> None:
         length = math.hypot(*gap)
         if not length <= SAME * extent:
             raise ExchangeError(
-                f"the curve has a gap of {1e3 * length:.6g} mm at cam angle {math.degrees(after.low):.6g}°: "
+                f"the curve has a gap of {1e3 * length:.6g} mm at cam angle θ = "
+                f"{math.degrees(after.low):.6g}°: "
                 "only a closed outline can be manufactured; choose a motion law that closes there"
             )
 
@@ -164,7 +165,7 @@ def _refuse_cusps(part: Stretch) -> None:
         i = int(back[0])
         phi = _samples(phi[i], phi[i + 1])
     raise ExchangeError(
-        f"the curve turns back on itself at cam angle {math.degrees(phi[0]):.6g}°: it is undercut "
+        f"the curve turns back on itself at cam angle θ = {math.degrees(phi[0]):.6g}°: it is undercut "
         "there and has no outline; a larger base circle, a smaller roller or cutter, or a softer motion law "
         "gives one"
     )

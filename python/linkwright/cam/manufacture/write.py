@@ -69,8 +69,7 @@ def _compare(file: File, layer: str, outline: FileOutline, track: Track, toleran
     if not measured.largest <= tolerance:
         raise ExchangeError(
             f"{file}: the outline of layer {layer} is {1e3 * measured.largest:.6g} mm from the curve at "
-            "cam angle "
-            f"{np.degrees(measured.angle):.6g}°; the tolerance is {1e3 * tolerance:.6g} mm"
+            f"cam angle θ = {np.degrees(measured.angle):.6g}°; the tolerance is {1e3 * tolerance:.6g} mm"
         )
     return MeasuredOutline(layer, outline.form, measured, tolerance)
 

@@ -10,14 +10,14 @@ The second follower is fixed to the first, so it falls as that rises: its lift i
 first. Each contact has its own frame: its follower on the x axis, the cam as it stands where the programme
 begins.
 
-With d(φ) the distance of the follower from the cam's centre, two on opposite sides touch one cam at every
+With d(θ) the distance of the follower from the cam's centre, two on opposite sides touch one cam at every
 angle if the cam has the same diameter
 
-.. math:: d(\varphi) + d(\varphi + \pi) = b
+.. math:: d(\theta) + d(\theta + \pi) = b
 
 at every angle (points and rollers: diameter of the pitch curve; flat faces: breadth, d the support
-function). So the lift over the second half of the revolution must be that of the first, mirrored: s(φ + π) =
-h − s(φ).
+function). So the lift over the second half of the revolution must be that of the first, mirrored: s(θ + π) =
+h − s(θ).
 
 References
 ----------

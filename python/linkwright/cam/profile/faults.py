@@ -87,6 +87,11 @@ def _degrees(angle: float) -> str:
     return f"{np.degrees(angle) % 360:.4g}°"
 
 
+def _theta(angle: float) -> str:
+    """A cam angle, which counts from the start of the programme and not as the crank angle φ does."""
+    return f"cam angle θ = {_degrees(angle)}"
+
+
 def _mm(length: float) -> str:
     return f"{1e3 * length:.5g} mm"
 
@@ -106,11 +111,11 @@ def _undercut_range(flank: Flank, worst: float) -> str:
         return (
             "over the whole revolution"
             if (flank.shape.rows["soundness"] < 0).all()
-            else f"at {_degrees(worst)}"
+            else f"at {_theta(worst)}"
         )
     ends = [up[np.argmax(up > a)] if (up > a).any() else up[0] for a in down]
     spans = [f"{_degrees(a)} to {_degrees(b)}" for a, b in zip(down, ends, strict=True)]
-    return "from cam angle " + ", ".join(spans[:4]) + (", …" if len(spans) > 4 else "")
+    return "from cam angle θ = " + ", ".join(spans[:4]) + (", …" if len(spans) > 4 else "")
 
 
 def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
@@ -131,12 +136,11 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
             change = f"a roller of less than {_mm(1 / worst.value)} radius, or {change}"
             what = (
                 f"the pitch curve's radius of curvature is {_mm(1 / worst.value)} at "
-                f"{_degrees(worst.angle)}, and the roller's radius {_mm(size.roller_radius)}"
+                f"{_theta(worst.angle)}, and the roller's radius {_mm(size.roller_radius)}"
             )
         else:
             what = (
-                f"under the flat face its radius of curvature is {_mm(worst.value)} "
-                f"at {_degrees(worst.angle)}"
+                f"under the flat face its radius of curvature is {_mm(worst.value)} at {_theta(worst.angle)}"
             )
         where = _undercut_range(flank, worst.angle)
         yield f"{_subject(profile, flank)} is undercut {where}: {what}; use {change}"
@@ -146,7 +150,7 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
         if least <= size.roller_radius:
             yield (
                 f"{_subject(profile, flank)}: the outer flank of the groove is undercut at "
-                f"{_degrees(hollow.angle)}, where the concave radius of the pitch curve is {_mm(least)} "
+                f"{_theta(hollow.angle)}, where the concave radius of the pitch curve is {_mm(least)} "
                 f"and the roller radius {_mm(size.roller_radius)}; use a roller of less than {_mm(least)} "
                 "radius, or a larger base radius"
             )
@@ -183,7 +187,7 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
     gamma = flank.shape.rows["pressure_angle"]
     worst = int(np.argmax(np.abs(gamma)))
     if not np.isfinite(gamma).all():
-        where = _degrees(float(flank.shape.angle[int(np.argmin(np.isfinite(gamma)))]))
+        where = _theta(float(flank.shape.angle[int(np.argmin(np.isfinite(gamma)))]))
         yield f"{_subject(profile, flank)}: at {where} the follower is beyond its reach"
     elif abs(gamma[worst]) >= np.pi / 2:
         base = base_for_pressure_angle(profile.cam, flank.contact, profile.cam.limit)
@@ -191,7 +195,7 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
         change = _size_for(profile, flank, base) or "a smaller swing"
         yield (
             f"{_subject(profile, flank)} cannot move its follower at "
-            f"{_degrees(float(flank.shape.angle[worst]))}: the pressure angle is "
+            f"{_theta(float(flank.shape.angle[worst]))}: the pressure angle is "
             f"{np.degrees(abs(gamma[worst])):.4g}°; use {change}{limit}"
         )
 
@@ -210,8 +214,9 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
         base = base_without_crossing(flank.contact)
         change = _size_for(profile, flank, base) or "longer sections or a smaller lift"
         yield (
-            f"the profile of {_subject(profile, flank)} crosses itself: at {at[0]} and {at[1]} it passes "
-            f"the same point, ({1e3 * x:.4g}, {1e3 * y:.4g}) mm; use {change}"
+            f"the profile of {_subject(profile, flank)} crosses itself: at cam angles "
+            f"θ = {at[0]} and {at[1]} it passes the same point, "
+            f"({1e3 * x:.4g}, {1e3 * y:.4g}) mm; use {change}"
         )
 
 
@@ -229,7 +234,7 @@ def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
     elif cutter is not None and concave is not None and cutter >= concave.value:
         yield (
             f"{_subject(profile, flank)} cannot be cut with a cutter of {_mm(cutter)} radius: at "
-            f"{_degrees(concave.angle)} the concave radius of the profile is {_mm(concave.value)}; use a "
+            f"{_theta(concave.angle)} the concave radius of the profile is {_mm(concave.value)}; use a "
             "smaller cutter"
         )
 
@@ -244,9 +249,9 @@ def _diameter(profile: CamProfile) -> Iterator[str]:
     what = "too thick" if apart > 0 else "too thin"
     yield (
         f"cam {profile.name} is not of constant {profile.cam.closure.removeprefix('constant_')}: at "
-        f"{_degrees(worst.angle)} it is {_mm(abs(apart))} {what} for followers "
+        f"{_theta(worst.angle)} it is {_mm(abs(apart))} {what} for followers "
         f"{_mm(both.breadth)} apart; the second half revolution of the motion must mirror the first, "
-        "s(φ + 180°) = h − s(φ), or one follower held by a spring"
+        "s(θ + 180°) = h − s(θ), or one follower held by a spring"
     )
 
 
@@ -261,7 +266,7 @@ def _steep(profile: CamProfile) -> Iterator[str]:
     remedy = f"use {size}" if size else "no base radius suffices"
     yield (
         f"the pressure angle of {_subject(profile, flank)} reaches "
-        f"{np.degrees(profile.pressure_angle_max):.4g}° at {_degrees(profile.pressure_angle_max_angle)}, "
+        f"{np.degrees(profile.pressure_angle_max):.4g}° at {_theta(profile.pressure_angle_max_angle)}, "
         f"above {np.degrees(limit):.4g}°: {remedy}"
     )
 
@@ -276,15 +281,15 @@ def _tight(profile: CamProfile) -> Iterator[str]:
         base = base_for_curvature(profile.cam, flank.contact, limit)
         yield (
             f"the profile of {_subject(profile, flank)} has a radius of curvature of {_mm(convex.value)} at "
-            f"{_degrees(convex.angle)}, below {_mm(limit)}: use "
+            f"{_theta(convex.angle)}, below {_mm(limit)}: use "
             f"{_size_for(profile, flank, base) or 'another law or a smaller lift'}"
         )
 
 
 def _places(angles: list[float]) -> str:
-    """Some angles, the first of many."""
+    """Some cam angles, the first of many."""
     more = f" and {len(angles) - _NAMED} more" if len(angles) > _NAMED else ""
-    return ", ".join(_degrees(angle) for angle in angles[:_NAMED]) + more
+    return "cam angle θ = " + ", ".join(_degrees(angle) for angle in angles[:_NAMED]) + more
 
 
 def _jumps(profile: CamProfile) -> Iterator[str]:

@@ -102,7 +102,7 @@ class CamProfile(Result):
         Floats,
         Label(
             "cam angle",
-            "φ",
+            "θ",
             "rad",
             "From the start of the programme, increasing; joints of the law stand twice.",
         ),
@@ -163,7 +163,7 @@ class CamProfile(Result):
         float, Label("maximum pressure angle", "γ_max", "rad", "Peak absolute value over all contacts.")
     ]
     pressure_angle_max_angle: Annotated[
-        float, Label("cam angle of the maximum pressure angle", "φ(γ_max)", "rad")
+        float, Label("cam angle of the maximum pressure angle", "θ(γ_max)", "rad")
     ]
     curvature_radius_min: Annotated[
         float | None,
@@ -175,7 +175,7 @@ class CamProfile(Result):
         ),
     ]
     curvature_radius_min_angle: Annotated[
-        float | None, Label("cam angle of the minimum radius of curvature", "φ(ρ_min)", "rad")
+        float | None, Label("cam angle of the minimum radius of curvature", "θ(ρ_min)", "rad")
     ]
     curvature_radius_convex_min: Annotated[
         float | None,

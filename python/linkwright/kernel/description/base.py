@@ -1,7 +1,7 @@
 """What all descriptions share: they are frozen, know their keys, and report all their faults at once."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, NoReturn, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 from pydantic_core import InitErrorDetails, PydanticCustomError
@@ -9,7 +9,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.limits import NAME, TITLE
 from linkwright.kernel.public.arguments import shown
-from linkwright.kernel.public.immutable import held
+from linkwright.kernel.public.immutable import held, refuse
 from linkwright.kernel.units import show
 
 
@@ -38,6 +38,14 @@ class Description(BaseModel):
             remedy = suggestion(str(strange[0]), known) or f"one of {', '.join(known)}"
             raise InputError(f"entries: found {shown(strange[0])}, expected an entry of the part; {remedy}")
         return self.model_copy(update={name: held(value) for name, value in entries.items()})
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        """Refuse the change: a description may be part of many machines, and of their compiled programs."""
+        refuse(self, name, f'.with_entries({{"{name}": value}})' if name in type(self).model_fields else "")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        """Refuse the change likewise."""
+        self.__setattr__(name, None)
 
     def model_post_init(self, context: Any, /) -> None:
         """Hold tables that nobody writes to."""

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled
-from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
+from linkwright.kernel.quantities import quantities_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,47 +21,62 @@ _HEIGHT = 1.9
 _LETTERS = 22
 
 
+class _PlotCurve(NamedTuple):
+    """A curve of a result."""
+
+    word: str
+    unit: str
+    over: str  # name of what it runs over
+    values: Floats
+
+
 @styled
 def plotted(result: Any, names: tuple[str, ...]) -> Figure:
-    """Draw curves of a result, all without names, over what they run over.
+    """Draw curves of a result, the usual ones without names, over what they run over.
 
     Raises `InputError` if it has no such curve, none at all, or if they run over different quantities.
     """
-    owner: type = type(result)
-    known = {quantity.name: quantity for quantity in quantities_of(owner) if quantity.kind == "curve"}
-    drawn = {
-        name: quantity
-        for name, quantity in known.items()
-        if quantity.over in known and _is_drawn(result, quantity)
-    }
+    known = _curves(result)
+    drawn = {name: curve for name, curve in known.items() if curve.over in known}
     for name in names:
         if name not in drawn:
             raise InputError(f"no curve {name!r} of this result: {suggestion(name, drawn)}")
-    chosen = [drawn[name] for name in names or drawn]
+    chosen = [drawn[name] for name in names or result.usual_curves() if name in drawn]
     if not chosen:
-        raise InputError(f"{owner.__name__} has no curves to plot")
+        raise InputError(f"{type(result).__name__} has no curves to plot")
     over = chosen[0].over
-    if strange := [quantity.name for quantity in chosen if names and quantity.over != over]:
+    if strange := [name for name in names if drawn[name].over != over]:
         raise InputError(f"{strange[0]} runs over {drawn[strange[0]].over}, not over {over}: plot it alone")
-    return _figure(result, known[over], [quantity for quantity in chosen if quantity.over == over])
+    return _figure(known[over], [curve for curve in chosen if curve.over == over])
 
 
-def _is_drawn(result: Any, quantity: DeclaredQuantity) -> bool:
-    """Whether there are as many values as places."""
-    values, places = getattr(result, quantity.name, None), getattr(result, quantity.over, None)
-    return isinstance(values, np.ndarray) and isinstance(places, np.ndarray) and values.shape == places.shape
+def _curves(result: Any) -> dict[str, _PlotCurve]:
+    """All curves of a result by name; those of its parts run over its first one."""
+    owner: type = type(result)
+    words = {quantity.name: quantity for quantity in quantities_of(owner)}
+    columns = result.curves()
+    first = next(iter(columns), "")
+    own = {name: getattr(result, name, None) for name, quantity in words.items() if quantity.kind == "curve"}
+    columns = {name: values for name, values in own.items() if isinstance(values, np.ndarray)} | columns
+    curves = {}
+    for name, values in columns.items():
+        over = words[name].over if name in words else first
+        if not over or values.shape == columns.get(over, values[:0]).shape:
+            word = words[name].word if name in words else named(name)
+            curves[name] = _PlotCurve(word, result.unit_of(name), over, values)
+    return curves
 
 
-def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity]) -> Figure:
-    units = list(dict.fromkeys(result.unit_of(quantity.name) for quantity in chosen))
+def _figure(over: _PlotCurve, chosen: list[_PlotCurve]) -> Figure:
+    units = list(dict.fromkeys(curve.unit for curve in chosen))
     figure, axes = panels(len(units), height=_HEIGHT * len(units) + 0.5)
-    x, unit = getattr(result, over.name), result.unit_of(over.name)
+    x, unit = over.values, over.unit
     if unit == "rad":
         x, unit = np.degrees(x), "°"
     for axis, own in zip(axes, units, strict=True):
-        curves = [quantity for quantity in chosen if result.unit_of(quantity.name) == own]
+        curves = [curve for curve in chosen if curve.unit == own]
         for curve, colour in zip(curves, LINES * len(curves), strict=False):
-            axis.plot(x, getattr(result, curve.name), color=colour, label=curve.word)
+            axis.plot(x, curve.values, color=colour, label=curve.word)
         word = curves[0].word if len(curves) == 1 else ""
         # Long words stand in several lines, so that they do not run into those of the next axis.
         words = fill(word, _LETTERS)

@@ -44,15 +44,18 @@ def result_html(result: Any, title: str = "") -> str:
             rows.append(
                 (quantity.word, with_index(quantity.symbol), *parted(value, result.unit_of(quantity.name)))
             )
-    drawn = result.curves()
-    curves = [
-        quantity.name
-        for quantity in declared
-        if quantity.kind == "curve" and quantity.over and quantity.name in drawn
-    ]
-    if curves:
+    rows += [(word, with_index(symbol), *_parted(*value)) for word, symbol, *value in result.shown_rows()]
+    if curves := result.usual_curves():
         rows.append(("curves, for .plot()", "", ", ".join(curves), ""))
     return table_html(title or owner.__name__, rows)
+
+
+def _parted(value: float | tuple[float, float], unit: str) -> tuple[str, str]:
+    """A number, or the ends of a range, and the unit."""
+    if not isinstance(value, tuple):
+        return parted(value, unit)
+    (low, _), (high, shown) = (parted(end, unit) for end in value)
+    return f"{low} … {high}", shown
 
 
 def study_html(study: Any, results: Mapping[str, Any]) -> str:

@@ -15,7 +15,7 @@ from itertools import zip_longest
 from typing import Any, ParamSpec, TypeVar
 
 from linkwright.kernel.public.arguments import checks_of
-from linkwright.kernel.public.immutable import freeze
+from linkwright.kernel.public.immutable import freeze, keep
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -26,6 +26,7 @@ T = TypeVar("T")
 
 def public_type(kind: type[T]) -> type[T]:
     """Check what a frozen dataclass, such as users make themselves, is made of by its annotations."""
+    keep(kind)
     kind.__init__ = public(kind.__init__)  # type: ignore[method-assign]
     return kind
 

@@ -1,4 +1,4 @@
-"""Descriptions and results that stay as they are: tables that cannot be written to, and arrays likewise."""
+"""Descriptions and results that stay as they are: attributes, tables and arrays that cannot be written to."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import fields, is_dataclass
 from typing import Any, NoReturn, TypeVar
 
 import numpy as np
+
+from linkwright.kernel.errors import FrozenError
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -138,7 +140,32 @@ def _names(kind: type) -> frozenset[str]:
     """Names of the fields of a dataclass; looking them up once takes as long as a small call."""
     if kind not in _known_names:
         _known_names[kind] = frozenset(field.name for field in fields(kind))
+        keep(kind)
     return _known_names[kind]
+
+
+def keep(kind: type) -> None:
+    """Let a frozen dataclass refuse a change of its attributes in words that tell what to do."""
+    if kind.__dataclass_params__.frozen:  # type: ignore[attr-defined]
+        kind.__setattr__ = kind.__delattr__ = _refuse  # type: ignore[assignment, method-assign]
+
+
+def _refuse(self: Any, name: str, *_: object) -> NoReturn:
+    """Refuse to set or delete an attribute."""
+    is_field = any(field.name == name and field.init for field in fields(self))
+    refuse(self, name, f"dataclasses.replace(…, {name}=value)" if is_field else "")
+
+
+def refuse(of: object, name: str, copied: str) -> NoReturn:
+    """Refuse to set or delete an attribute of a description or a result.
+
+    `copied`: what makes a changed copy of it; empty if it has no such entry.
+    """
+    remedies = [f"{copied} returns a changed copy"] if copied else []
+    remedies.append("lw.replace(machine, {address: value}) returns a changed machine")
+    raise FrozenError(
+        f"{type(of).__name__}.{name}: descriptions and results do not change; {', '.join(remedies)}"
+    )
 
 
 _known_names: dict[type, frozenset[str]] = {}
