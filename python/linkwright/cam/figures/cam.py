@@ -177,12 +177,12 @@ def _curvature_limits(profile: CamProfile) -> list[Limit]:
         curvature_limits.append(
             (
                 1e-3 / cam.curvature_limit,
-                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', 4, usual='mm')}",
+                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', usual='mm')}",
                 RED,
             )
         )
     if cam.cutter_radius is not None and profile.curvature_radius_concave_min is not None:
-        words = f"cutter of {quantity(cam.cutter_radius, 'm', 4, usual='mm')} in hollow parts"
+        words = f"cutter of {quantity(cam.cutter_radius, 'm', usual='mm')} in hollow parts"
         curvature_limits.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
     return curvature_limits
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled, turn_axis
 from linkwright.kernel.quantities import DeclaredQuantity, quantities_of
 
 if TYPE_CHECKING:
@@ -68,6 +68,8 @@ def _figure(result: Any, over: DeclaredQuantity, chosen: list[DeclaredQuantity])
         if len(curves) > 1:
             legend_above(axis)
     axes[-1].set_xlabel(f"{over.word} [{unit}]" if unit else over.word)
+    if unit == "°":
+        turn_axis(axes[-1], x, label=False)
     return figure
 
 

@@ -32,6 +32,10 @@ _JOULE = Dimension.of("J")
 _BRACKETS = re.compile(r"\[([^\[\]]+)\]$")
 
 
+# Significant digits of numbers in tables, cards and sentences, where nobody asks for others.
+DIGITS = 4
+
+
 class _Unit(NamedTuple):
     """A unit by its spelling, its factor to SI, its dimension, and whether energies are measured in it."""
 
@@ -57,9 +61,10 @@ def _unit(text: str) -> _Unit | None:
 
 @dataclass(frozen=True)
 class OutUnits:
-    """Units for what is shown."""
+    """Units for what is shown, and its significant digits."""
 
     chosen: tuple[_Unit, ...] = ()  # the units, one of a kind
+    digits: int = DIGITS
 
     @classmethod
     def of(cls, text: str, where: str = "--units") -> OutUnits:
@@ -90,7 +95,7 @@ class OutUnits:
     def over(self, other: OutUnits) -> OutUnits:
         """These, and of another choice what these leave open."""
         rest = (unit for unit in other.chosen if not any(own.measures(unit) for own in self.chosen))
-        return OutUnits((*self.chosen, *rest))
+        return OutUnits((*self.chosen, *rest), self.digits)
 
     def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
         """The unit in which a quantity is shown, and by what its value is divided.

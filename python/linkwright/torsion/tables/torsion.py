@@ -187,7 +187,7 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
             forced.shaft_heat[s, at],
         )
         units = ("N m", "N m", "N m", "N m", "W")
-        cells = [quantity(float(value), unit, 4) for value, unit in zip(numbers, units, strict=True)]
+        cells = [quantity(float(value), unit) for value, unit in zip(numbers, units, strict=True)]
         rows.append((name, "", cells[0], rpm(float(peaks.speed[s])), *cells[1:]))
     service = rpm(forced.speeds[at])
     heads = ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat")
@@ -227,7 +227,7 @@ def _signed(text: str) -> str:
     return (text if float(text) else text.removeprefix("-")).replace("-", "−")
 
 
-def _finite(value: float, digits: int = 4) -> str:
+def _finite(value: float, digits: int | None = None) -> str:
     """A number, or a dash at a resonance that nothing damps."""
     return number(value, digits) if np.isfinite(value) else "–"
 
@@ -243,8 +243,8 @@ def _frequencies(free: FreeVibration) -> Table:
         (
             _energy(free, k),
             f"f_{k}",
-            f"{f:.6g}",
-            f"{60 * f:.6g}",
+            number(f),
+            number(60 * f),
             str(len(free.nodes[k])) if f > 0 else "–",
             _nodes(free.nodes[k]) if f > 0 else "–",
         )

@@ -190,12 +190,20 @@
       const joint = add("circle", "joint", { r: 5, "stroke-width": 2 });
       title(joint, part.name);
       const words = add("text", "name");
-      words.textContent = part.slides ? part.name : "";
+      words.textContent = part.name;
+      // Above a block; else beside the joint, away from the middle of the drawing.
+      if (!part.slides) words.setAttribute("text-anchor", "middle");
+      function aside(x, y) {
+        if (part.slides) return [-16, -24 - 15 * part.series];
+        const [dx, dy] = [x - width / 2, y - height / 2], r = Math.hypot(dx, dy) || 1;
+        return [(dx / r) * (12 + 4 * part.name.length), (dy / r) * 16 + 4];
+      }
       return (k) => {
         const [x, y] = at(part.name, k);
         centre(joint, [x, y]);
-        words.setAttribute("x", x - 16);
-        words.setAttribute("y", y - 24 - 15 * part.series);
+        const [right, down] = aside(x, y);
+        words.setAttribute("x", x + right);
+        words.setAttribute("y", y + down);
       };
     },
   };
