@@ -16,8 +16,8 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import (
     LINES,
-    angle_marks,
     legend_above,
+    mark_angles,
     named,
     panels,
     roomy,
@@ -354,7 +354,7 @@ def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
     if high > low:
         axes.set_xlim(low, high)
     if unit == "°" and high > low:
-        axes.set_xticks(angle_marks(low, high))
+        mark_angles(axes, low, high)
 
 
 def _shown(unit: str) -> tuple[str, float]:

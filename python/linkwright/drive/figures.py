@@ -147,7 +147,11 @@ def reduction_figure(reduction: Reduction) -> Figure:
     inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
     roomy(inertia, reduction.inertia_reduced)
     torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
-    level(torque, reduction.torque_load_mean, f"mean {quantity(reduction.torque_load_mean, 'N m')}")
+    level(
+        torque,
+        reduction.torque_load_mean,
+        f"mean {quantity(reduction.torque_load_mean, 'N m', scale=_size(reduction))}",
+    )
     torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
     roomy(torque, reduction.torque_load, np.array([0.0]))
     zero_line(torque)
@@ -384,14 +388,20 @@ def _run_up(study: DriveStudy) -> Iterator[CaptionedFigure]:
         yield CaptionedFigure("run_up", "Failed run-up", caption, attempt_figure(study.attempt))
 
 
+def _size(reduced: Reduction) -> float:
+    """Peak absolute load torque [N m], beside which a mean may be rounding."""
+    return float(np.abs(reduced.torque_load).max())
+
+
 def _reduction(study: DriveStudy) -> Iterator[CaptionedFigure]:
     reduced = study.reduction
     if reduced is None:
         return
     low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
     caption = (
-        f"Inertia reduced to the crank, from {quantity(low, 'kg m²')} to {quantity(high, 'kg m²')}, and load "
-        f"torque referred to the crank, {quantity(mean, 'N m')} on average."
+        f"Inertia reduced to the crank, from {quantity(low, 'kg m²', scale=high)} to "
+        f"{quantity(high, 'kg m²')}, and load torque referred to the crank, "
+        f"{quantity(mean, 'N m', scale=_size(reduced))} on average."
     )
     yield CaptionedFigure("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +33,9 @@ _FIGURES_MAX, _LINES_MAX = 6, 4
 
 # Three panels take half a page.
 _HEIGHT, _PANEL = 0.75, 1.2
+
+# Letters that a panel has room for along its axis.
+_LETTERS = 14
 
 
 def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[CaptionedFigure]:
@@ -67,7 +71,8 @@ def cycle_figure(
     for panel, (ending, word, symbol) in zip(axes, quantities, strict=True):
         _panel(panel, motion, [name + ending for name in names], names)
         unit = motion.unit_of(names[0] + ending)
-        panel.set_ylabel(f"{word} {symbol}\n[{'°' if unit == 'rad' else unit}]")
+        words = fill(f"{word} {symbol}", _LETTERS)
+        panel.set_ylabel(f"{words}\n[{'°' if unit == 'rad' else unit}]")
     if len(names) > 1:
         legend_above(axes[0])
     turn_axis(axes[-1], np.degrees(motion.crank_angle))

@@ -63,7 +63,7 @@ def hodograph_figure(forces: Forces) -> Figure:
     figure, (reactions, frame) = panels(1, height=3.6, columns=2, shared=False)
     for name, colour in zip(_largest(forces), LINES, strict=False):
         _vectors(reactions, forces, forces.pairs[name].force, colour, named(name))
-    legend_above(reactions, columns=2)
+    legend_above(reactions)
     _vectors(frame, forces, forces.shaking_force, LOAD, "on the frame")
     legend_above(frame)
     return figure

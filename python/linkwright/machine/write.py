@@ -84,17 +84,13 @@ def _spelled(value: float, kind: Kind, place: tuple[str, ...], machine: Machine,
 def _listed(values: tuple[Any, ...], place: tuple[str, ...], machine: Machine) -> Any:
     """A list as the file writes it; in SI if that is another one."""
     given, mark = _given(machine, place), mark_of(annotation_at(Machine, (*place, "0"), machine))
-    try:
-        is_same = isinstance(mark, Quantity) and tuple(parse_list(given, mark.kind)) == values
-    except UnitError:
-        is_same = False
-    return given if is_same else list(values)
+    return given if isinstance(mark, Quantity) and _reads(given, values, mark.kind) else list(values)
 
 
-def _reads(text: str, value: float, kind: Kind) -> bool:
-    """Whether a text is read as a value."""
+def _reads(given: object, value: float | tuple[float, ...], kind: Kind) -> bool:
+    """Whether an entry is read as a value, or as a list of values."""
     try:
-        return parse(text, kind) == value
+        return (tuple(parse_list(given, kind)) if isinstance(value, tuple) else parse(given, kind)) == value
     except UnitError:
         return False
 

@@ -462,7 +462,9 @@ def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
             check.title,
             "",
             measured(check.value, check.unit, abs(check.limit or 0.0)),
-            measured(check.limit, check.unit, abs(check.value or 0.0), "≤ " if check.at_most else "≥ "),
+            measured(
+                check.limit, check.unit, abs(check.value or 0.0), before="≤ " if check.at_most else "≥ "
+            ),
             words[check.passed],
             check.note,
         )

@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from linkwright.app.report.assumptions import assumed_of, assumptions
 from linkwright.app.report.figures import figures
 from linkwright.app.report.scene import moving_scene, scene
@@ -252,6 +254,7 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     if run_up is not None:
         yield "run-up time", *parted(run_up.time, "s")
     if steady is None and reduced is not None:
-        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²")
-        yield "maximum reduced inertia", *parted(reduced.inertia_max, "kg m²")
-        yield "mean load torque", *parted(reduced.torque_load_mean, "N m")
+        most, size = reduced.inertia_max, float(np.abs(reduced.torque_load).max())
+        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", scale=most)
+        yield "maximum reduced inertia", *parted(most, "kg m²")
+        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", scale=size)

@@ -76,7 +76,7 @@ def lift_figure(profile: CamProfile) -> Figure:
 def cam_figure(profile: CamProfile) -> Figure:
     """Draw the cam with its followers, as it stands where the programme begins."""
     parts = _parts(profile)
-    figure, axes = panels(1, height=5.6 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
+    figure, axes = panels(1, height=4.3 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
     for axis, flank in zip(axes, parts, strict=True):
         _draw_cam(axis, profile, flank)
         followers = (flank,) if profile.cam.closure == "conjugate" else profile.flanks

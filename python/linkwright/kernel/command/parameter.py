@@ -34,9 +34,6 @@ _WHOLE_MAX = 2**53
 # Where the context of a command keeps the units and the digits that are asked for.
 UNITS = "linkwright.units"
 
-# Significant digits that a double has for sure.
-_DIGITS_MAX = 15
-
 # How every command is asked for its help.
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -107,12 +104,12 @@ def _keep_units(context: click.Context, option: click.Parameter, text: str | Non
 
 def _digits_option() -> click.Option:
     """``--digits``: with how many significant digits a command shows its numbers."""
-    from linkwright.kernel.page.out_units import DIGITS
+    from linkwright.kernel.page.out_units import DIGITS, DIGITS_MAX
 
     return click.Option(
         ["--digits"],
         metavar="N",
-        type=click.IntRange(1, _DIGITS_MAX),
+        type=click.IntRange(1, DIGITS_MAX),
         help=f"Significant digits of tables and summary. Default: {DIGITS}. JSON and CSV have all.",
         expose_value=False,
         callback=_keep_digits,

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.text import Text
 from matplotlib.ticker import AutoLocator, FixedLocator, Formatter, Locator
 
-from linkwright.kernel.figure.style import angle_marks
+from linkwright.kernel.figure.style import mark_angles
 from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
 
@@ -154,7 +154,7 @@ def _move(axes: Axes, zero: Zero) -> None:
     else:
         low, high = low - size * zero.angle, high - size * zero.angle
     axes.set_xlim(low, high)
-    axes.set_xticks(angle_marks(low, high))
+    mark_angles(axes, low, high)
 
 
 def _move_line(line: Line2D, zero: Zero, size: float) -> None:

@@ -132,17 +132,15 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 
 def _for_reader(drawing: object) -> None:
-    """Count crank angles of a figure from the zero, and mark its axes in the units, that the reader wants;
-    tell which curves coincide.
-    """
+    """Finish legends; count crank angles from the zero, and mark axes in the units, that the reader wants."""
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.coinciding import tell_coinciding
     from linkwright.kernel.figure.for_reader import from_zero_of_reader, in_units_of_reader
+    from linkwright.kernel.figure.legends import finish_legends
 
     if not isinstance(drawing, Figure):
         return
-    tell_coinciding(drawing)
+    finish_legends(drawing)
     if reader().chosen or zero_shown().words:
         from_zero_of_reader(drawing)
         in_units_of_reader(drawing)
@@ -179,16 +177,20 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
     if abs(low) < 1 and turns and abs(high - low - 360 * turns) < _WHOLE:
         low, high = 0.0, 360.0 * turns
     axes.set_xlim(low, high)
-    axes.set_xticks(angle_marks(low, high))
+    mark_angles(axes, low, high)
     if label:
         axes.set_xlabel("crank angle φ [°]")
 
 
-def angle_marks(low: float, high: float) -> Floats:
-    """Places of the marks along crank angles [°]: every 45° of a revolution, every 90° of two."""
+def mark_angles(axes: Axes, low: float, high: float) -> None:
+    """Mark crank angles [°] along x, with lines half-way: every 90° from half a revolution to four on."""
     span = high - low
-    step = 45.0 * max(1, round(span / 360)) if span >= _HALF_TURN else _fine_step(span)
-    return step * np.arange(np.ceil(low / step - 1e-6), np.floor(high / step + 1e-6) + 1)
+    step = 90.0 * max(1, round(span / 1440)) if span >= _HALF_TURN else _fine_step(span)
+    for part in (step, step / 2):
+        first, last = np.ceil(low / part - 1e-6), np.floor(high / part + 1e-6)
+        axes.set_xticks(part * np.arange(first, last + 1), minor=part < step)
+    axes.grid(visible=True, axis="x", which="minor", linewidth=0.35)
+    axes.tick_params(axis="x", which="minor", length=0)
 
 
 # What a range of crank angles may differ from whole revolutions [°].
@@ -205,9 +207,23 @@ def _fine_step(span: float) -> float:
     return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
 
 
-def legend_above(axes: Axes, gap: float = 0.2, columns: int = 4) -> None:
-    """A legend above the axes, where no line runs through it; `gap` in heights of its letters."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=gap, handlelength=1.8)
+# Mark of a legend above its axes, and its columns at most.
+ABOVE, COLUMNS = "above", 4
+
+
+def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries: Any) -> None:
+    """A legend above the axes, where no line runs through it; `gap` in heights of its letters, `entries` of
+    its own.
+    """
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        ncols=columns,
+        borderaxespad=gap,
+        handlelength=1.8,
+        **entries,
+    )
+    legend.set_gid(ABOVE)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:

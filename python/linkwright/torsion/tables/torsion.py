@@ -298,7 +298,8 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     rows: list[Row] = [
         (name, "", *(number(column[n], 6) for column in columns)) for n, name in enumerate(table.discs)
     ]
-    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6)))
+    largest = float(np.abs(table.torque).max())
+    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6, largest)))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
     yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)
