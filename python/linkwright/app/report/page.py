@@ -20,7 +20,7 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.content import Content, Few, Heading, Part
-from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
+from linkwright.kernel.page.formulas import KLOSS_1909, PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import degrees, number, parted, zero_words
 from linkwright.kernel.page.out_units import with_units_of
@@ -229,13 +229,17 @@ def _formulas(study: Study) -> list[Formula]:
 
 def _papers(study: Study) -> str:
     """The papers that formulas are from."""
-    if study.machine.is_diagram_alone:
+    machine = study.machine
+    if machine.is_diagram_alone:
         return ""
-    if study.machine.topper is None:
-        return PAPER_1
-    from linkwright.topping.tables.words import PAPER_5
+    sources = [] if machine.is_topper_alone else [PAPER_1]
+    if machine.drive is not None and isinstance(machine.drive.motor, InductionMotor) and sources:
+        sources.append(KLOSS_1909)
+    if machine.topper is not None:
+        from linkwright.topping.tables.words import PAPER_5
 
-    return PAPER_5 if study.machine.is_topper_alone else f"{PAPER_1}. {PAPER_5}"
+        sources.append(PAPER_5)
+    return ". ".join(sources)
 
 
 def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
