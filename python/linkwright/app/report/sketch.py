@@ -132,7 +132,8 @@ class _Painter:
         """A name beside a part."""
         from matplotlib.patheffects import withStroke
 
-        drawn = self.axes.text(*place.tolist(), named(text), fontsize=8, color=SOFT, zorder=4, **more)
+        x, y = place.tolist()
+        drawn = self.axes.text(x, y, named(text), fontsize=8, color=SOFT, zorder=4, **more)
         # Lines do not run through it.
         drawn.set_path_effects([withStroke(linewidth=2, foreground=PAPER)])
 

@@ -78,7 +78,7 @@ def _are_near(path: Floats, other: Floats, width: float) -> bool:
 def _fit(axes: Axes, legend: Legend, figure: Figure) -> None:
     """Set a legend above axes in as many columns as their width has room for."""
     labels = [text.get_text() for text in legend.get_texts()]
-    size = max((text.get_fontsize() for text in legend.get_texts()), default=1.0)
+    size = max((float(text.get_fontsize()) for text in legend.get_texts()), default=1.0)
     room = 72 * float(figure.get_size_inches()[0]) * axes.get_position().width / size
     columns = next((n for n in range(COLUMNS, 1, -1) if _width(labels, n) <= room), 1)
     handles, _ = axes.get_legend_handles_labels()

@@ -176,8 +176,9 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
     # Samples of whole revolutions may begin beside zero, clear of a change point.
     if abs(low) < 1 and turns and abs(high - low - 360 * turns) < _WHOLE:
         low, high = 0.0, 360.0 * turns
-    axes.set_xlim(low, high)
-    mark_angles(axes, low, high)
+    if high > low:
+        axes.set_xlim(low, high)
+        mark_angles(axes, low, high)
     if label:
         axes.set_xlabel("crank angle φ [°]")
 

@@ -309,7 +309,7 @@
     ? say("Speed of steady motion; at the middle playback speed #. Dots: centres of mass.", factor)
     : scene.swings
       ? say("The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass.")
-      : say("Constant speed: no steady-state solution is available. Dots: centres of mass.");
+      : say("Drawn at constant speed. Dots: centres of mass.");
   draw(0);
   setPlaying(playing);
 })();
