@@ -109,6 +109,50 @@ def test_report_of_a_motion_and_of_a_pose(folder: Path) -> None:
     assert cells[-4:] == ["0.6 m", "180°", "1 m", "0°"]
     for figure in ("motion_of_slides", "motion_of_links", "motion_of_points"):
         assert f'id="figure-{figure}"' in page or figure in page
-    assert called("--to", "p.html", "motion", CARTS, "--at", "90 deg").exit_code == 0
+    assert called("--to", "p.html", "motion", CARTS, "--at", "90 deg", "--digits", "8").exit_code == 0
     assert "0.77459667" in (folder / "p.html").read_text(), "√(0.8² − 0.2²) m"
     assert called("--to", "l.html", "motion", CARTS, "--law", "2*t").exit_code == 0
+
+
+@pytest.mark.parametrize("words", [("forces",), ("balance", "--links", "A1"), ("size",), ("motion",)])
+def test_a_report_about_a_machine_has_drawing_data_and_assumptions(
+    folder: Path, words: tuple[str, ...]
+) -> None:
+    """Whatever is computed of a machine, its report shows and describes it; forces have captions."""
+    command, *options = words
+    assert called("--to", "a.html", command, CARTS, *options).exit_code in (0, 1)
+    page = (folder / "a.html").read_text()
+    for section in ("mechanism", "data", "assumptions", "repeat"):
+        assert f'<section id="{section}"' in page or f'id="{section}"' in page
+        assert f'href="#{section}"' in page
+    assert "torque breakdown <b>215.4 N m</b>" in page
+    assert "Dry friction has a constant magnitude" in page
+    if command == "forces":
+        assert "Joint reactions along the steady motion: O:A1 at most 33960 N." in page
+
+
+def test_the_machine_of_a_report_is_in_the_units_of_its_file(folder: Path) -> None:
+    """By its table of units where it has one; else each entry is as it was written."""
+    assert called("--to", "a.html", "--sections", "repeat", "run", "press_with_flywheel").exit_code == 0
+    page = (folder / "a.html").read_text()
+    assert "radius = &#34;80 mm&#34;" in page
+    assert "speed = &#34;60 rpm&#34;" in page
+    words = ("run", CARTS, "--set", "units.length=mm", "--set", "mechanism.cranks.A2.phase=1.5")
+    assert called("--to", "b.html", "--sections", "repeat", *words).exit_code == 0
+    page = (folder / "b.html").read_text()
+    assert "rod = &#34;800 mm&#34;" in page
+    assert "phase = &#34;1.5 rad&#34;" in page
+
+
+def test_digits_that_are_asked_for(folder: Path) -> None:
+    """Four in tables and summary; as many as --digits says; JSON has all of them."""
+    for digits, text in (((), "0.08496<"), (("--digits", "7"), "0.08495914<")):
+        assert called("--to", "a.html", "--force", "run", CARTS, *digits).exit_code == 0
+        assert text in (folder / "a.html").read_text()
+    plain, asked = (
+        CliRunner().invoke(application(), ["run", CARTS, "--json", *more]).stdout
+        for more in ((), ("--digits", "2"))
+    )
+    assert plain == asked
+    refused = CliRunner().invoke(application(), ["run", CARTS, "--digits", "0"])
+    assert (refused.exit_code, "--digits" in refused.output) == (2, True)

@@ -13,7 +13,7 @@ from linkwright.kernel.files.library import template, templates
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads, read
-from linkwright.machine.write import dumps, write
+from linkwright.machine.write import dumps, in_own_units, write
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 
@@ -22,6 +22,14 @@ TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 def test_round_trip(name: str) -> None:
     machine = loads(template(name))
     assert loads(dumps(machine)) == machine
+
+
+@pytest.mark.parametrize("name", templates())
+def test_round_trip_in_own_units(name: str) -> None:
+    """In the units of the file, too, every quantity is read back to the last digit."""
+    units = {"length": "in", "angle": "deg", "mass": "lb", "force": "kN"}
+    machine = loads(template(name), {"units": units})
+    assert loads(in_own_units(machine)) == machine
 
 
 def test_through_a_file(tmp_path: Path) -> None:

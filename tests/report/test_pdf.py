@@ -7,12 +7,14 @@ import re
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 import linkwright as lw
 from linkwright.app.report.page import content
 from linkwright.app.study import study
+from linkwright.kernel.figure.style import WIDTH
 from linkwright.kernel.page.formulas import Formula, typst
-from linkwright.kernel.page.typeset import _STYLE, document, pdf
+from linkwright.kernel.page.typeset import _STYLE, _sheet, document, pdf
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -74,11 +76,11 @@ def test_formulas_in_the_notation_of_typst(formula: str, written: str) -> None:
 
 @pytest.mark.parametrize(
     ("width", "height", "millimetres"),
-    [(600, 2400, 215.0), (600, 600, 170.0), (600, 500, 104.0), (600, 300, 85.0), (200, 200, 25.4 * 200 / 72)],
+    [(600, 2400, 215.0), (600, 600, 170.0), (600, 410, 104.0), (600, 300, 85.0), (200, 200, 25.4 * 200 / 72)],
 )
 def test_a_picture_fits_on_its_page(width: int, height: int, millimetres: float) -> None:
     """A picture has the width of the text, 170 mm, at most; one that would be longer than a page is made
-    smaller, and one of somewhat more than half a page, so that two stand on it.
+    smaller, and one of little more than half a page, so that two stand on it with letters that can be read.
     """
     typst = pytest.importorskip("typst")
     style = _STYLE.format(title='""', foot="", language='"en"')
@@ -112,3 +114,36 @@ def test_a_table_over_two_pages_has_its_title_on_both() -> None:
     tell = "#context [#metadata(query(<title>).map(it => it.location().page())) <pages>]"
     files = {"main.typ": (style + page + tell).encode()}
     assert json.loads(typst.query(files, "<pages>", field="value")) == [[1, 2]]
+
+
+@pytest.mark.parametrize("rows", [1, 2, 5, 7, 8, 9, 60])
+@pytest.mark.parametrize("above", range(200, 250, 5))
+def test_no_row_of_a_table_stands_alone(rows: int, above: int) -> None:
+    """Wherever a table begins, its title stands above four rows or all, and four rows at least go over."""
+    typst = pytest.importorskip("typst")
+    style = _STYLE.format(title='""', foot="", language='"en"')
+    cells = ", ".join(f"[#metadata(none) <row>{n}], [x]" for n in range(rows))
+    table = f"#data((false,), [Title], ([head], [value],), {cells})"
+    page = f"#rect(height: {above}mm)\n== Heading #metadata(none) <heading>\n{table}"
+    where = "query({}).map(it => it.location().page())"
+    tell = f"#context [#metadata(({where.format('<row>')}, {where.format('<heading>')})) <pages>]"
+    files = {"main.typ": "\n".join((style, page, tell)).encode()}
+    ((pages, (heading,)),) = json.loads(typst.query(files, "<pages>", field="value"))
+    assert heading == pages[0]
+    assert all(pages.count(number) >= min(4, rows) for number in set(pages))
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "sheet"),
+    [
+        (WIDTH, 4.2, ""),
+        (7.5, 11.9, 'paper: "a3", flipped: false'),
+        (10.0, 3.0, 'paper: "a4", flipped: true'),
+        (12.6, 7.0, 'paper: "a3", flipped: true'),
+    ],
+)
+def test_a_broad_figure_has_a_sheet_on_which_it_keeps_its_letters(
+    width: float, height: float, sheet: str
+) -> None:
+    """What is larger than a page is not made smaller: letters of 7.5 points would be less than 7."""
+    assert _sheet(Figure(figsize=(width, height))) == sheet

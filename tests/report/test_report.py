@@ -155,7 +155,7 @@ def test_words_of_a_file_are_no_markup(case: str) -> None:
 
 def test_figures_are_those_that_there_is_something_to_show_for() -> None:
     figures = {case: set(re.findall(r'id="figure-(\w+)"', page(case))) for case in CASES}
-    forces = {"forces", "hodographs", "reactions"}
+    forces = {"forces", "hodograph", "polar"}
     motion = {"motion_1", "transmission"}
     everything = {"reduction", "speed", "torque", "time", "motor", "run_up"} | motion | forces
     assert figures["two-carts"] == everything

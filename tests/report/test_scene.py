@@ -27,7 +27,8 @@ MECHANISMS = [name for name in templates() if loads(template(name)).has_crank]
 
 
 def drawn(text: str, *overrides: str) -> dict[str, Any]:
-    found = scene(study(loads(text, overrides)))
+    result = study(loads(text, overrides))
+    found = scene(result.machine, result.steady_state)
     assert found is not None
     return found
 
@@ -83,7 +84,7 @@ def test_sliders_stay_on_their_guides() -> None:
 
 def test_sketch_moves_with_the_true_speed() -> None:
     result = study(read(TWO_CARTS))
-    found, steady = scene(result), result.steady_state
+    found, steady = scene(result.machine, result.steady_state), result.steady_state
     assert found is not None
     assert steady is not None
     assert found["true_speed"]

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from linkwright.app.report.scene import scene
-from linkwright.app.study import study
 from linkwright.machine.read import loads
 
 SECTIONS = """
@@ -86,7 +85,7 @@ def _distance(place: np.ndarray, outline: np.ndarray) -> float:
 
 @pytest.mark.parametrize("name", CAMS)
 def test_followers_touch_their_cams(name: str) -> None:
-    found = scene(study(loads(_machine(CAMS[name]))))
+    found = scene(loads(_machine(CAMS[name])))
     assert found is not None
     cams = [part for part in found["parts"] if part["kind"] == "cam"]
     touching = [part for part in found["parts"] if part["kind"] in ("roller", "face")]
@@ -119,7 +118,7 @@ def _from_face(found: dict[str, Any], part: dict[str, Any], k: int, outline: np.
 
 
 def test_the_frame_holds_the_cam() -> None:
-    found = scene(study(loads(_machine(CAMS["translating, offset, opposite"]))))
+    found = scene(loads(_machine(CAMS["translating, offset, opposite"])))
     assert found is not None
     left, bottom, right, top = found["box"]
     (cam,) = (part for part in found["parts"] if part["kind"] == "cam")

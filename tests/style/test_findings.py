@@ -70,6 +70,7 @@ SILENT = {
         "kernel/units/spellings.py",
         "_from_pint",
     ): "a text that pint does not know is reported with the units that are known",
+    ("machine/write.py", "_reads"): "a spelling that is not read as the value is not used",
     ("drive/settling.py", "in_time"): "what was not found is told; it stays with the advice",
     ("studio/analyses.py", "_dc_motor"): "without a steady motion no motor is offered; the findings tell why",
 }

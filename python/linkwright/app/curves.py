@@ -14,7 +14,16 @@ from linkwright.drive.cycle_motion import CycleMotion
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
+from linkwright.kernel.figure.style import (
+    LINES,
+    legend_above,
+    mark_angles,
+    named,
+    panels,
+    roomy,
+    styled,
+    zero_line,
+)
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.quantities import Label, declared, over
 from linkwright.kernel.result import Result
@@ -353,10 +362,8 @@ def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
     high = max(float(np.nanmax(curve.x)) for curve in curves) / factor
     if high > low:
         axes.set_xlim(low, high)
-    if unit == "°" and 0 < high - low <= 720.5:
-        axes.set_xticks(
-            np.arange(np.ceil(low / 45 - 1e-6) * 45, high + 1e-6, 45 if high - low <= 361 else 90)
-        )
+    if unit == "°" and high > low:
+        mark_angles(axes, low, high)
 
 
 def _shown(unit: str) -> tuple[str, float]:

@@ -129,7 +129,7 @@ def section_table(profile: CamProfile) -> Table:
             value, at = section[f"{name}_{end}"], section[f"{name}_{end}_angle"]
             unit = _PER_RAD[order] if speed is None else _PER_SECOND[order]
             cells += [
-                measured(value * (1.0 if speed is None else abs(speed) ** order), length + unit, digits=4),
+                measured(value * (1.0 if speed is None else abs(speed) ** order), length + unit),
                 degrees(at) if value else "",
             ]
         rows.append((place, "", *cells))
@@ -267,7 +267,7 @@ def _named(name: str) -> str:
 
 
 def _shown(value: float | None) -> str:
-    return "∞" if value is None else number(value, 6)
+    return "∞" if value is None else number(value)
 
 
 def _jumps(factors: LawFactors) -> str:

@@ -157,6 +157,7 @@ def _answer(of: _MotionReport) -> Answer:
     return Answer(
         machine=of.machine.name,
         units=of.machine.units,
+        described=of.machine,
         results=partial(_results, of),
         findings=list(of.findings.findings),
         warnings=[*of.findings.warnings, *unjudged_limits(of.machine)],

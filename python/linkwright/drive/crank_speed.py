@@ -6,6 +6,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from linkwright.kernel.command.common import option_value
+from linkwright.kernel.page.numbers import number
 
 if TYPE_CHECKING:
     from linkwright.kernel.arrays import Floats
@@ -61,4 +62,4 @@ def speed_words(speeds: dict[str, Any]) -> str:
 
 
 def _both(speed: float) -> str:
-    return f"{speed:.7g} rad/s = {speed * 30 / pi:.6g} rpm"
+    return f"{number(speed)} rad/s = {number(speed * 30 / pi)} rpm"

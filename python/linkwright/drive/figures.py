@@ -76,7 +76,7 @@ def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
     level(
         axes,
         steady.speed_mean_extremes,
-        f"mean of the extremes {quantity(steady.speed_mean_extremes, 'rad/s', 5)}",
+        f"mean of the extremes {quantity(steady.speed_mean_extremes, 'rad/s')}",
     )
     places = np.degrees([steady.speed_min_angle, steady.speed_max_angle])
     extremes = [steady.speed_min, steady.speed_max]
@@ -122,12 +122,12 @@ def time_figure(steady: SteadyState) -> Figure:
     figure, (speed, torque) = panels(2, height=4.2)
     time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
     speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")
-    level(speed, steady.speed_mean_time, f"mean over time {quantity(steady.speed_mean_time, 'rad/s', 5)}")
+    level(speed, steady.speed_mean_time, f"mean over time {quantity(steady.speed_mean_time, 'rad/s')}")
     speed.set_ylabel("speed ω\n[rad/s]")
     roomy(speed, steady.speed)
     legend_above(speed)
     torque.plot(time, np.tile(steady.torque_motor, _TURNS), color=MOTOR, label="torque of the motor")
-    level(torque, steady.torque_motor_rms, f"root mean square {quantity(steady.torque_motor_rms, 'N m', 4)}")
+    level(torque, steady.torque_motor_rms, f"root mean square {quantity(steady.torque_motor_rms, 'N m')}")
     torque.set_ylabel("motor torque $M$\n[N m]", **MATH)
     roomy(torque, steady.torque_motor)
     zero_line(torque)
@@ -147,7 +147,11 @@ def reduction_figure(reduction: Reduction) -> Figure:
     inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
     roomy(inertia, reduction.inertia_reduced)
     torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
-    level(torque, reduction.torque_load_mean, f"mean {quantity(reduction.torque_load_mean, 'N m', 4)}")
+    level(
+        torque,
+        reduction.torque_load_mean,
+        f"mean {quantity(reduction.torque_load_mean, 'N m', scale=_size(reduction))}",
+    )
     torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
     roomy(torque, reduction.torque_load, np.array([0.0]))
     zero_line(torque)
@@ -384,14 +388,20 @@ def _run_up(study: DriveStudy) -> Iterator[CaptionedFigure]:
         yield CaptionedFigure("run_up", "Failed run-up", caption, attempt_figure(study.attempt))
 
 
+def _size(reduced: Reduction) -> float:
+    """Peak absolute load torque [N m], beside which a mean may be rounding."""
+    return float(np.abs(reduced.torque_load).max())
+
+
 def _reduction(study: DriveStudy) -> Iterator[CaptionedFigure]:
     reduced = study.reduction
     if reduced is None:
         return
     low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
     caption = (
-        f"Inertia reduced to the crank, from {quantity(low, 'kg m²')} to {quantity(high, 'kg m²')}, and load "
-        f"torque referred to the crank, {quantity(mean, 'N m')} on average."
+        f"Inertia reduced to the crank, from {quantity(low, 'kg m²', scale=high)} to "
+        f"{quantity(high, 'kg m²')}, and load torque referred to the crank, "
+        f"{quantity(mean, 'N m', scale=_size(reduced))} on average."
     )
     yield CaptionedFigure("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +18,7 @@ from linkwright.kernel.figure.style import (
     panels,
     roomy,
     styled,
+    turn_axis,
     zero_line,
 )
 from linkwright.kernel.page.numbers import measured
@@ -29,7 +31,11 @@ if TYPE_CHECKING:
 # Figures of one page, and lines of one picture: more hide each other.
 _FIGURES_MAX, _LINES_MAX = 6, 4
 
-_HEIGHT, _PANEL = 0.8, 1.75
+# Three panels take half a page.
+_HEIGHT, _PANEL = 0.75, 1.2
+
+# Letters that a panel has room for along its axis.
+_LETTERS = 14
 
 
 def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[CaptionedFigure]:
@@ -65,15 +71,11 @@ def cycle_figure(
     for panel, (ending, word, symbol) in zip(axes, quantities, strict=True):
         _panel(panel, motion, [name + ending for name in names], names)
         unit = motion.unit_of(names[0] + ending)
-        panel.set_ylabel(f"{word} {symbol}\n[{'°' if unit == 'rad' else unit}]")
+        words = fill(f"{word} {symbol}", _LETTERS)
+        panel.set_ylabel(f"{words}\n[{'°' if unit == 'rad' else unit}]")
     if len(names) > 1:
         legend_above(axes[0])
-    low, high = np.degrees(motion.crank_angle[[0, -1]])
-    axes[-1].set_xlabel("crank angle φ [°]")
-    axes[-1].set_xlim(low, high)
-    if high - low > 359:
-        step = 45 * round((high - low) / 360)
-        axes[-1].set_xticks(np.arange(np.ceil(low / step - 1e-6) * step, high + 1e-6, step))
+    turn_axis(axes[-1], np.degrees(motion.crank_angle))
     return figure
 
 

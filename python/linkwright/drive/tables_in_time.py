@@ -36,7 +36,7 @@ def end_sentence(motion: Transient, zero: Zero) -> str:
     return _SENTENCES[motion.end].format(
         angle=_angle(float(motion.crank_angle[-1]), zero),
         time=number(float(motion.time[-1])),
-        turns=number(motion.turns, 4),
+        turns=number(motion.turns),
         drive=number(motion.torque_drive_end),
         load=number(motion.torque_load_end),
     )

@@ -181,6 +181,7 @@ def _answer(
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         zero=zero,
         results=partial(_results, cases, speeds, orders),
         findings=[
@@ -196,6 +197,7 @@ def _answer(
         tables=partial(_tables, cases, orders),
         files=partial(_files, cases),
         figures=partial(_figures, cases),
+        captions=partial(_captions, cases),
     )
 
 
@@ -380,6 +382,18 @@ def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
     return drawn if len(cases) == 1 else {"load_cases": cases_figure(cases), **drawn}
 
 
+def _captions(cases: dict[str, Forces]) -> dict[str, tuple[str, str]]:
+    """Title and caption of each figure; a title says which case, where there are several."""
+    from linkwright.kinetostatics.figures import forces_words
+
+    several = {} if len(cases) == 1 else {"load_cases": ("Load cases", "")}
+    return several | {
+        f"{figure}{end}": (f"{title}, {case}" if end else title, caption)
+        for (end, result), case in zip(_numbered(cases), cases, strict=True)
+        for figure, (title, caption) in forces_words(result).items()
+    }
+
+
 def _numbered(cases: dict[str, Forces]) -> list[tuple[str, Forces]]:
     """End of the names of files of each case; empty where there is one."""
     return [("" if len(cases) == 1 else f"_{n}", result) for n, result in enumerate(cases.values(), start=1)]
@@ -492,6 +506,7 @@ def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any])
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
         findings=balanced.after.findings,
         head=lambda: speed_words(speeds),

@@ -30,7 +30,6 @@ from linkwright.kinetostatics.result import Forces
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.ticker import Locator
 
     from linkwright.kinetostatics.result import Forces
 
@@ -53,8 +52,8 @@ def forces_figure(forces: Forces) -> Figure:
         sizes.plot(degrees, forces.pairs[name].size, color=colour, label=named(name))
     sizes.set_ylabel("magnitude of the reaction\n[N]")
     legend_above(sizes)
-    _angle_axis(torque, degrees, label=False)
-    _angle_axis(sizes, degrees)
+    turn_axis(torque, degrees, label=False)
+    turn_axis(sizes, degrees)
     return figure
 
 
@@ -124,25 +123,9 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
     frame.set_ylabel("shaking force\n[N]")
     legend_above(torque)
     zero_line(torque)
-    _angle_axis(torque, degrees, label=False)
-    _angle_axis(frame, degrees)
+    turn_axis(torque, degrees, label=False)
+    turn_axis(frame, degrees)
     return figure
-
-
-def _angle_axis(axes: Axes, degrees: np.ndarray, *, label: bool = True) -> None:
-    """One revolution along x, or the angles that there are."""
-    turn_axis(axes, degrees, label=label)
-    if abs(degrees[0]) > 1e-6 or degrees[-1] < 359 or abs((degrees[-1] + 180) % 360 - 180) > 1e-6:
-        axes.set_xticks([])
-        axes.autoscale(axis="x")
-        axes.xaxis.set_major_locator(_ticks())
-
-
-def _ticks() -> Locator:
-    """Round angles."""
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(nbins=9, steps=[1, 1.5, 3, 4.5, 6, 9, 10])
 
 
 def _largest(forces: Forces) -> list[str]:
@@ -164,21 +147,34 @@ def _given(forces: Forces) -> str:
     return f"Peak driving torque at the crank: {most}."
 
 
-def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
-    """The figures of forces with their captions; none where no pair bears a force."""
+def forces_words(forces: Forces) -> dict[str, tuple[str, str]]:
+    """Name of a figure of forces → its title and caption; none where no pair bears a force."""
     if not has_reactions(forces):
-        return
+        return {}
     pins = forces.reaction_max
     largest = max(pins, key=lambda name: pins[name])
-    caption = (
-        f"Joint reactions in steady motion: peak {quantity(pins[largest], 'N')} at {largest}. "
-        f"{_given(forces)}"
-    )
-    yield CaptionedFigure("forces", "Joint reactions", caption, forces_figure(forces))
-    caption = (
-        "Ends of the force vectors over one revolution, a mark at φ = 0; the peak shaking force is "
-        f"{quantity(forces.shaking_force_max, 'N')}."
-    )
-    yield CaptionedFigure("hodographs", "Hodographs of forces", caption, hodograph_figure(forces))
-    caption = "Magnitude of the largest reactions over the crank angle, in polar coordinates."
-    yield CaptionedFigure("reactions", "Reactions, polar", caption, polar_figure(forces))
+    along = " in steady motion" if np.ptp(forces.motion.speed) > 0 else ""
+    return {
+        "forces": (
+            "Joint reactions",
+            f"Joint reactions{along}: peak {quantity(pins[largest], 'N')} at {largest}. {_given(forces)}",
+        ),
+        "hodograph": (
+            "Hodographs of forces",
+            "Ends of the force vectors over one revolution, a mark at φ = 0; the peak shaking force is "
+            f"{quantity(forces.shaking_force_max, 'N')}.",
+        ),
+        "polar": (
+            "Reactions, polar",
+            "Magnitude of the largest reactions over the crank angle, in polar coordinates.",
+        ),
+    }
+
+
+_DRAWN = {"forces": forces_figure, "hodograph": hodograph_figure, "polar": polar_figure}
+
+
+def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
+    """The figures of forces with their captions."""
+    for name, (title, caption) in forces_words(forces).items():
+        yield CaptionedFigure(name, title, caption, _DRAWN[name](forces))

@@ -204,7 +204,7 @@ def balance_tables(balance: Balance) -> list[Table]:
         before, after = (measured(value, mark.unit, scales[mark.unit]) for value in values)
         # The share by which rounding changes says nothing.
         is_zero = before == measured(0.0, mark.unit)
-        change = "–" if is_zero else f"{number(100 * (values[1] / values[0] - 1), 4)} %"
+        change = "–" if is_zero else f"{number(100 * (values[1] / values[0] - 1))} %"
         rows.append((f"{mark.word}, rms", mark.symbol, before, after, change))
     return [
         Table("counterweights", "Counterweights", heads, weights),

@@ -151,7 +151,7 @@ def _pose(
     scales = [max((abs(row[2][k]) for row in rows if len(row[2]) > k), default=0.0) for k in range(3)]
     lines += [
         f"{name + ' ' + what:<{wide}}"
-        + "".join(f"{number(value, 8, scale):>16}" for value, scale in zip(numbers, scales, strict=False))
+        + "".join(f"{number(value, scale=scale):>16}" for value, scale in zip(numbers, scales, strict=False))
         for name, what, numbers in rows
     ]
     if placed.near_limit:
@@ -182,11 +182,12 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
     from linkwright.kernel.page.table import Table
 
     heads = ("name", "quantity", "position", "velocity", "acceleration")
-    cells = [(name, what, *(number(x, 8) for x in numbers)) for name, what, numbers in rows]
+    cells = [(name, what, *(number(x) for x in numbers)) for name, what, numbers in rows]
     table = Table("pose", "Pose", heads, [(*row, *[""] * (len(heads) - len(row))) for row in cells])
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         warnings=_warnings(machine),
         head=lambda: head,
         tables=lambda: [table],
@@ -318,6 +319,7 @@ def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         warnings=_warnings(machine),
         head=lambda: head[:1].upper() + head[1:],
         tables=partial(course_tables, followed),
@@ -344,7 +346,7 @@ def _table(followed: Motion) -> str:
     sizes = [(unit, float(abs(curve).max())) for unit, curve in zip(units, shown.values(), strict=True)]
     scales = [max(size for other, size in sizes if other == unit) for unit in units]
     for row in zip(*shown.values(), strict=True):
-        cells = (number(float(x), 7, scale) for x, scale in zip(row, scales, strict=True))
+        cells = (number(float(x), scale=scale) for x, scale in zip(row, scales, strict=True))
         lines.append("".join(f"{cell:>{width}}" for cell in cells))
     return "\n".join(lines) + "\n"
 

@@ -47,11 +47,7 @@ def transmission_figure(linkage: Linkage) -> Figure:
     roomy(axes, *drawn, np.array([_POOR, 180 - _POOR]))
     level(axes, _POOR, "40° and 140°")
     axes.axhline(180 - _POOR, color=SOFT, linewidth=1.1, linestyle=(0, (5, 3)))
-    if (round(angles[0]), round(angles[-1])) == (0, 360):
-        turn_axis(axes)
-    else:
-        axes.set_xlim(angles[0], angles[-1])
-        axes.set_xlabel("crank angle φ [°]")
+    turn_axis(axes, angles)
     axes.set_ylabel("transmission angle μ [°]")
     legend_above(axes)
     return figure

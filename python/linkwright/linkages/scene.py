@@ -43,7 +43,7 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
     yield from _springs(machine)
     yield from _blocks(machine, series)
     yield from _bodies(machine)
-    named = {
+    on_blocks = {
         *mechanism.sliders,
         *mechanism.yokes,
         *mechanism.racks,
@@ -51,7 +51,7 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
         *mechanism.linear_drivers,
     }
     for name in mechanism.moving_points():
-        yield {"kind": "point", "name": name, "slides": name in named, "series": series[name]}
+        yield {"kind": "point", "name": name, "slides": name in on_blocks, "series": series[name]}
 
 
 # How far an arc goes on beyond where its cable leaves it [rad].

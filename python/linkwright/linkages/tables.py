@@ -54,17 +54,17 @@ def _travel_row(element: ElementMotion, of_two: bool, cycle: float) -> Row:
     low, high = element.velocity_ratio_min, element.velocity_ratio_max
     # Of what goes in a straight line, a length per angle.
     per = "m/rad" if element.stroke is not None else ""
-    ratios = "–" if low is None else f"{parted(low, per, 4)[0]} to {quantity(high, per, 4)}"
+    ratios = "–" if low is None else f"{parted(low, per)[0]} to {quantity(high, per)}"
     unit = "1/m" if element.stroke is not None else ""
     advantage = element.mechanical_advantage_min
-    gain = measured(advantage, unit, digits=4, before="≥ ")
+    gain = measured(advantage, unit, before="≥ ")
     kind = ", position" if element.stroke is not None else ", angle"
     return (
         element.output + (kind if of_two else ""),
         "",
         travel,
         *ends,
-        number(element.time_ratio, 4),
+        number(element.time_ratio),
         ratios,
         gain,
     )

@@ -1,6 +1,7 @@
 """The machine: drive, mechanism, bodies, loads, and how it is run up."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError
@@ -100,6 +101,11 @@ class Machine(WholeDescription):
         'm ± 0.2 mm".',
     )
     study: StudyFile | None = Field(None, description="Study of variants: variables and responses.")
+
+    @cached_property
+    def as_given(self) -> Mapping[str, Any]:
+        """Tables of the file that this machine was read from, as they stand there; empty without one."""
+        return {}
 
     @property
     def linkage(self) -> Mechanism:

@@ -6,6 +6,7 @@ import os
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -146,6 +147,7 @@ def loads_as(
     places = [(apply(tables, change), change) for change in parse_all(overrides)]
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
+    given = deepcopy(tables)
     columns: list[Column] = []
     behind: dict[str, str] = {}
     try:
@@ -157,6 +159,8 @@ def loads_as(
         described = model.model_validate(tables)
         if isinstance(described, Machine):
             described = cast("Model", with_known_tolerances(described))
+            # As a cached property is kept: beside the fields, by which machines are equal.
+            described.__dict__["as_given"] = given
         return described
     except MachineError as error:
         # A tolerance behind a value stands where the value does.

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.place import field_names, join, keys, look
-from linkwright.kernel.page.numbers import degrees, measured, number, pretty_unit
+from linkwright.kernel.page.numbers import measured, number, pretty_unit
 from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.model.topology import TABLES
 from linkwright.machine.address import kind
@@ -23,6 +23,9 @@ _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 
 # Tables of a train, in the order of the report.
 _TRAIN = ("engines", "discs", "shafts", "gears", "couplings", "dampers", "drivers", "loads", "excitations")
+
+# Significant digits of what a file gives: no fewer than it has, as a rule.
+_GIVEN = 6
 
 # Longer lists are cut; the machine file holds them all.
 _LONGEST_LIST = 12
@@ -210,7 +213,7 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
         return str(value) if is_formula else str(value).replace("_", " ")
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
-    return degrees(value) if unit == "rad" else measured(value, pretty_unit(unit), digits=6)
+    return measured(value, pretty_unit(unit), digits=_GIVEN)
 
 
 def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
@@ -220,7 +223,7 @@ def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
     shown = values[:_LONGEST_LIST]
     usual = "deg" if unit == "rad" else ""
     name, factor = reader().shown(pretty_unit(unit), usual)
-    texts = [number(entry / factor, 6 if unit != "rad" else 5) for entry in shown]
+    texts = [number(entry / factor, _GIVEN) for entry in shown]
     more = ["…"] if len(values) > len(shown) else []
     return f"{', '.join(texts + more)} {name}".rstrip()
 

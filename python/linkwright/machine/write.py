@@ -9,10 +9,12 @@ from pydantic import BaseModel
 
 from linkwright.kernel.description.place import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, UnitError
 from linkwright.kernel.files.output import write_file
+from linkwright.kernel.page.out_units import OutUnits
 from linkwright.kernel.public import public
-from linkwright.kernel.units import Quantity, show, to_text
+from linkwright.kernel.units import Kind, Quantity, parse, parse_list, show, to_text
+from linkwright.kernel.units.spellings import normal
 from linkwright.machine.machine import Machine
 
 if TYPE_CHECKING:
@@ -58,10 +60,60 @@ def dumps(machine: Machine) -> str:
     InputError
         An entry is an array over many machines.
     """
+    return _text(machine, None)
+
+
+def in_own_units(machine: Machine) -> str:
+    """A machine as a TOML text in its units: those of its table ``[units]``, else as its file writes them.
+
+    What is neither in SI; it reads back as the same machine.
+    """
+    return _text(machine, OutUnits.of_table(machine.units))
+
+
+def _spelled(value: float, kind: Kind, place: tuple[str, ...], machine: Machine, units: OutUnits) -> str:
+    """A quantity in units if these have one of its kind, else as the file writes it, else in SI."""
+    given, (name, factor) = _given(machine, place), units.shown(kind.unit)
+    if factor == 1.0:
+        return given if isinstance(given, str) and _reads(given, value, kind) else to_text(value, kind)
+    # As few digits as give the value back.
+    texts = (f"{value / factor:.{digits}g} {normal(name)}" for digits in (6, 12, 15, 16, 17))
+    return next((text for text in texts if _reads(text, value, kind)), to_text(value, kind))
+
+
+def _listed(values: tuple[Any, ...], place: tuple[str, ...], machine: Machine) -> Any:
+    """A list as the file writes it; in SI if that is another one."""
+    given, mark = _given(machine, place), mark_of(annotation_at(Machine, (*place, "0"), machine))
+    return given if isinstance(mark, Quantity) and _reads(given, values, mark.kind) else list(values)
+
+
+def _reads(given: object, value: float | tuple[float, ...], kind: Kind) -> bool:
+    """Whether an entry is read as a value, or as a list of values."""
+    try:
+        return (tuple(parse_list(given, kind)) if isinstance(value, tuple) else parse(given, kind)) == value
+    except UnitError:
+        return False
+
+
+def _given(machine: Machine, place: tuple[str, ...]) -> object:
+    """The entry of the file that a machine was read from; None if it has none there."""
+    node: Any = machine.as_given
+    for key in place:
+        if isinstance(node, list) and key.isdecimal() and int(key) < len(node):
+            node = node[int(key)]
+        elif isinstance(node, dict):
+            node = node.get(key)
+        else:
+            return None
+    return node
+
+
+def _text(machine: Machine, units: OutUnits | None) -> str:
+    """A machine as a TOML text, in units of its own or in SI."""
     import tomlkit
 
     document = tomlkit.document()
-    for key, value in _table(machine, (), machine).items():
+    for key, value in _table(machine, (), machine, units).items():
         _add(document, key, value)
     return tomlkit.dumps(document)
 
@@ -81,10 +133,12 @@ def _add(document: TOMLDocument, key: str, value: Any) -> None:
     document.add(key, table)
 
 
-def _table(node: BaseModel, place: tuple[str, ...], machine: Machine) -> dict[str, Any]:
+def _table(
+    node: BaseModel, place: tuple[str, ...], machine: Machine, units: OutUnits | None
+) -> dict[str, Any]:
     """The given entries of a description, plain entries before tables."""
     entries = {
-        key: _toml_value(getattr(node, name), (*place, key), machine)
+        key: _toml_value(getattr(node, name), (*place, key), machine, units)
         for key, name in field_names(type(node)).items()
         if name in node.model_fields_set and getattr(node, name) is not None
     }
@@ -96,21 +150,25 @@ def _rank(entry: tuple[str, Any]) -> int:
     return 0 if entry[0] == "kind" else 2 if isinstance(entry[1], dict) else 1
 
 
-def _toml_value(value: Any, place: tuple[str, ...], machine: Machine) -> Any:
+def _toml_value(value: Any, place: tuple[str, ...], machine: Machine, units: OutUnits | None) -> Any:
     """A value as TOML can hold it."""
     if isinstance(value, BaseModel):
-        return _table(value, place, machine)
+        return _table(value, place, machine, units)
     if isinstance(value, dict):
-        return {key: _toml_value(entry, (*place, key), machine) for key, entry in value.items()}
+        return {key: _toml_value(entry, (*place, key), machine, units) for key, entry in value.items()}
     if isinstance(value, tuple):
         is_tables = any(isinstance(entry, BaseModel) for entry in value)
+        if units is not None and not is_tables:
+            return _listed(value, place, machine)
         return [
-            _toml_value(entry, (*place, str(n)), machine) if is_tables else entry
+            _toml_value(entry, (*place, str(n)), machine, units) if is_tables else entry
             for n, entry in enumerate(value)
         ]
     if not isinstance(value, str | int | float):
         raise InputError(f"{'.'.join(place)}: {show(value)} is not one value; write one machine at a time")
     mark = mark_of(annotation_at(Machine, place, machine))
     if isinstance(value, float) and isinstance(mark, Quantity) and mark.kind.unit:
-        return to_text(value, mark.kind)
+        return (
+            to_text(value, mark.kind) if units is None else _spelled(value, mark.kind, place, machine, units)
+        )
     return value

@@ -35,7 +35,7 @@ def _torque_factors(unit: PumpingUnitMotion) -> Table:
     """As API tabulates them."""
     n = len(unit.torque_factors)
     rows: list[Row] = [
-        (f"{360 * k / n:g}°", "", number(unit.rod_positions[k], 4), measured(unit.torque_factors[k], "m"))
+        (f"{360 * k / n:g}°", "", number(unit.rod_positions[k]), measured(unit.torque_factors[k], "m"))
         for k in range(n)
     ]
     return Table(

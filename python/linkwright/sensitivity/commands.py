@@ -67,6 +67,7 @@ def sensitivity(
         Answer(
             machine=machine.name,
             units=machine.units,
+            described=machine,
             results=lambda curves: derivatives.to_dict(),
             findings=lost_in(machine, derivatives.responses),
             warnings=[

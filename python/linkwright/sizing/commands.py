@@ -356,6 +356,7 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         results=lambda _: results,
         findings=[*([] if chosen else [motor.reason]), *lost(moved)],
         warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged(machine)],
@@ -374,6 +375,7 @@ def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     return Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         results=lambda _: {"flywheel": flywheel.to_dict()},
         findings=lost(machine),
         warnings=[*flywheel.warnings, *unjudged(machine)],
@@ -404,7 +406,7 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
     from linkwright.kernel.page.numbers import quantity
 
     need = motor.required
-    power, speed = quantity(need.power, "W", 4, usual="kW"), quantity(need.speed, "rad/s", 4)
+    power, speed = quantity(need.power, "W", usual="kW"), quantity(need.speed, "rad/s")
     load = quantity(need.torque_load_mean, "N m")
     lines = [
         name,
@@ -427,7 +429,7 @@ def _deciding(motor: MotorChoice) -> list[str]:
     lines = []
     if decided := motor.decided_by:
         check, other = decided
-        power = quantity(other.known.power_rated, "W", 4, usual="kW")
+        power = quantity(other.known.power_rated, "W", usual="kW")
         verdict = "is unknown and counts as failed" if check.passed is None else "fails"
         lines.append(
             f"decisive check: {check.title}; {other.type}, {power}, passes all others; this one {verdict}"
@@ -451,7 +453,7 @@ def _tables_of_choice(motor: MotorChoice) -> list[Table]:
         (
             candidate.type,
             "",
-            quantity(candidate.known.power_rated, "W", 4, usual="kW"),
+            quantity(candidate.known.power_rated, "W", usual="kW"),
             f"{candidate.ratio:.4g}",
             measured(candidate.inertia, "kg m²", digits=3, before="~" if candidate.inertia_estimated else ""),
             _verdict(candidate, motor),
@@ -472,8 +474,10 @@ def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
         (
             check.title,
             "",
-            measured(check.value, check.unit, abs(check.limit or 0.0), digits=4),
-            measured(check.limit, check.unit, abs(check.value or 0.0), 4, "≤ " if check.at_most else "≥ "),
+            measured(check.value, check.unit, abs(check.limit or 0.0)),
+            measured(
+                check.limit, check.unit, abs(check.value or 0.0), before="≤ " if check.at_most else "≥ "
+            ),
             words[check.passed],
             check.note,
         )
@@ -524,11 +528,11 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     bare = "there is no steady motion" if without is None else f"the speed fluctuation is {without:.4f}"
     if flywheel.inertia == 0:
         return [f"No flywheel is needed: {bare}, required is at most {flywheel.unevenness_wanted:g}"]
-    size, estimate = (quantity(x, "kg m²", 4) for x in (flywheel.inertia, flywheel.inertia_estimate))
+    size, estimate = (quantity(x, "kg m²") for x in (flywheel.inertia, flywheel.inertia_estimate))
     return [
         f"Flywheel {size} on the crankshaft for a speed fluctuation of {flywheel.unevenness:.6g}; without it "
         f"{bare}",
-        f"classical estimate {estimate}, from an excess work of {quantity(flywheel.excess_work, 'J', 4)}",
+        f"classical estimate {estimate}, from an excess work of {quantity(flywheel.excess_work, 'J')}",
     ]
 
 
@@ -644,8 +648,8 @@ def _row(motor: CatalogueMotor) -> Row:
         motor.type,
         "",
         quantity(motor.power_rated, "W", 3, usual="kW"),
-        quantity(motor.speed_rated, "rad/s", 4, usual="rpm"),
-        measured(motor.torque_rated, "N m", digits=4),
+        quantity(motor.speed_rated, "rad/s", usual="rpm"),
+        measured(motor.torque_rated, "N m"),
         *over,
         quantity(entries["inertia"], "kg m²", 2 if mark else 3, before=mark),
     )

@@ -265,7 +265,7 @@ def choose_motor(
         from linkwright.kernel.page.numbers import quantity
 
         raise InputError(
-            f"the mean load at the crank is {quantity(required.torque_load_mean, 'N m', 4)}: there is no "
+            f"the mean load at the crank is {quantity(required.torque_load_mean, 'N m')}: there is no "
             "motor to size for it; --keep-motor sizes the flywheel alone"
         )
     types = motors() if catalogue is None else tuple(catalogue)

@@ -22,12 +22,14 @@ from linkwright.kernel.figure.style import (
     LINES,
     PAPER,
     RED,
+    SMALL,
     SOFT,
     WIDTH,
     broken,
     panels,
     roomy,
     styled,
+    turn_axis,
 )
 from linkwright.kernel.page.numbers import number
 from linkwright.studies.fit import Fit
@@ -104,7 +106,7 @@ def map_figure(shown: StudyRows, response: str) -> Figure:
     is_sloped = np.isfinite(table).any() and np.nanmin(table) < np.nanmax(table)
     if min(table.shape) > 1 and is_sloped and shown.is_number(first) and shown.is_number(second):
         lines = panel.contour(x, y, table, colors="white", linewidths=0.8, levels=9)
-        panel.clabel(lines, fontsize=7, fmt=lambda level: number(level, 4))
+        panel.clabel(lines, fontsize=SMALL, fmt=lambda level: number(level))
     for pick, mark, word in ((np.nanargmin, "v", "minimum"), (np.nanargmax, "^", "maximum")):
         if np.isfinite(table).any():
             row, column = np.unravel_index(pick(table), table.shape)
@@ -136,17 +138,17 @@ def scatter_figure(shown: StudyRows) -> Figure:
             panel.set_yticks([])
         else:
             panel.plot(x, y, ".", color=BLUE, markersize=1.5, alpha=0.5, rasterized=True)
-        panel.tick_params(labelsize=6)
+        panel.tick_params(labelsize=SMALL)
         panel.grid(visible=False)
         _name_places(shown, names[j], panel.xaxis, 60.0)
         if i != j:
             _name_places(shown, names[i], panel.yaxis)
         if i == len(names) - 1:
-            panel.set_xlabel(broken(shown.labels[names[j]], letters), fontsize=7)
+            panel.set_xlabel(broken(shown.labels[names[j]], letters), fontsize=SMALL)
         elif not shown.is_number(names[j]):
             panel.tick_params(labelbottom=False)
         if j == 0:
-            panel.set_ylabel(broken(shown.labels[names[i]], letters), fontsize=7)
+            panel.set_ylabel(broken(shown.labels[names[i]], letters), fontsize=SMALL)
         elif not shown.is_number(names[i]):
             panel.tick_params(labelleft=False)
     return figure
@@ -182,7 +184,7 @@ def parallel_figure(shown: StudyRows) -> Figure:
     panel.set_xticks(places, [broken(shown.labels[name], letters) for name in names], fontsize=8)
     for place, name in enumerate(names):
         for text, height in _marks(shown, name, shown.columns[name][rows]):
-            panel.text(place, height, text, ha="center", fontsize=7, bbox=_BEHIND)
+            panel.text(place, height, text, ha="center", fontsize=SMALL, bbox=_BEHIND)
     panel.grid(visible=False)
     panel.grid(visible=True, axis="x", color=LINES[0], linewidth=0.8)
     return figure
@@ -192,7 +194,7 @@ def _marks(shown: StudyRows, name: str, values: Floats) -> list[tuple[str, float
     """Texts along an axis of parallel coordinates with their heights: both ends, or names of all values."""
     low, high = values.min(), values.max()
     if shown.is_number(name):
-        return [(number(low, 4), -0.06), (number(high, 4), 1.03)]
+        return [(number(low), -0.06), (number(high), 1.03)]
     places = np.unique(values)
     heights = np.where(places == low, -0.06, _scaled(places) + 0.03)
     return [(shown.choices[name][int(at)], float(height)) for at, height in zip(places, heights, strict=True)]
@@ -290,6 +292,8 @@ def fit_figure(fit: Fit) -> Figure:
         below.axhline(0.0, color=INK, linewidth=0.8)
         below.set_ylabel(f"residual [{unit or '–'}]")
     axes[-1].set_xlabel("crank angle [°]" if is_angle else "time [s]")
+    if is_angle:
+        turn_axis(axes[-1], at, label=False)
     return figure
 
 

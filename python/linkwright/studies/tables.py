@@ -105,7 +105,7 @@ def allocation_tables(allocation: Allocation, units: dict[str, str]) -> list[Tab
     """The cheapest tolerances."""
     rows: list[Row] = []
     for name, (low, high) in allocation.tolerances.items():
-        factor = number(allocation.factors[name], 4)
+        factor = number(allocation.factors[name])
         rows.append((name, "", *(measured(end, units[name]) for end in (low, high)), factor))
     heads = ("variable", "", "lower limit deviation", "upper limit deviation", "times as wide")
     return [Table("allocation", "Cheapest tolerances", heads, rows)]

@@ -41,7 +41,7 @@ def _words(value: Any) -> str:
         return ", ".join(map(str, value))
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return number(value, 4) if isinstance(value, float) else str(value)
+    return number(value) if isinstance(value, float) else str(value)
 
 
 def catalogue_table(lines: Sequence[StraightLine]) -> Table:

@@ -14,7 +14,7 @@ from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.page.sentences import sentence, sentences
 from linkwright.kernel.page.table import Table
 from linkwright.machine.table import grouped, machine_parts
-from linkwright.machine.write import dumps
+from linkwright.machine.write import in_own_units
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.limits.survey import TorquePeaks
@@ -66,7 +66,7 @@ def _content(study: TorsionStudy, command: str) -> Content:
         papers=_SOURCES,
         groups=grouped(machine_parts(study.machine)),
         assumptions=list(_assumptions(study)),
-        file=dumps(study.machine),
+        file=in_own_units(study.machine),
         command=command or "linkwright torsion machine.toml --out report",
     )
 
@@ -110,7 +110,7 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
             yield words_of, f"{100 * worst.found / worst.permitted:.3g}", "%"
     twisting = [f for f in study.free.natural_frequencies.tolist() if f > 0]
     if twisting:
-        yield "lowest natural frequency", *parted(twisting[0], "Hz", 4)
+        yield "lowest natural frequency", *parted(twisting[0], "Hz")
     forced = study.forced
     if forced is None:
         return
@@ -129,7 +129,7 @@ def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
     value, rpm = float(peaks.vibratory[worst]), float(peaks.speed[worst]) * 30 / np.pi
     words = f"largest vibratory torque, {peaks.shafts[worst]} at {rpm:.5g} rpm"
     if np.isfinite(value):
-        yield words, *parted(value, "N m", 4)
+        yield words, *parted(value, "N m")
     else:
         yield words, "unbounded", ""
 

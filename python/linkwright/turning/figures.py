@@ -19,6 +19,7 @@ from linkwright.kernel.figure.style import (
     panels,
     roomy,
     styled,
+    turn_axis,
     zero_line,
 )
 from linkwright.kernel.page.numbers import degrees, number, quantity
@@ -28,9 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from linkwright.turning.diagram import TurningMomentDiagram
-
-# Ticks of the angle: a dozen at most.
-_TICKS = 12
 
 
 def turning_figures(diagram: TurningMomentDiagram) -> Iterator[CaptionedFigure]:
@@ -87,7 +85,7 @@ def speed_figure(diagram: TurningMomentDiagram) -> Figure:
     figure, (speed,) = panels(1, height=2.4)
     angle = np.degrees(diagram.crank_angle)
     speed.plot(angle, diagram.speed, color=SPEED, label="speed")
-    level(speed, diagram.speed_mean, f"mean of the extremes {quantity(diagram.speed_mean, 'rad/s', 5)}")
+    level(speed, diagram.speed_mean, f"mean of the extremes {quantity(diagram.speed_mean, 'rad/s')}")
     speed.set_ylabel("speed ω\n[rad/s]")
     roomy(speed, diagram.speed)
     legend_above(speed)
@@ -96,10 +94,8 @@ def speed_figure(diagram: TurningMomentDiagram) -> Figure:
 
 
 def _angle_axis(axes: Axes, angle: np.ndarray, *, label: bool = True) -> None:
-    """Degrees over one cycle, a tick every 45° or more."""
-    last = float(angle[-1])
-    axes.set_xlim(0.0, last)
-    axes.set_xticks(np.arange(0.0, last + 1.0, 45.0 * np.ceil(last / 45.0 / _TICKS)))
+    """Degrees over one cycle."""
+    turn_axis(axes, angle, label=False)
     axes.tick_params(labelbottom=label)
     if label:
         axes.set_xlabel("shaft angle φ [°]")

@@ -43,15 +43,15 @@ ASSUMPTIONS = (
 
 def turning_headline(diagram: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:
     """Word, value and unit of what one looks for first."""
-    yield "fluctuation of energy ΔE", *parted(diagram.energy_fluctuation, "J", 4)
+    yield "fluctuation of energy ΔE", *parted(diagram.energy_fluctuation, "J")
     if diagram.unevenness is not None:
-        yield "speed fluctuation δ", number(diagram.unevenness, 4), ""
+        yield "speed fluctuation δ", number(diagram.unevenness), ""
     if diagram.flywheel_inertia is not None:
-        yield "inertia of the flywheel", *parted(diagram.flywheel_inertia, "kg m²", 4)
+        yield "inertia of the flywheel", *parted(diagram.flywheel_inertia, "kg m²")
     if diagram.flywheel_mass is not None:
-        yield "mass of the flywheel", *parted(diagram.flywheel_mass, "kg", 4)
+        yield "mass of the flywheel", *parted(diagram.flywheel_mass, "kg")
     if diagram.power_mean is not None:
-        yield "mean power", *parted(diagram.power_mean, "W", 4)
+        yield "mean power", *parted(diagram.power_mean, "W")
 
 
 def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:

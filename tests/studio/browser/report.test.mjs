@@ -71,4 +71,28 @@ test("a script in the name of a cam is text, and the drawing moves", async () =>
   await other.close();
 });
 
+test("a wide page has two columns, its contents lead to every section, table and figure", async () => {
+  const boxes = await page.locator("#figure-speed, #figure-torque").evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+  assert.equal(boxes.length, 2);
+  assert.equal(boxes[0].top, boxes[1].top);
+  assert.ok(boxes[1].left > boxes[0].right);
+  const width = await page.evaluate(() => document.querySelector("main").getBoundingClientRect().width);
+  assert.ok(width > 1300, `${width} of 1440`);
+  const links = await page.locator("nav.contents a").evaluateAll((all) => all.map((one) => [one.hash, document.getElementById(decodeURIComponent(one.hash.slice(1))) !== null]));
+  assert.ok(links.length > 20);
+  assert.deepEqual(links.filter(([, known]) => !known), []);
+  await page.locator("nav.contents a", { hasText: "Forces" }).first().click();
+  assert.ok((await page.locator("#table-forces").boundingBox()).y < 300);
+  await page.locator("a.up").click();
+  assert.ok((await page.locator("nav.contents").boundingBox()).y < 300);
+});
+
+test("a narrow page has one column and does not move sideways", async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const boxes = await page.locator("#figure-speed, #figure-torque").evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+  assert.ok(boxes[1].top > boxes[0].bottom - 1);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await page.setViewportSize({ width: 1440, height: 900 });
+});
+
 test("there was no error, and nothing was loaded", () => assert.deepEqual(faults, []));

@@ -98,7 +98,7 @@ def _diagram(machine: Machine) -> list[tuple[str, str]]:
         kinds = {name: "constant" if torque is None else torque.kind for name, torque in torques.items()}
         words = ", ".join(f"{name} {_TORQUES[kind]}" for name, kind in kinds.items())
     turns = "one revolution" if described.turns == 1 else f"{described.turns:.5g} revolutions"
-    return [("turning moment", f"{words}; cycle of {turns}, {quantity(described.speed, 'rad/s', 4)}")]
+    return [("turning moment", f"{words}; cycle of {turns}, {quantity(described.speed, 'rad/s')}")]
 
 
 def _topper(machine: Machine) -> list[tuple[str, str]]:
@@ -115,7 +115,7 @@ def _topper(machine: Machine) -> list[tuple[str, str]]:
     head = f"{_mm(d)} across: root {_mm(cut.root_diameter)}, cut {_mm(cut.cut_height)} below its top{beside}"
     edge = (
         f"{_mm(cut.edge_length)} at {degrees(cut.edge_angle):.4g}°, "
-        f"{quantity(cut.forward_speed, 'm/s', 4)} along the row"
+        f"{quantity(cut.forward_speed, 'm/s')} along the row"
     )
     return [("head", head), ("edge", edge), ("knife", _knife(cut)), ("field", _field(cut))]
 
@@ -129,7 +129,7 @@ def _knife(cut: Topper) -> str:
         return "at rest"
     stroke = f", stroke {_mm(motion.stroke)}" if motion.stroke else ", one direction over a head"
     word = "harmonic" if motion.kind == "harmonic" else "constant speed"
-    return f"{word}{stroke}, {quantity(cut.knife_speed, 'm/s', 4)} across the row in the mean"
+    return f"{word}{stroke}, {quantity(cut.knife_speed, 'm/s')} across the row in the mean"
 
 
 def _field(cut: Topper) -> str:
@@ -142,7 +142,7 @@ def _field(cut: Topper) -> str:
 
 
 def _mm(value: float) -> str:
-    return quantity(value, "m", 4, usual="mm")
+    return quantity(value, "m", usual="mm")
 
 
 def _motor(machine: Machine) -> str:
@@ -150,7 +150,7 @@ def _motor(machine: Machine) -> str:
     if machine.drive is None or machine.drive.motor is None:
         return "none"
     motor, ratio = machine.drive.motor, machine.drive.gearbox.ratio
-    power = f", {quantity(motor.power_rated, 'W', 4, usual='kW')}" if motor.power_rated else ""
+    power = f", {quantity(motor.power_rated, 'W', usual='kW')}" if motor.power_rated else ""
     return f"{motor.kind.replace('_', ' ')}{power}, ratio {ratio:.6g}"
 
 

@@ -93,6 +93,7 @@ def plot(
     answer = Answer(
         machine=machine.name,
         units=machine.units,
+        described=machine,
         results=lambda _: {"plot": _curve_data(results, curves, counted.angle)},
         findings=results.findings,
         warnings=results.warnings,

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from linkwright.app.report.page import machine_sections
 from linkwright.kernel.command.answer import Answer, shown_head
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
@@ -13,6 +14,7 @@ from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content, Part
 from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.page.table import Row, Table
+from linkwright.machine.machine import Machine
 
 
 class Variant(NamedTuple):
@@ -36,7 +38,11 @@ def answered(answer: Answer, command: str) -> Content:
     if answer.report is not None:
         return replace(answer.report(), command=command)
     tables = list(answer.tables())
-    figures = [CaptionedFigure(name, _title(name), "", figure) for name, figure in answer.figures().items()]
+    captions = answer.captions()
+    figures = [
+        CaptionedFigure(name, *captions.get(name, (_title(name), "")), figure)
+        for name, figure in answer.figures().items()
+    ]
     if not (tables or figures or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
@@ -47,6 +53,7 @@ def answered(answer: Answer, command: str) -> Content:
         warnings=sentences(answer.warnings),
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,
+        **(machine_sections(answer.described) if isinstance(answer.described, Machine) else {}),
     )
 
 

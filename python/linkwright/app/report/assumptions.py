@@ -47,14 +47,18 @@ _LOADS = {
 
 def assumptions(study: Study) -> list[str]:
     """All that was taken for granted: sentences, from the mechanism to the methods."""
-    machine = study.machine
+    return [*assumed_of(study.machine), *_methods(study)]
+
+
+def assumed_of(machine: Machine) -> list[str]:
+    """What was taken for granted of a machine, whatever is computed of it."""
     cut = [*_diagram(machine), *_topper(machine)]
     if machine.is_topper_alone or machine.is_diagram_alone:
         return cut
     sentences = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
         sentences += [*_drive(machine.drive), *_motor(machine.drive)]
-    return [*sentences, *_methods(study)]
+    return sentences
 
 
 def _diagram(machine: Machine) -> list[str]:

@@ -8,23 +8,27 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright.app.report.assumptions import assumptions
+import numpy as np
+
+from linkwright.app.report.assumptions import assumed_of, assumptions
 from linkwright.app.report.figures import figures
 from linkwright.app.report.scene import moving_scene, scene
 from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
 from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.content import Content, Few, Heading, Part
-from linkwright.kernel.page.formulas import PAPER_1, Formula, formulas
+from linkwright.kernel.page.formulas import KLOSS_1909, PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
 from linkwright.kernel.page.numbers import degrees, number, parted, zero_words
 from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.public import public
+from linkwright.machine.machine import Machine
 from linkwright.machine.table import grouped, machine_parts
-from linkwright.machine.write import dumps
+from linkwright.machine.write import in_own_units
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,33 +100,47 @@ def _content(study: Study, command: str) -> Content:
         Part("Results", results, [figure for figure in drawn if figure not in moving]),
         Part("Details", details),
     )
-    scenes = {"topper": knife_scene(study), "mechanism": scene(study)}
+    sections = machine_sections(machine, study.steady_state)
+    knife = knife_scene(study)
+    sections["scenes"] = {**({"topper": knife} if knife is not None else {}), **sections["scenes"]}
+    sections["assumptions"] = assumptions(study)
     return Content(
         title=machine.name,
         lead=" ".join(filter(None, (machine.description, zero_words(zero_shown())))),
-        source=machine.source or "",
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
         headline=[Few(*line) for line in _headline(study)],
-        scenes={name: scene for name, scene in scenes.items() if scene is not None},
-        sketch=_sketch(study) if scenes["mechanism"] is not None else None,
         parts=[part for part in parts if part.tables or part.figures],
         formulas=_formulas(study),
         papers=_papers(study),
-        groups=grouped(machine_parts(machine)),
-        assumptions=assumptions(study),
-        file=dumps(machine),
         command=command or "linkwright run machine.toml --out report",
+        **sections,
     )
 
 
-def _sketch(study: Study) -> Callable[[], Figure]:
+def machine_sections(machine: Machine, steady: SteadyState | None = None) -> dict[str, Any]:
+    """Sections of every report about a machine: source, drawing, data, assumptions, file.
+
+    `steady`: motion at whose speed the drawing moves.
+    """
+    drawn = scene(machine, steady)
+    return {
+        "source": machine.source or "",
+        "scenes": {} if drawn is None else {"mechanism": drawn},
+        "sketch": None if drawn is None else _sketch(machine, steady),
+        "groups": grouped(machine_parts(machine)),
+        "assumptions": assumed_of(machine),
+        "file": in_own_units(machine),
+    }
+
+
+def _sketch(machine: Machine, steady: SteadyState | None) -> Callable[[], Figure]:
     """Draws the mechanism at one instant."""
 
     def drawn() -> Figure:
         from linkwright.app.report.sketch import sketch_figure
 
-        moving = moving_scene(study.machine, study.steady_state)
+        moving = moving_scene(machine, steady)
         assert moving is not None
         return sketch_figure(moving)
 
@@ -188,11 +206,11 @@ def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
         else ()
     ):
         if moved.stroke is not None:
-            yield f"stroke of {moved.output}", *parted(moved.stroke, "m", 4)
+            yield f"stroke of {moved.output}", *parted(moved.stroke, "m")
         elif moved.swing is not None:
             yield f"swing of {moved.output}", degrees(moved.swing), ""
         if moved.time_ratio is not None:
-            yield f"time ratio of {moved.output}", number(moved.time_ratio, 4), ""
+            yield f"time ratio of {moved.output}", number(moved.time_ratio), ""
     worst = [element.transmission_angle_worst for element in study.linkage.elements]
     known = [angle for angle in worst if angle is not None]
     if known:
@@ -211,13 +229,17 @@ def _formulas(study: Study) -> list[Formula]:
 
 def _papers(study: Study) -> str:
     """The papers that formulas are from."""
-    if study.machine.is_diagram_alone:
+    machine = study.machine
+    if machine.is_diagram_alone:
         return ""
-    if study.machine.topper is None:
-        return PAPER_1
-    from linkwright.topping.tables.words import PAPER_5
+    sources = [] if machine.is_topper_alone else [PAPER_1]
+    if machine.drive is not None and isinstance(machine.drive.motor, InductionMotor) and sources:
+        sources.append(KLOSS_1909)
+    if machine.topper is not None:
+        from linkwright.topping.tables.words import PAPER_5
 
-    return PAPER_5 if study.machine.is_topper_alone else f"{PAPER_1}. {PAPER_5}"
+        sources.append(PAPER_5)
+    return ". ".join(sources)
 
 
 def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
@@ -227,15 +249,16 @@ def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
     yield from _motion_headline(study)
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
-        yield "mean speed", *parted(steady.speed_mean_time, "rad/s", 4)
-        yield "speed fluctuation δ", number(steady.unevenness, 4), ""
-        yield "dynamic factor H", number(steady.dynamism, 4), ""
+        yield "mean speed", *parted(steady.speed_mean_time, "rad/s")
+        yield "speed fluctuation δ", number(steady.unevenness), ""
+        yield "dynamic factor H", number(steady.dynamism), ""
         # Without losses the mean is zero but for rounding.
         power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
-        yield "mean motor power", *parted(power, "W", 4)
+        yield "mean motor power", *parted(power, "W")
     if run_up is not None:
-        yield "run-up time", *parted(run_up.time, "s", 4)
+        yield "run-up time", *parted(run_up.time, "s")
     if steady is None and reduced is not None:
-        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", 4)
-        yield "maximum reduced inertia", *parted(reduced.inertia_max, "kg m²", 4)
-        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", 4)
+        most, size = reduced.inertia_max, float(np.abs(reduced.torque_load).max())
+        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", scale=most)
+        yield "maximum reduced inertia", *parted(most, "kg m²")
+        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", scale=size)

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.app.study import Study
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError
@@ -43,12 +42,12 @@ _DURATION = 4.0
 _FINENESS = 1e-5
 
 
-def scene(study: Study) -> Scene | None:
+def scene(machine: Machine, steady: SteadyState | None = None) -> Scene | None:
     """All that the sketch needs, ready for JSON: as of `moving_scene`, in lists, without the motion.
 
     They have no more digits than can be seen.
     """
-    moving = moving_scene(study.machine, study.steady_state)
+    moving = moving_scene(machine, steady)
     if moving is None:
         return None
     box = moving["box"]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.figure.style import INK, LINES, SOFT, WIDTH, named, styled
+from linkwright.kernel.figure.style import INK, LINES, PAPER, SOFT, WIDTH, named, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -128,9 +128,14 @@ class _Painter:
         self.hatch(foot + np.array([0, -22 * u]), np.array([1.0, 0.0]), 38 * u)
         self.words(foot + np.array([16, -18]) * u, part["name"])
 
-    def words(self, place: Floats, text: str) -> None:
+    def words(self, place: Floats, text: str, **more: Any) -> None:
         """A name beside a part."""
-        self.axes.text(float(place[0]), float(place[1]), named(text), fontsize=8, color=SOFT, zorder=4)
+        from matplotlib.patheffects import withStroke
+
+        x, y = place.tolist()
+        drawn = self.axes.text(x, y, named(text), fontsize=8, color=SOFT, zorder=4, **more)
+        # Lines do not run through it.
+        drawn.set_path_effects([withStroke(linewidth=2, foreground=PAPER)])
 
     def _trace(self, part: Scene) -> None:
         self.line(self.scene["points"][part["name"]], SOFT, 0.8, linestyle=(0, (5, 3)))
@@ -229,6 +234,13 @@ class _Painter:
         self.area(place + 5 * self.unit * _CIRCLE, INK, "white", 1.2)
         if part["slides"]:
             self.words(place + np.array([-16, 24 + 15 * part["series"]]) * self.unit, part["name"])
+            return
+        # Beside the joint, away from the middle of the drawing.
+        left, bottom, right, top = self.scene["box"]
+        out = place - np.array([left + right, bottom + top]) / 2
+        out = out / (float(np.hypot(*out)) or 1.0)
+        room = [12 + 3 * len(part["name"]), 14]
+        self.words(place + out * room * self.unit, part["name"], ha="center", va="center")
 
 
 _TURN = np.linspace(0, 2 * np.pi, 73)

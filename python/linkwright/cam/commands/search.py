@@ -240,15 +240,15 @@ def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:
         entries = []
         for key in cams.entries:
             unit, usual = units.get(key, ("m", "mm"))
-            entries.append(quantity(cam[key], unit, 5, usual=usual))
+            entries.append(quantity(cam[key], unit, usual=usual))
         convex = cam["curvature_radius_convex_min"]
         rows.append(
             (
                 cam["law"] or f"{nth}",
                 "",
                 *entries,
-                quantity(cam["pressure_angle_max"], "rad", 4, usual="deg"),
-                "–" if convex is None else quantity(convex, "m", 5, usual="mm"),
+                quantity(cam["pressure_angle_max"], "rad", usual="deg"),
+                "–" if convex is None else quantity(convex, "m", usual="mm"),
             )
         )
     entries = [name.replace("_", " ") for name in cams.entries]

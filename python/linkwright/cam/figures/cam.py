@@ -76,7 +76,7 @@ def lift_figure(profile: CamProfile) -> Figure:
 def cam_figure(profile: CamProfile) -> Figure:
     """Draw the cam with its followers, as it stands where the programme begins."""
     parts = _parts(profile)
-    figure, axes = panels(1, height=5.6 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
+    figure, axes = panels(1, height=4.3 if len(parts) == 1 else 3.9, columns=len(parts), shared=False)
     for axis, flank in zip(axes, parts, strict=True):
         _draw_cam(axis, profile, flank)
         followers = (flank,) if profile.cam.closure == "conjugate" else profile.flanks
@@ -177,12 +177,12 @@ def _curvature_limits(profile: CamProfile) -> list[Limit]:
         curvature_limits.append(
             (
                 1e-3 / cam.curvature_limit,
-                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', 4, usual='mm')}",
+                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', usual='mm')}",
                 RED,
             )
         )
     if cam.cutter_radius is not None and profile.curvature_radius_concave_min is not None:
-        words = f"cutter of {quantity(cam.cutter_radius, 'm', 4, usual='mm')} in hollow parts"
+        words = f"cutter of {quantity(cam.cutter_radius, 'm', usual='mm')} in hollow parts"
         curvature_limits.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
     return curvature_limits
 

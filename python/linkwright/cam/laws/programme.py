@@ -100,7 +100,7 @@ class Joint:
         if n == len(self.jumps):
             return f"continuous up to the {NAMES[-1]}"
         per = ("", "/rad", "/rad²", "/rad³", "/rad⁴")[n]
-        jump = f"the {NAMES[n]} jumps by {self.jumps[n]:.6g} {unit}{per}"
+        jump = f"the {NAMES[n]} jumps by {self.jumps[n]:.4g} {unit}{per}"
         return f"continuous up to the {NAMES[n - 1]}; {jump}" if n else jump
 
 

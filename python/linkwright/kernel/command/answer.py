@@ -45,6 +45,7 @@ class Answer:
 
     machine: str | None  # name of the machine; None where there is none
     names: Collection[str] = ()  # names that its author gave, which stay in every language
+    described: object = None  # the machine, of which a report has drawing, data and assumptions
     # Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
     results: Callable[[bool], Mapping[str, Any]] = _nothing
     # What the machine cannot do, in sentences; with any, the command ends with exit code 1.
@@ -60,6 +61,8 @@ class Answer:
     # Further files by name; figures by name without ending.
     files: Callable[[], Mapping[str, str | bytes]] = dict
     figures: Callable[[], Mapping[str, Figure]] = dict
+    # Name of a figure → its title and its caption in a report.
+    captions: Callable[[], Mapping[str, tuple[str, str]]] = dict
     # What a report of it says, where that is more than the tables and figures.
     report: Callable[[], Content] | None = None
     # Name of a file → words beside it where the files are listed.

@@ -14,20 +14,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from enum import Enum
 from inspect import Parameter, cleandoc, signature
 from pathlib import Path
 from types import NoneType
-from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 import click
 
 from linkwright.kernel.errors import cut
 
+if TYPE_CHECKING:
+    from linkwright.kernel.page.out_units import OutUnits
+
 # The largest whole number up to which every one is a float.
 _WHOLE_MAX = 2**53
 
-# Where the context of a command keeps the units that are asked for.
+# Where the context of a command keeps the units and the digits that are asked for.
 UNITS = "linkwright.units"
 
 # How every command is asked for its help.
@@ -57,15 +61,15 @@ def command(
 ) -> click.Command:
     """The command that a function is: its parameters are marked, its docstring is the help.
 
-    `name`: that of the function without it; `shows_quantities`: whether there is ``--units``. Options have
-    the order of the parameters. A parameter without a mark is a `TypeError`.
+    `name`: that of the function without it; `shows_quantities`: whether there are ``--units`` and
+    ``--digits``. Options have the order of the parameters. A parameter without a mark is a `TypeError`.
     """
     hints = get_type_hints(function, include_extras=True)
     params = [
         _param(hints[parameter.name], parameter) for parameter in signature(function).parameters.values()
     ]
     if shows_quantities:
-        params.append(_units_option())
+        params += [_units_option(), _digits_option()]
     about = cleandoc(function.__doc__ or "")
     words = name or function.__name__.replace("_", "-")
     rest = any(parameter.nargs == -1 and parameter.type is click.UNPROCESSED for parameter in params)
@@ -93,9 +97,37 @@ def _keep_units(context: click.Context, option: click.Parameter, text: str | Non
     from linkwright.kernel.page.out_units import OutUnits
 
     try:
-        context.meta[UNITS] = OutUnits.of(text)
+        context.meta[UNITS] = replace(_asked(context), chosen=OutUnits.of(text).chosen)
     except InputError as error:
         raise click.UsageError(str(error), context) from None
+
+
+def _digits_option() -> click.Option:
+    """``--digits``: with how many significant digits a command shows its numbers."""
+    from linkwright.kernel.page.out_units import DIGITS, DIGITS_MAX
+
+    return click.Option(
+        ["--digits"],
+        metavar="N",
+        type=click.IntRange(1, DIGITS_MAX),
+        help=f"Significant digits of tables and summary. Default: {DIGITS}. JSON and CSV have all.",
+        expose_value=False,
+        callback=_keep_digits,
+    )
+
+
+def _keep_digits(context: click.Context, option: click.Parameter, digits: int | None) -> None:
+    """Keep the number of digits that is asked for, for when results are shown."""
+    if digits is not None:
+        context.meta[UNITS] = replace(_asked(context), digits=digits)
+
+
+def _asked(context: click.Context) -> OutUnits:
+    """What is known so far of how results are to be shown."""
+    from linkwright.kernel.page.out_units import OutUnits
+
+    known: OutUnits = context.meta.get(UNITS) or OutUnits()
+    return known
 
 
 def _param(hint: Any, parameter: Parameter) -> click.Parameter:

@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.text import Text
 from matplotlib.ticker import AutoLocator, FixedLocator, Formatter, Locator
 
+from linkwright.kernel.figure.style import mark_angles
 from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
 
@@ -149,10 +150,11 @@ def _move(axes: Axes, zero: Zero) -> None:
     if is_polar:
         return
     if is_cycle:
-        axes.set_xlim(0, 360 * turns)
-        axes.set_xticks(range(0, 360 * turns + 1, 45 * turns))
+        low, high = 0.0, 360.0 * turns
     else:
-        axes.set_xlim(low - size * zero.angle, high - size * zero.angle)
+        low, high = low - size * zero.angle, high - size * zero.angle
+    axes.set_xlim(low, high)
+    mark_angles(axes, low, high)
 
 
 def _move_line(line: Line2D, zero: Zero, size: float) -> None:

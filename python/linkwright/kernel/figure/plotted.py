@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled, turn_axis
 from linkwright.kernel.quantities import quantities_of
 
 if TYPE_CHECKING:
@@ -84,6 +84,8 @@ def _figure(over: _PlotCurve, chosen: list[_PlotCurve]) -> Figure:
         if len(curves) > 1:
             legend_above(axis)
     axes[-1].set_xlabel(f"{over.word} [{unit}]" if unit else over.word)
+    if unit == "°":
+        turn_axis(axes[-1], x, label=False)
     return figure
 
 

@@ -46,6 +46,9 @@ DRIVE, LOAD, MOTOR, INERTIA = BLUE, RED, PURPLE, GREEN
 # A column of text on A4 [inch].
 WIDTH = 7.1
 
+# The smallest letters [points]: 7 pt where a figure is printed in a column of text.
+SMALL = 7.5
+
 # For labels of our own with symbols between dollar signs: ``axes.set_ylabel("torque $M$", **MATH)``.
 MATH: Any = {"parse_math": True}
 
@@ -121,7 +124,7 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
             # A letter that no font has is drawn as a box.
             warnings.filterwarnings("ignore", message="Glyph .* missing from font")
             drawing = draw(*args, **kwargs)
-            if reader().chosen or zero_shown().words:
+            if not isinstance(drawing, str | bytes):
                 _for_reader(drawing)
             return drawing
 
@@ -129,12 +132,16 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 
 def _for_reader(drawing: object) -> None:
-    """Count crank angles of a figure from the zero, and mark its axes in the units, that the reader wants."""
+    """Finish legends; count crank angles from the zero, and mark axes in the units, that the reader wants."""
     from matplotlib.figure import Figure
 
     from linkwright.kernel.figure.for_reader import from_zero_of_reader, in_units_of_reader
+    from linkwright.kernel.figure.legends import finish_legends
 
-    if isinstance(drawing, Figure):
+    if not isinstance(drawing, Figure):
+        return
+    finish_legends(drawing)
+    if reader().chosen or zero_shown().words:
         from_zero_of_reader(drawing)
         in_units_of_reader(drawing)
 
@@ -163,17 +170,61 @@ def panels(rows: int, *, height: float, columns: int = 1, shared: bool = True) -
 
 
 def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = True) -> None:
-    """Let x be the crank angle of one revolution in degrees, or of the cycle of some angles [°]."""
-    turns = 1 if degrees is None else max(1, round(float(degrees[-1]) / 360))
-    axes.set_xlim(0, 360 * turns)
-    axes.set_xticks(range(0, 360 * turns + 1, 45 * turns))
+    """Let x be the crank angle of one revolution in degrees, or the range of some angles [°]."""
+    low, high = (0.0, 360.0) if degrees is None else (float(degrees[0]), float(degrees[-1]))
+    turns = round((high - low) / 360)
+    # Samples of whole revolutions may begin beside zero, clear of a change point.
+    if abs(low) < 1 and turns and abs(high - low - 360 * turns) < _WHOLE:
+        low, high = 0.0, 360.0 * turns
+    if high > low:
+        axes.set_xlim(low, high)
+        mark_angles(axes, low, high)
     if label:
         axes.set_xlabel("crank angle φ [°]")
 
 
-def legend_above(axes: Axes, gap: float = 0.2) -> None:
-    """A legend in one line above the axes, where no line runs through it; `gap` in heights of its letters."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=gap, handlelength=1.8)
+def mark_angles(axes: Axes, low: float, high: float) -> None:
+    """Mark crank angles [°] along x, with lines half-way: every 90° from half a revolution to four on."""
+    span = high - low
+    step = 90.0 * max(1, round(span / 1440)) if span >= _HALF_TURN else _fine_step(span)
+    for part in (step, step / 2):
+        first, last = np.ceil(low / part - 1e-6), np.floor(high / part + 1e-6)
+        axes.set_xticks(part * np.arange(first, last + 1), minor=part < step)
+    axes.grid(visible=True, axis="x", which="minor", linewidth=0.35)
+    axes.tick_params(axis="x", which="minor", length=0)
+
+
+# What a range of crank angles may differ from whole revolutions [°].
+_WHOLE = 1e-3
+
+# Range from which on crank angles have the marks of a whole revolution [°].
+_HALF_TURN = 180.0
+
+
+def _fine_step(span: float) -> float:
+    """Step of round angles of which four or more fit into a short range [°]."""
+    power = 10.0 ** np.floor(np.log10(max(span, 1e-9) / 4))
+    steps = (30.0, 15.0, *(power * np.array([5.0, 2.0, 1.0])))
+    return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
+
+
+# Mark of a legend above its axes, and its columns at most.
+ABOVE, COLUMNS = "above", 4
+
+
+def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries: Any) -> None:
+    """A legend above the axes, where no line runs through it; `gap` in heights of its letters, `entries` of
+    its own.
+    """
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        ncols=columns,
+        borderaxespad=gap,
+        handlelength=1.8,
+        **entries,
+    )
+    legend.set_gid(ABOVE)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:

@@ -84,6 +84,10 @@ _COLOURS = {
 }
 
 
+# By how much a figure is enlarged at most where a page has the room.
+_LARGER = 1.5
+
+
 def inline_svg(figure: Figure, name: str, text: str) -> str:
     """A figure as an ``<svg>`` element for a page, which fills the width that it is given.
 
@@ -93,8 +97,10 @@ def inline_svg(figure: Figure, name: str, text: str) -> str:
     drawn = with_own_names(svg(figure, transparent=True), name)
     for colour, variable in _COLOURS.items():
         drawn = drawn.replace(colour, f"var({variable})")
-    # The page's own size counts; names of other vocabularies are no use in HTML.
-    tail = f'" role="img" aria-label="{escape(text)}">'
+    # The page's own size counts, up to letters half as large again; names of other vocabularies are no use in
+    # HTML.
+    widest = f"{_LARGER * float(figure.get_size_inches()[0]):.4g}in"
+    tail = f'" style="max-width: {widest}" role="img" aria-label="{escape(text)}">'
     drawn = re.sub(r'^<svg[^>]*?(viewBox="[^"]*)"[^>]*>', lambda head: f"<svg {head[1]}{tail}", drawn)
     # A style inside a figure would hold for the whole page; the page has its own.
     drawn = re.sub(r"\s*<style.*?</style>", "", drawn, flags=re.DOTALL)

@@ -88,7 +88,7 @@ class Content:
     # Data of the machine: heading → parts of `linkwright.machine.table`.
     groups: Sequence[tuple[str, Sequence[Any]]] = ()
     assumptions: Sequence[str] = ()  # what was taken for granted
-    file: str = ""  # the machine as a machine file in SI; empty without one
+    file: str = ""  # the machine as a machine file in its units; empty without one
     command: str = ""  # the command line that gives the same
     language: Language = ENGLISH  # that it is written in, by `linkwright.kernel.page.language.in_language`
 

@@ -13,6 +13,8 @@ PAPER_1 = (
     "the unevenness of motion of the drive mechanisms of roller-forming machines)"
 )
 
+KLOSS_1909 = "M. Kloss, Drehmoment und Schlüpfung des Drehstrommotors, Archiv für Elektrotechnik, 1909"
+
 
 class Formula(NamedTuple):
     """A formula: what it says, the formula in the notation of this module, and where it is from."""

@@ -83,6 +83,29 @@ def _embedded(scene: dict[str, Any]) -> Markup:
     return Markup(text.replace("<", "\\u003c"))
 
 
+def _sections(content: Content) -> list[tuple[str, str, list[tuple[str, str]]]]:
+    """Sections of a page for its contents: title, place, and title and place of what is in them."""
+    inside = [
+        [
+            *((table.title, f"table-{identifier(table.name)}") for table in part.tables),
+            *((figure.title, f"figure-{identifier(figure.name)}") for figure in part.figures),
+        ]
+        for part in content.parts
+    ]
+    before = {"topper": ("The knife over the heads", "knife"), "mechanism": ("The mechanism", "mechanism")}
+    after = {
+        "formulas": ("Formulas", content.formulas),
+        "data": ("Machine data", content.groups),
+        "assumptions": ("Assumptions", content.assumptions),
+        "repeat": ("Reproduce this report", content.command),
+    }
+    return [
+        *((*words, []) for name, words in before.items() if name in content.scenes),
+        *((part.title, f"part-{n}", inside[n - 1]) for n, part in enumerate(content.parts, start=1)),
+        *((title, place, []) for place, (title, known) in after.items() if known),
+    ]
+
+
 def _logo(logo: tuple[str, bytes]) -> str:
     """A picture as an address that holds it."""
     kind = {"svg": "svg+xml", "jpg": "jpeg"}.get(logo[0], logo[0])
@@ -105,6 +128,7 @@ def environment() -> Environment:
     environment.filters["embedded"] = _embedded
     environment.filters["identifier"] = identifier
     environment.filters["logo"] = _logo
+    environment.filters["sections"] = _sections
     environment.globals["picture"] = _picture
     environment.globals["axes_of"] = _axes
     environment.globals["script"] = lambda name: inline("script", _raw(name))

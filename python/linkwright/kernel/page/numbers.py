@@ -16,22 +16,22 @@ if TYPE_CHECKING:
 NOISE = 1e-12
 
 
-def number(value: float | None, digits: int = 5, scale: float = 0.0) -> str:
+def number(value: float | None, digits: int | None = None, scale: float = 0.0) -> str:
     """A number as text, with a true minus sign and a power of ten where it is very large or small; None is a
     dash.
 
-    `scale`: peak absolute value of what the number belongs to (a row, a curve, quantities of one unit); what
-    is rounding beside it is zero.
+    `digits`: significant digits, those that the reader wants without it; `scale`: peak absolute value of what
+    the number belongs to (a row, a curve, quantities of one unit): what is rounding beside it is zero.
 
     >>> number(0.08495914), number(-1.4051e-08, 3), number(3.9e-13, scale=512.0)
-    ('0.084959', '−1.41·10⁻⁸', '0')
+    ('0.08496', '−1.41·10⁻⁸', '0')
     """
     if value is None or not math.isfinite(value):
         return "–"
     # Below the smallest normal number, a double has lost its digits.
     if abs(value) <= max(NOISE * scale, sys.float_info.min):
         return "0"
-    text = f"{value:.{digits}g}"
+    text = f"{value:.{digits or reader().digits}g}"
     if "e" in text and 1 <= abs(value) < _LARGE:
         text = f"{float(text):.0f}"
     if "e" in text:
@@ -54,15 +54,20 @@ _ROUNDING = 1e-7
 _PLACE = 1e-6
 
 
-def degrees(angle: float) -> str:
+def degrees(angle: float, digits: int | None = None) -> str:
     """An angle in radians as text, in degrees unless the reader wants another unit; rounding is zero."""
-    return quantity(0.0 if abs(angle) < _ROUNDING else angle, "rad", usual="deg")
+    return quantity(0.0 if abs(angle) < _ROUNDING else angle, "rad", digits, usual="deg")
 
 
 def quantity(
-    value: float | None, unit: str, digits: int = 5, scale: float = 0.0, before: str = "", usual: str = ""
+    value: float | None,
+    unit: str,
+    digits: int | None = None,
+    scale: float = 0.0,
+    before: str = "",
+    usual: str = "",
 ) -> str:
-    """A number with its unit as text, such as ``0.084959 m``, in the unit that the reader wants; None is a
+    """A number with its unit as text, such as ``0.08496 m``, in the unit that the reader wants; None is a
     dash.
 
     `scale` as of `number`; `before`: what stands before it; `usual`: unit where the reader wants no other.
@@ -73,7 +78,9 @@ def quantity(
     return f"{before}{text}{'' if name == '°' else ' '}{name}".rstrip()
 
 
-def parted(value: float, unit: str, digits: int = 5, scale: float = 0.0, usual: str = "") -> tuple[str, str]:
+def parted(
+    value: float, unit: str, digits: int | None = None, scale: float = 0.0, usual: str = ""
+) -> tuple[str, str]:
     """A number and its unit as texts, as `quantity` writes them together."""
     name, factor = reader().shown(unit, usual)
     return number(value / factor, digits, scale / factor), name
@@ -89,7 +96,6 @@ class QuantityText(str):
 
     value: float  # in SI
     unit: str  # SI unit as it is printed
-    digits: int  # significant digits
     is_crank_angle: bool  # whether it is an angle of the crank, which may be counted from a dead centre
     before: str  # what stands before the number
 
@@ -102,7 +108,7 @@ def measured(
     value: float | None,
     unit: str,
     scale: float = 0.0,
-    digits: int = 5,
+    digits: int | None = None,
     before: str = "",
     usual: str = "",
 ) -> str:
@@ -113,10 +119,10 @@ def measured(
     if value is None or not math.isfinite(value):
         return "–"
     usual = usual or _USUAL.get(unit, "")
-    number_text = degrees(value) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
-    return _marked(
-        before + number_text, value if number(value, digits, scale) != "0" else 0.0, unit, digits, before
+    number_text = (
+        degrees(value, digits) if unit == "rad" else quantity(value, unit, digits, scale, usual=usual)
     )
+    return _marked(before + number_text, value if number(value, digits, scale) != "0" else 0.0, unit, before)
 
 
 def crank_angle(angle: float | None, before: str = "", cycle: float = 2 * math.pi) -> str:
@@ -128,7 +134,7 @@ def crank_angle(angle: float | None, before: str = "", cycle: float = 2 * math.p
     counted = zero_shown().counted(angle)
     text = degrees(0.0 if abs(counted) < _PLACE else counted)
     number_text = "0°" if text == degrees(cycle) else text
-    return _marked(before + number_text, angle, "rad", 5, before, is_crank_angle=True)
+    return _marked(before + number_text, angle, "rad", before, is_crank_angle=True)
 
 
 # Share of a revolution by which angles may exceed whole ones: rounding.
@@ -148,10 +154,8 @@ def zero_words(zero: Zero) -> str:
     return f"Crank angles from the {zero.words}, φ = {degrees(zero.angle)} in the file"
 
 
-def _marked(
-    text: str, value: float, unit: str, digits: int, before: str, *, is_crank_angle: bool = False
-) -> QuantityText:
+def _marked(text: str, value: float, unit: str, before: str, *, is_crank_angle: bool = False) -> QuantityText:
     marked = QuantityText(text)
-    marked.value, marked.unit, marked.digits, marked.before = value, unit, digits, before
+    marked.value, marked.unit, marked.before = value, unit, before
     marked.is_crank_angle = is_crank_angle
     return marked

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -30,6 +30,13 @@ _RAISE = {"2": "²", "3": "³", "4": "⁴"}
 _JOULE = Dimension.of("J")
 # A unit at the end of a head or of a label.
 _BRACKETS = re.compile(r"\[([^\[\]]+)\]$")
+
+
+# Significant digits of numbers in tables, cards and sentences, where nobody asks for others.
+DIGITS = 4
+
+# Significant digits that a double has for sure.
+DIGITS_MAX = 15
 
 
 class _Unit(NamedTuple):
@@ -57,9 +64,10 @@ def _unit(text: str) -> _Unit | None:
 
 @dataclass(frozen=True)
 class OutUnits:
-    """Units for what is shown."""
+    """Units for what is shown, and its significant digits."""
 
     chosen: tuple[_Unit, ...] = ()  # the units, one of a kind
+    digits: int = DIGITS
 
     @classmethod
     def of(cls, text: str, where: str = "--units") -> OutUnits:
@@ -90,7 +98,7 @@ class OutUnits:
     def over(self, other: OutUnits) -> OutUnits:
         """These, and of another choice what these leave open."""
         rest = (unit for unit in other.chosen if not any(own.measures(unit) for own in self.chosen))
-        return OutUnits((*self.chosen, *rest))
+        return OutUnits((*self.chosen, *rest), self.digits)
 
     def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
         """The unit in which a quantity is shown, and by what its value is divided.
@@ -174,13 +182,15 @@ def with_units_of(table: BaseModel | None) -> AbstractContextManager[None]:
 
 
 @public
-def shown_in(units: str) -> AbstractContextManager[None]:
-    """Tables and figures in other units than SI, within a ``with``.
+def shown_in(units: str = "", *, digits: int | None = None) -> AbstractContextManager[None]:
+    """Tables and figures in other units than SI, or with other digits than four, within a ``with``.
 
     Parameters
     ----------
     units : str
         Such as ``"mm, rpm, kN"``.
+    digits : int, optional
+        Significant digits, 1 to 15.
 
     Returns
     -------
@@ -190,7 +200,7 @@ def shown_in(units: str) -> AbstractContextManager[None]:
     Raises
     ------
     InputError
-        A unit is not known, or two measure the same.
+        A unit is not known, two measure the same, or digits out of range.
 
     Examples
     --------
@@ -198,7 +208,10 @@ def shown_in(units: str) -> AbstractContextManager[None]:
     >>> with lw.shown_in("mm, rpm"):
     ...     lw.write_report(lw.study(machine), "report.html")  # doctest: +SKIP
     """
-    return reading(OutUnits.of(units, "units").over(reader()))
+    if digits is not None and not 1 <= digits <= DIGITS_MAX:
+        raise InputError(f"digits: found {digits}, expected 1 to {DIGITS_MAX}")
+    shown = OutUnits.of(units, "units").over(reader())
+    return reading(replace(shown, digits=digits or reader().digits))
 
 
 def shown_columns(columns: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.extras import require
@@ -13,6 +13,9 @@ from linkwright.kernel.page.content import Content, Heading
 from linkwright.kernel.page.formulas import Formula, typst
 from linkwright.kernel.page.html import INDEX
 from linkwright.kernel.page.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # A table of more columns is set on a page that lies.
 _BROAD = 10
@@ -98,7 +101,7 @@ def _head(content: Content) -> Iterator[str]:
     yield from _company(content.heading)
     yield f"= {_text(content.title)}"
     if content.lead:
-        yield _text(content.lead)
+        yield _text(content.lead) + "\n"
     if content.source:
         yield f"#note[{content.language('Source of the numbers')}: {_text(content.source)}]"
     if rows := content.heading.rows():
@@ -152,7 +155,30 @@ def _is_wordy(table: Table, place: int) -> bool:
 
 def _figure(captioned: CaptionedFigure) -> str:
     picture = f'#picture("{_place(captioned)}")'
-    return f"#figure-with([== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]])"
+    text = f"#figure-with([== {_text(captioned.title)}\n{picture}\n#note[{_text(captioned.caption)}]])"
+    sheet = _sheet(captioned.figure)
+    return f"#page({sheet})[{text}]" if sheet else text
+
+
+# Sides of the sheets that a report may hold [mm].
+_SHEETS = {"a4": (210, 297), "a3": (297, 420), "a2": (420, 594)}
+
+# Scale at which the smallest letters of a figure, `linkwright.kernel.figure.style.SMALL`, have 7 points.
+_SCALE = 0.94
+
+# What the margins, and the margins with title and caption, take of a sheet [mm].
+_ACROSS, _ALONG = 40, 70
+
+
+def _sheet(figure: Figure) -> str:
+    """The smallest sheet on which the letters of a figure can be read; empty for that of the text."""
+    width, height = (25.4 * _SCALE * float(side) for side in figure.get_size_inches())
+    for name, (short, long) in _SHEETS.items():
+        for across, along in ((short, long), (long, short)):
+            if width <= across - _ACROSS and height <= along - _ALONG:
+                is_lying = str(across > along).lower()
+                return "" if (name, across) == ("a4", short) else f'paper: "{name}", flipped: {is_lying}'
+    return ""
 
 
 def _place(captioned: CaptionedFigure) -> str:
@@ -200,7 +226,7 @@ def _repeat(content: Content) -> Iterator[str]:
     code = f"#code({_string(content.command)})"
     yield f"#block(breakable: false)[== {words('Reproduce this report')}\n{made}\n{code}]"
     if content.file:
-        sentence = words("The machine as computed, overrides included, as a machine file in SI:")
+        sentence = words("The machine as computed, overrides included, as a machine file:")
         yield f"#block(sticky: true)[{sentence}]"
         yield f"#code({_string(content.file)})"
 
@@ -252,8 +278,17 @@ _STYLE = """#set document(title: {title}, date: none)
     let others = wordy.map(is => if is {{ other }} else {{ auto }})
     let line = table.hline(stroke: 0.4pt + soft)
     let named = table.cell(colspan: heads.len(), inset: (x: 0pt, y: 4pt), strong(title))
-    table(columns: (first,) + others, stroke: none, inset: (x: 0pt, y: 3pt), column-gutter: 9pt,
-      table.header(named, line, ..heads), ..cells, line)
+    // A column of no width holds the rows at both ends together, four each: none stands alone on a page.
+    let rows = cells.pos().chunks(heads.len())
+    let last = rows.len() - 4
+    let held(n) = if last < 4 {{ if n == 0 {{ rows.len() }} else {{ 0 }} }} else {{
+      if n == 0 or n == last {{ 4 }} else if n < 4 or n > last {{ 0 }} else {{ 1 }}
+    }}
+    let hold(n) = if n > 0 {{ (table.cell(rowspan: n, breakable: false, inset: 0pt)[],) }} else {{ () }}
+    let body = rows.enumerate().map(((n, row)) => row + hold(held(n)))
+    table(columns: (first,) + others + (0pt,), stroke: none, inset: (x: 0pt, y: 3pt),
+      column-gutter: (9pt,) * (heads.len() - 1) + (0pt,),
+      table.header(named, [], line, ..heads, []), ..body.flatten(), line)
   }}
   let fits(letters) = measure(set_in(letters, 38mm, 38mm)).width <= page.width
   let letters = if fits(9pt) {{ 9pt }} else if fits(8pt) {{ 8pt }} else {{ 7pt }}
@@ -266,8 +301,8 @@ _STYLE = """#set document(title: {title}, date: none)
   // One that is drawn for less than the width of the page is not made larger.
   let wide = calc.min(page.width, measure(image(place)).width)
   let tall = measure(image(place, width: wide)).height
-  // Two of those that take somewhat more than half a page stand on one.
-  let most = if tall <= 104mm {{ tall }} else if tall <= 160mm {{ 104mm }} else {{ 215mm }}
+  // Two of those that take little more than half a page stand on one, with letters of 7 pt.
+  let most = if tall <= 104mm {{ tall }} else if tall <= 119mm {{ 104mm }} else {{ page.height - 44mm }}
   align(center, if tall > most {{ image(place, height: most) }} else {{ image(place, width: wide) }})
 }})
 """

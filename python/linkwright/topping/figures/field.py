@@ -49,7 +49,7 @@ def field_share_figure(field: TopperField) -> Figure:
     for share, value in zip(field.quantile, field.quantile_length, strict=True):
         if share in _MARKED and np.isfinite(value):
             axes.plot(1e3 * value, 100 * share, "o", color=INK, markersize=3.5)
-            text = f"{100 * share:.3g} %: {quantity(round(value, 3), 'm', 4, usual='mm')}"
+            text = f"{100 * share:.3g} %: {quantity(round(value, 3), 'm', usual='mm')}"
             place = (1e3 * value, 100 * share)
             axes.annotate(text, place, (6, -2), textcoords="offset points", va="top", fontsize=8)
     axes.set_xlim(_start(field), 1.06 * length[-1])

@@ -93,7 +93,7 @@ def _between(low: str, high: str) -> str:
 
 
 def _length(value: float) -> str:
-    return "none" if math.isinf(value) else quantity(value, "m", 4)
+    return "none" if math.isinf(value) else quantity(value, "m")
 
 
 def sweep_table(swept: FieldSweep) -> Table:
@@ -109,7 +109,7 @@ def sweep_table(swept: FieldSweep) -> Table:
         varied = tuple(_shown(name, float(swept.entries[name][i])) for name in names)
         lengths = _length(float(swept.length_for_95[i]))
         shares = (swept.share_complete[i], swept.share_complete_low[i], swept.share_complete_high[i])
-        value, low, high = (number(100 * float(share), 4) for share in shares)
+        value, low, high = (number(100 * float(share)) for share in shares)
         rows.append(
             (
                 *(varied if len(varied) == 2 else (*varied, "")),
@@ -117,8 +117,8 @@ def sweep_table(swept: FieldSweep) -> Table:
                 _between(low, high),
                 f"{number(100 * float(swept.haulm_mean[i]), 3)} %",
                 lengths,
-                f"{number(1e6 * float(swept.loss_mean[i]), 4)} cm³",
-                number(float(swept.slicing_ratio_mean[i]), 4),
+                f"{number(1e6 * float(swept.loss_mean[i]))} cm³",
+                number(float(swept.slicing_ratio_mean[i])),
             )
         )
     columns = ("cut through", _interval(swept.level), "left", "L for 95 %", "loss", "draw-cut ratio")
@@ -166,11 +166,11 @@ def best_table(search: KnifeSearch, best: BestKnife) -> Table:
 
 
 def _percent(share: float) -> str:
-    return f"{number(100 * share, 4)} %"
+    return f"{number(100 * share)} %"
 
 
 def _with_ends(value: float, low: float, high: float) -> str:
-    return f"{number(100 * value, 4)} % ({number(100 * low, 4)} to {number(100 * high, 4)})"
+    return f"{number(100 * value)} % ({number(100 * low)} to {number(100 * high)})"
 
 
 def _at_most(value: float, unit: str) -> str:

@@ -39,7 +39,7 @@ def edge_csv(study: TopperStudy) -> str:
 
 def mm(value: float) -> str:
     """A length in millimetres."""
-    return quantity(value, "m", 4, usual="mm")
+    return quantity(value, "m", usual="mm")
 
 
 def percent(share: float) -> str:
@@ -102,7 +102,7 @@ def shown_head(study: TopperStudy) -> tuple[float, float]:
 
 def _head(study: TopperStudy, described: Topper) -> Table:
     """The head, and what is left of it."""
-    volume = f"{number(1e6 * study.cap_volume, 4)} cm³"
+    volume = f"{number(1e6 * study.cap_volume)} cm³"
     rows: list[Row] = [
         _text_row("head_diameter", mm(study.head_diameter), "in the plane of the cut"),
         _text_row("cap_volume", volume, "of the root above the cut"),

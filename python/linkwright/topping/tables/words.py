@@ -63,14 +63,14 @@ _SLICING = Formula(
 
 def topper_headline(described: Topper, study: TopperStudy) -> Iterator[tuple[str, str, str]]:
     """The few numbers that one looks for first: word, value, unit."""
-    yield "head diameter d", *parted(study.head_diameter, "m", 4, usual="mm")
+    yield "head diameter d", *parted(study.head_diameter, "m", usual="mm")
     needed = study.length_exact
     if not study.obstacle:
         yield (
             "required edge length",
-            *(parted(needed, "m", 4, usual="mm") if math.isfinite(needed) else ("none does", "")),
+            *(parted(needed, "m", usual="mm") if math.isfinite(needed) else ("none does", "")),
         )
-    yield "edge length L", *parted(described.edge_length, "m", 4, usual="mm")
+    yield "edge length L", *parted(described.edge_length, "m", usual="mm")
     if not study.obstacle:
         yield "maximum uncut share", *parted(100 * study.uncut_share, "%", 3)
     if study.stroke:

@@ -15,6 +15,7 @@ from linkwright.kernel.figure.style import (
     MARK_LETTERS,
     ORANGE,
     RED,
+    SMALL,
     SOFT,
     WIDTH,
     legend_above,
@@ -56,7 +57,7 @@ def modes_figure(free: FreeVibration, modes: int = 4) -> Figure:
         range(len(names)), names, rotation=40 if turned else 0, ha="right" if turned else "center"
     )
     if len(names) > 14:
-        last.tick_params("x", labelsize=7)
+        last.tick_params("x", labelsize=SMALL)
     last.set_xlabel("disc")
     return figure
 
@@ -81,7 +82,7 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
     axes.plot(range(len(shape)), shape, "o", color=INK, markersize=4)
     axes.set_ylim(-1.15, 1.15)
-    axes.set_ylabel(quantity(free.natural_frequencies[k], "Hz", 5))
+    axes.set_ylabel(quantity(free.natural_frequencies[k], "Hz"))
     zero_line(axes)
 
 
@@ -195,7 +196,7 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
             ha="left" if at_right else "center",
             va="center" if at_right else "bottom",
             color=SOFT,
-            fontsize=7.5,
+            fontsize=SMALL,
         )
 
 
@@ -233,7 +234,7 @@ def _write_labels(axes: Axes, listed: list[tuple[float, float, float, float]]) -
             xytext=(0, 3 + math.sqrt(area) / 2),
             textcoords="offset points",
             ha=side,
-            fontsize=7.5,
+            fontsize=SMALL,
             color=INK,
             zorder=4,
         )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from linkwright.kernel.figure.style import BLUE, GREEN, INK, PAPER, RED, SOFT, styled
+from linkwright.kernel.figure.style import BLUE, GREEN, INK, PAPER, RED, SMALL, SOFT, styled
 from linkwright.torsion.figures.scheme_layout import Bridge, Riser, Span
 from linkwright.torsion.figures.scheme_page import (
     GAP,
@@ -16,7 +16,6 @@ from linkwright.torsion.figures.scheme_page import (
     LINE,
     LOW,
     MARGIN,
-    SIZE,
     Page,
     in_a_row,
     page,
@@ -28,9 +27,6 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.modes.scheme import Connection, Scheme
 
-# Width from which it is tried to write upwards [inch].
-_WIDE = 12.0
-
 _COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "damper": GREEN}
 
 
@@ -40,7 +36,7 @@ def scheme_figure(scheme: Scheme) -> Figure:
     from matplotlib.figure import Figure
 
     laid = page(scheme, turned=False)
-    if laid.width > _WIDE:
+    if laid.oversize > 1:
         laid = min(laid, page(scheme, turned=True), key=lambda part: part.oversize)
     levels, note = laid.levels(), laid.note()
     bottom = levels[-1][2] - 1.3 * LINE * len(note)
@@ -50,7 +46,7 @@ def scheme_figure(scheme: Scheme) -> Figure:
     axes.set_xlim(laid.left - MARGIN, laid.left + laid.width - MARGIN)
     axes.set_ylim(bottom - MARGIN, MARGIN)
     _Pen(axes, laid).draw()
-    axes.text(laid.left, bottom, "\n".join(note), size=SIZE - 0.5, color=SOFT, va="bottom", linespacing=1.3)
+    axes.text(laid.left, bottom, "\n".join(note), size=SMALL, color=SOFT, va="bottom", linespacing=1.3)
     return figure
 
 
@@ -82,7 +78,7 @@ class _Pen:
         self.axes.plot(x, y, color=_COLOURS[part.kind], linewidth=1.3, zorder=1, linestyle=dashes)
 
     def _words(self, x: float, y: float, text: str, **more: Any) -> None:
-        style = {"size": SIZE, "linespacing": 1.15, "zorder": 4, **more}
+        style = {"size": SMALL, "linespacing": 1.15, "zorder": 4, **more}
         self.axes.text(x, y, text, **style)
 
     # -- shafts ------------------------------------------------------------------------------------------

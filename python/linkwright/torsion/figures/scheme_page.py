@@ -8,16 +8,14 @@ from textwrap import wrap
 
 import numpy as np
 
-from linkwright.kernel.figure.style import NAME_LETTERS, shortened
+from linkwright.kernel.figure.style import NAME_LETTERS, SMALL, WIDTH, shortened
 from linkwright.kernel.page.numbers import quantity
 from linkwright.torsion.figures.scheme_layout import Bridge, Layout, layout
 from linkwright.torsion.model.train import GROUND
 from linkwright.torsion.modes.scheme import Connection, Scheme
 
-# Size of the letters [points], and what a letter and a line of it take [inch]: DejaVu Sans is 0.6 em wide in
-# the mean of names and numbers.
-SIZE = 7.0
-_LETTER, LINE = 0.6 * SIZE / 72, 1.25 * SIZE / 72
+# What a letter and a line take [inch]: DejaVu Sans is 0.6 em wide in the mean of names and numbers.
+_LETTER, LINE = 0.6 * SMALL / 72, 1.25 * SMALL / 72
 
 # Ratios of speed nearer to one than this are those of the first disc: what is referred is then what is.
 _SAME = 1e-9
@@ -46,7 +44,7 @@ def wide(line: str) -> float:
 
 def disc_words(scheme: Scheme, n: int) -> Words:
     """Name, inertia, and where the speed is another one, the referred inertia in brackets."""
-    own = quantity(scheme.inertia[n], "kg m²", 4)
+    own = quantity(scheme.inertia[n], "kg m²")
     referred = () if _same(scheme.speed[n]) else (f"({scheme.inertia_referred[n]:.4g})",)
     return Words((shortened(scheme.discs[n], NAME_LETTERS),), (own, *referred))
 
@@ -97,7 +95,7 @@ _BROKEN = 2.5
 _NARROW = 4.5
 
 # What fits a page [inch].
-_PAGE = (7.0, 9.0)
+_PAGE = (WIDTH, 9.0)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import BLUE, INK, RED, SOFT, WIDTH, styled
+from linkwright.kernel.figure.style import BLUE, INK, RED, SMALL, SOFT, WIDTH, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def _star(axes: Axes, star: PhaseVectors) -> None:
     _arrow(axes, complex(star.vectors.sum()) * longest / star.largest_sum, RED, 2.0)
     for words, vector in _named(star, longest):
         place = (max(abs(vector), _MIDDLE * longest) + _BEYOND * longest) * vector / abs(vector)
-        axes.text(place.real, place.imag, words, fontsize=6.5, ha="center", va="center", color=INK)
+        axes.text(place.real, place.imag, words, fontsize=SMALL, ha="center", va="center", color=INK)
     rpm = star.speed * 30 / math.pi
     title = f"mode {star.mode}, order {star.order:.4g}\n{rpm:.0f} rpm, sum {star.vector_sum:.3g}"
     axes.set_title(title, fontsize=8)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import measured, quantity
+from linkwright.kernel.page.numbers import measured, number, quantity
 from linkwright.kernel.page.table import Row, Table
 from linkwright.torsion.damper.damper_design import DamperDesign
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
@@ -139,12 +139,12 @@ def damper_table(design: DamperDesign) -> Table:
         ("largest magnification", "", design.magnification_rule, design.magnification_best),
     )
     rows: list[Row] = [
-        (word, symbol, f"{rule:.6g}", f"{best:.6g}") for word, symbol, rule, best in values if best > 0
+        (word, symbol, number(rule), number(best)) for word, symbol, rule, best in values if best > 0
     ]
     title = (
-        f"Damper on {design.on} for mode {design.mode}, {quantity(design.natural_frequency, 'Hz', 6)}; its "
+        f"Damper on {design.on} for mode {design.mode}, {quantity(design.natural_frequency, 'Hz')}; its "
         f"ring of "
-        f"{quantity(design.ring_inertia, 'kg m²', 6)} is {100 * design.mass_ratio:.4g} % "
+        f"{quantity(design.ring_inertia, 'kg m²')} is {100 * design.mass_ratio:.4g} % "
         "of the modal inertia there"
     )
     return Table("damper", title, ("", "", "by the mode alone", "optimum for the train"), rows)

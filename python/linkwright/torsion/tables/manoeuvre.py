@@ -34,12 +34,12 @@ def _ice_row(one: IceMilling) -> Row:
     return (
         one.on,
         "",
-        quantity(one.torque_max, "N m", 4),
+        quantity(one.torque_max, "N m"),
         f"{one.amplitude:.4g}",
-        quantity(one.duration, "rad", 4, usual="deg"),
+        quantity(one.duration, "rad", usual="deg"),
         str(one.impacts),
-        quantity(one.start, "s", 4),
-        "–" if one.end is None else quantity(one.end, "s", 4),
+        quantity(one.start, "s"),
+        "–" if one.end is None else quantity(one.end, "s"),
         rpm(one.speed_before),
         rpm(one.speed_min),
     )
@@ -49,13 +49,13 @@ def _shafts(moved: TorsionTransient) -> Table:
     columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
     units = ("N m", "s") * 2
     rows: list[Row] = [
-        (name, "", *(quantity(*column, digits=4) for column in zip(values, units, strict=True)))
+        (name, "", *(quantity(*column) for column in zip(values, units, strict=True)))
         for name, values in zip(
             moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
         )
     ]
     heads = ("shaft", "", "maximum", "at", "minimum", "at")
-    title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's', 4)}: torques of the shafts"
+    title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's')}: torques of the shafts"
     return Table("manoeuvre", title, heads, rows)
 
 
@@ -68,7 +68,7 @@ def _stages(moved: TorsionTransient) -> Table:
             continue
         cells = []
         for place in (int(row.argmax()), int(row.argmin())):
-            cells += [quantity(float(row[place]), "N m", 4), quantity(float(moved.time[place]), "s", 4)]
+            cells += [quantity(float(row[place]), "N m"), quantity(float(moved.time[place]), "s")]
         sides = "both signs" if row.max() > 0 > row.min() else "one sign"
         rows.append((name, "", *cells, sides))
     heads = ("stage", "", "maximum", "at", "minimum", "at", "torque")

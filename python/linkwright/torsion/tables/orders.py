@@ -105,10 +105,10 @@ def star_table(stars: Sequence[PhaseVectors]) -> Table:
             f"mode {star.mode}, order {star.order:.4g}",
             "",
             rpm(star.speed),
-            number(star.vector_sum, 4),
-            number(star.largest_sum, 4),
-            quantity(star.torque, "N m", 4),
-            quantity(star.vector_sum * star.torque, "N m", 4),
+            number(star.vector_sum),
+            number(star.largest_sum),
+            quantity(star.torque, "N m"),
+            quantity(star.vector_sum * star.torque, "N m"),
         )
         for star in stars
     ]
@@ -131,4 +131,4 @@ def _cells(wave: complex, largest: float) -> tuple[str, str]:
     """Amplitude and phase."""
     if abs(wave) <= _ROUNDING * largest:
         return "–", "–"
-    return quantity(abs(wave), "N m", 4), quantity(float(np.angle(wave)), "rad", 4, usual="deg")
+    return quantity(abs(wave), "N m"), quantity(float(np.angle(wave)), "rad", usual="deg")

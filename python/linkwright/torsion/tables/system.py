@@ -31,10 +31,10 @@ def gear_tables(meshes: MeshTorque, place: int) -> Iterator[Table]:
             (
                 name,
                 "",
-                quantity(float(abs(meshes.mean[stage, place])), "N m", 4),
-                quantity(float(vibratory[place]), "N m", 4),
+                quantity(float(abs(meshes.mean[stage, place])), "N m"),
+                quantity(float(vibratory[place]), "N m"),
                 _factor(float(meshes.application_factor[stage, place])),
-                quantity(float(vibratory[worst]), "N m", 4),
+                quantity(float(vibratory[worst]), "N m"),
                 rpm(float(meshes.speeds[worst])),
                 _factor(float(meshes.application_factor[stage].max())),
                 _contact(meshes, stage),
@@ -62,7 +62,7 @@ def misfire_gear_table(verdict: MisfireVerdict, service: float) -> Table:
         (
             gear.stage,
             "",
-            quantity(gear.vibratory, "N m", 4),
+            quantity(gear.vibratory, "N m"),
             _factor(gear.application_factor),
             gear.cylinder,
             _factor(gear.application_factor_max),

@@ -187,7 +187,7 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
             forced.shaft_heat[s, at],
         )
         units = ("N m", "N m", "N m", "N m", "W")
-        cells = [quantity(float(value), unit, 4) for value, unit in zip(numbers, units, strict=True)]
+        cells = [quantity(float(value), unit) for value, unit in zip(numbers, units, strict=True)]
         rows.append((name, "", cells[0], rpm(float(peaks.speed[s])), *cells[1:]))
     service = rpm(forced.speeds[at])
     heads = ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat")
@@ -227,7 +227,7 @@ def _signed(text: str) -> str:
     return (text if float(text) else text.removeprefix("-")).replace("-", "−")
 
 
-def _finite(value: float, digits: int = 4) -> str:
+def _finite(value: float, digits: int | None = None) -> str:
     """A number, or a dash at a resonance that nothing damps."""
     return number(value, digits) if np.isfinite(value) else "–"
 
@@ -243,8 +243,8 @@ def _frequencies(free: FreeVibration) -> Table:
         (
             _energy(free, k),
             f"f_{k}",
-            f"{f:.6g}",
-            f"{60 * f:.6g}",
+            number(f),
+            number(60 * f),
             str(len(free.nodes[k])) if f > 0 else "–",
             _nodes(free.nodes[k]) if f > 0 else "–",
         )
@@ -298,7 +298,8 @@ def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     rows: list[Row] = [
         (name, "", *(number(column[n], 6) for column in columns)) for n, name in enumerate(table.discs)
     ]
-    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6)))
+    largest = float(np.abs(table.torque).max())
+    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6, largest)))
     heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
     yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
     of_shafts = (table.stiffness, table.twist, table.shaft_torque)

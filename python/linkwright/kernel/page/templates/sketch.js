@@ -190,12 +190,20 @@
       const joint = add("circle", "joint", { r: 5, "stroke-width": 2 });
       title(joint, part.name);
       const words = add("text", "name");
-      words.textContent = part.slides ? part.name : "";
+      words.textContent = part.name;
+      // Above a block; else beside the joint, away from the middle of the drawing.
+      if (!part.slides) words.setAttribute("text-anchor", "middle");
+      function aside(x, y) {
+        if (part.slides) return [-16, -24 - 15 * part.series];
+        const [dx, dy] = [x - width / 2, y - height / 2], r = Math.hypot(dx, dy) || 1;
+        return [(dx / r) * (12 + 4 * part.name.length), (dy / r) * 16 + 4];
+      }
       return (k) => {
         const [x, y] = at(part.name, k);
         centre(joint, [x, y]);
-        words.setAttribute("x", x - 16);
-        words.setAttribute("y", y - 24 - 15 * part.series);
+        const [right, down] = aside(x, y);
+        words.setAttribute("x", x + right);
+        words.setAttribute("y", y + down);
       };
     },
   };
@@ -301,7 +309,7 @@
     ? say("Speed of steady motion; at the middle playback speed #. Dots: centres of mass.", factor)
     : scene.swings
       ? say("The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass.")
-      : say("Constant speed: no steady-state solution is available. Dots: centres of mass.");
+      : say("Drawn at constant speed. Dots: centres of mass.");
   draw(0);
   setPlaying(playing);
 })();

@@ -1,0 +1,109 @@
+"""Figures of a report share marks of the crank angle, legends that tell, names of joints, size of letters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+import linkwright as lw
+from linkwright.app.report.figures import figures
+from linkwright.app.report.page import content
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.style import SMALL, legend_above, panels, styled
+from linkwright.kernel.figure.svg import svg
+from linkwright.kernel.page.numbers import number
+from linkwright.torsion.page import torsion_content
+from linkwright.torsion.study import torsion_study
+
+
+@pytest.mark.parametrize("machine", ["roller_two_carts", "press_with_flywheel", "four_stroke_speed"])
+def test_all_figures_over_the_crank_angle_have_the_same_marks(machine: str) -> None:
+    """Every 90 degrees of one revolution or two, from zero on, also where samples begin beside it."""
+    steps = set()
+    for figure in figures(lw.study(lw.read(machine))):
+        for axes in figure.figure.axes:
+            if axes.name == "rectilinear" and axes.get_xlabel().startswith("crank angle"):
+                marks = axes.get_xticks()
+                assert marks[0] == 0.0
+                steps |= set(np.diff(marks).tolist())
+    assert steps == {90.0}
+
+
+@styled
+def _drawn(curves: Sequence[np.ndarray]) -> Figure:
+    figure, (axes,) = panels(1, height=3.0)
+    for n, curve in enumerate(curves):
+        axes.plot(np.arange(len(curve)), curve, label=f"x{n}")
+    legend_above(axes)
+    return figure
+
+
+def test_a_legend_tells_of_curves_that_coincide() -> None:
+    """The second of two curves within the width of a line is dashed and names the first; a third does not."""
+    wave = np.sin(np.linspace(0.0, 6.0, 99))
+    axes = _drawn([wave, wave + 1e-3, wave + 0.2]).axes[0]
+    legend = axes.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["x0", "x1 (coincides with x0)", "x2"]
+    assert [line.is_dashed() for line in axes.get_lines()] == [False, True, False]
+
+
+def test_a_legend_is_no_wider_than_its_axes() -> None:
+    """Long names stand in fewer columns: the axes keep their width."""
+    figure = _drawn([np.full(9, n) for n in range(4)])
+    for line in figure.axes[0].get_lines():
+        line.set_label(f"starboard_crank_{line.get_label()}_of_the_second_engine")
+
+    @styled
+    def again() -> Figure:
+        legend_above(figure.axes[0])
+        return figure
+
+    svg(again())
+    assert figure.axes[0].get_position().width > 0.8
+
+
+def test_joints_are_named_in_the_drawing_as_in_the_tables() -> None:
+    """Every pin of the table of forces has its name beside its joint in the drawing."""
+    machine = lw.read("roller_two_carts")
+    sketch = content(lw.study(machine)).sketch
+    assert sketch is not None
+    drawn = {text.get_text() for text in sketch().findobj(Text)}
+    pins = {name.rpartition(":")[2] for name, pair in lw.forces(machine).pairs.items() if pair.kind == "pin"}
+    assert pins
+    assert pins <= drawn
+
+
+@pytest.mark.parametrize("machine", ["v8_diesel", "twin_engine_ship"])
+def test_letters_of_a_scheme_can_be_read(machine: str) -> None:
+    """No text of a scheme is smaller than 7.5 points, of which print leaves 7."""
+    report = torsion_content(torsion_study(lw.read(machine)))
+    (scheme,) = (each.figure for part in report.parts for each in part.figures if each.name == "scheme")
+    sizes = [text.get_fontsize() for text in scheme.findobj(Text) if text.get_text()]
+    assert min(sizes) >= SMALL
+
+
+def test_rounding_on_a_card_is_zero() -> None:
+    """A mean or a minimum that is rounding beside its maximum is zero in the summary, as in the tables."""
+    report = content(lw.study(lw.read("cam_oscillating_valve")))
+    cards = {few.word: few.value for few in report.headline}
+    assert cards["minimum reduced inertia"] == "0"
+    assert cards["maximum reduced inertia"] != "0"
+    assert "from 0 kg m² to" in next(
+        figure.caption for part in report.parts for figure in part.figures if figure.name == "reduction"
+    )
+
+
+def test_numbers_have_four_digits_unless_asked() -> None:
+    """Tables, cards and captions have four significant digits; whoever asks for others gets them."""
+    assert number(np.pi) == "3.142"
+    with lw.shown_in(digits=6):
+        assert number(np.pi) == "3.14159"
+        with lw.shown_in("mm"):
+            assert number(np.pi) == "3.14159"
+    with pytest.raises(InputError, match="digits: found 0, expected 1 to 15"):
+        lw.shown_in(digits=0)
