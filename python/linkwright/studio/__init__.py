@@ -9,6 +9,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `command` | ``linkwright studio [FILE]`` |
 | `server` | The page, its modules, a socket for each tab |
 | `wire` | Messages: a number, words, arrays |
+| `messages` | What a page may ask: the shape of every request |
 | `session` | One tab: the newest machine at once, slow analyses beside, files |
 | `worker` | The process of slow analyses |
 | `analyses` | What can be computed, and which data are missing |

@@ -15,6 +15,7 @@ import sys
 import threading
 from asyncio.subprocess import PIPE, Process
 from collections.abc import AsyncIterator, Iterator
+from contextlib import suppress
 from functools import lru_cache, partial
 from queue import SimpleQueue
 from typing import Any
@@ -139,9 +140,11 @@ class Worker:
         job : dict
             As of `run`; ``search`` or ``export`` besides, what was asked for.
         """
-        process = await self._running()
         self.is_ended = is_last = False
-        if process.stdin is None or process.stdout is None:
+        process = await self._running()
+        if self.is_ended or process.stdin is None or process.stdout is None:
+            # It was ended while it began.
+            await self.end()
             return
         try:
             process.stdin.write(json.dumps(job).encode() + b"\n")
@@ -162,11 +165,19 @@ class Worker:
             )
         return self._process
 
+    def kill(self) -> None:
+        """End the process, whatever it is doing, without waiting until it is gone."""
+        self.is_ended = True
+        if self._process is not None and self._process.returncode is None:
+            # It may be gone, and not known to be.
+            with suppress(ProcessLookupError):
+                self._process.kill()
+
     async def end(self) -> None:
         """End the process, whatever it is doing."""
+        self.kill()
         process, self._process = self._process, None
-        if process is not None and process.returncode is None:
-            process.kill()
+        if process is not None:
             await process.wait()
 
 

@@ -2,6 +2,7 @@
 import { batch, effect, signal } from "./vendor/signals-core.mjs";
 import { folded, unfolded } from "./folded.js";
 import { history } from "./history.js";
+import { taken } from "./key.js";
 import { speak } from "./language.js";
 import * as state from "./state.js";
 import { hodographs, pointPlots } from "./points.js";
@@ -22,12 +23,13 @@ export const measured = /** @type {{ redrawn: number[] }} */ ({ redrawn: [] });
 
 const link = connect({
   answer: (number, body) => batch(() => HEAR[body.of]?.(body)),
-  state(connected) {
+  state(connected, known) {
     if (connected) tongue();
     if (connected && !state.connected.value && state.text.value) {
       compute({ text: state.text.value });
     }
     state.connected.value = connected;
+    state.known.value = known;
     if (connected) begin();
   },
 });
@@ -196,7 +198,7 @@ effect(() => {
 const tongue = () => link.send({ ask: "language", code: state.language.value, units: listed(state.units.value) });
 
 effect(() => {
-  speak(state.language.value);
+  if (taken.value) speak(state.language.value, taken.value);
 });
 
 let spoken = "";

@@ -112,6 +112,8 @@ export const watched = signal("");
 
 // -- the page
 export const connected = signal(true);
+/** Whether the studio has taken the key of this page. */
+export const known = signal(true);
 export const message = signal("");
 export const dialog = signal("");
 /** Name of the diagram that is seen over the page. */
