@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import copy
 import json
 import os
@@ -16,6 +17,8 @@ from typing import Any
 import pytest
 
 from linkwright.kernel.files.library import template
+
+from linkwright.studio.worker import Worker
 
 from .conftest import Served, Tab, begun
 
@@ -129,6 +132,24 @@ def test_tabs_that_are_cut_leave_no_process(served: Served) -> None:
     while _children() - before and time.monotonic() < end:
         time.sleep(0.1)
     assert not _children() - before
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
+def test_a_process_that_is_ended_while_it_begins_does_not_go_on() -> None:
+    """A tab may close between the order for a process and its birth."""
+
+    async def begin_and_end() -> tuple[bytes | None, set[int]]:
+        worker = Worker()
+        about = {"number": 1, "lane": "study", "text": TEXT, "path": "", "language": "en", "units": []}
+        job = asyncio.create_task(worker.run(about))
+        await asyncio.sleep(0)
+        await worker.end()
+        return await asyncio.wait_for(job, 30), _children()
+
+    before = _children()
+    answer, children = asyncio.run(begin_and_end())
+    assert answer is None
+    assert not children - before
 
 
 def _children() -> set[int]:
