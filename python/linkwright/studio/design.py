@@ -18,6 +18,7 @@ import numpy as np
 
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.description.place import split
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
@@ -144,7 +145,7 @@ class _Reach:
         ]
         if not moved:
             return f"{self._name()} does not depend on the entries that may follow"
-        names = ", ".join(".".join(name.split(".")[-2:]) for name in moved)
+        names = ", ".join(".".join(split(name)[-2:]) for name in moved)
         return f"at the limits of {names}"
 
     def _name(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -66,6 +67,21 @@ def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
     if isinstance(old, int | float) or not mark.kind.unit:
         return float(short(value))
     return to_text(float(short(value)), mark.kind)
+
+
+def rounded(raw: Mapping[str, Any], address: str, value: float, worth: float, start: float) -> float:
+    """A value with as many digits in the unit of the file as a pixel is worth, rounded towards `start`."""
+    place = resolve(raw, address)
+    mark, old = mark_of(annotation_at(Machine, place, raw)), _at(raw, place)
+    size = (size_and_limits(old) or (old,))[0] if isinstance(old, str) else old
+    match = _WRITTEN.fullmatch(size) if isinstance(size, str) else None
+    known = factor_of(match[1].strip()) if match and isinstance(mark, Quantity) else None
+    factor = known[0] if known else 1.0
+    step = 10.0 ** math.floor(math.log10(worth / factor))
+    steps = value / factor / step
+    # Beyond the value the linkage may not close: at most as far as the pointer has gone.
+    whole = math.floor(steps) if value > start else math.ceil(steps)
+    return float(f"{whole * step:.12g}") * factor
 
 
 def short(value: float) -> str:

@@ -8,6 +8,7 @@ opening and saving, is answered in its order.
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 import tomllib
 import traceback
@@ -26,10 +27,10 @@ from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
 from linkwright.studio.controls import controls
 from linkwright.studio.design import reach, slopes
-from linkwright.studio.document import changed, merged
+from linkwright.studio.document import changed, merged, rounded
 from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
-from linkwright.studio.language import as_read, in_units, in_words, spoken
+from linkwright.studio.language import as_read, in_units, in_words, spoken, units_of
 from linkwright.studio.messages import (
     Bare,
     Compute,
@@ -221,8 +222,14 @@ class Session:
     def _dragged(self, pull: Pull, entries: dict[str, Any]) -> Body:
         """The entries that follow a joint; they are put to the others."""
         start, place = self._machine({}), (pull.x, pull.y)
-        dragged = drag(start, pull.point, place, pull.angle, frozenset(pull.locked), pull.free or None)
-        entries |= dragged.entries
+        locked, limits = frozenset(pull.locked), pull.free or None
+        dragged = drag(start, pull.point, place, pull.angle, locked, limits, pull.pixel)
+        raw = tomllib.loads(self.text)
+        for address, value in dragged.entries.items():
+            worth, begun = dragged.worth.get(address, (0.0, math.nan))
+            # What has moved by less than a pixel stays as it is written.
+            if not abs(value - begun) < worth:
+                entries[address] = rounded(raw, address, value, worth, begun) if worth else value
         return {"reason": dragged.reason, "limit": dragged.limit}
 
     def _merged(self, both: Merge) -> Body:
@@ -249,6 +256,7 @@ class Session:
             "controls": None if raw is None else controls(raw),
             "chips": [] if machine is None else chips(machine),
             "lanes": [] if machine is None else lanes(machine),
+            "units": None if machine is None else units_of(machine),
         }
 
     # -- slow analyses ---------------------------------------------------------------------------------------

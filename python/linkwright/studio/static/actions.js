@@ -51,6 +51,7 @@ const HEAR = {
     }
     if (body.controls) state.controls.value = body.controls;
     if (body.chips) state.chips.value = body.chips;
+    if (body.units) state.follow(body.units);
     if (body.lanes) begunLanes(body.lanes, !body.problems);
     state.live.value = body.controls === undefined ? body.set : {};
     if (body.machine !== undefined) state.machine.value = body.machine;
@@ -136,7 +137,7 @@ export const hold = (set) => compute({ held: true, set });
 
 /**
  * A joint that is dragged, or let go; the entries of its handle follow, or those with limits.
- * @param {{ point: string, x: number, y: number, angle: number, free?: Record<string, [number, number]> }} drag @param {boolean} [held]
+ * @param {{ point: string, x: number, y: number, angle: number, pixel: number, free?: Record<string, [number, number]> }} drag @param {boolean} [held]
  */
 export function pull(drag, held = true) {
   const locked = Object.keys(state.locks.value).filter((address) => state.locks.value[address]);
@@ -256,6 +257,7 @@ export async function open(place, name) {
 /** @param {{ place: string, name: string }} of @param {string} text @param {string} saved */
 export function start({ place, name }, text, saved) {
   batch(() => {
+    state.follow(null);
     state.place.value = { place, name };
     state.text.value = text;
     state.saved.value = saved;

@@ -14,10 +14,10 @@ import { SETS, UNITS, chosen } from "./units.js";
 function Units() {
   const choice = state.units.value;
   return html`
-    <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
+    <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => state.choose(chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
-      <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(unit) => (state.units.value = { ...choice, [si]: unit })} /></label>`)}</div>
-    <p class="about">The file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
+      <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(unit) => state.choose({ ...choice, [si]: unit })} /></label>`)}</div>
+    <p class="about">The table [units] of a file is taken over when it is opened; the file keeps the units that it is written in. A number with a unit of its own, such as <code>8.5 in</code>, can be typed into every field.</p>`;
 }
 
 function SaveAs() {

@@ -245,7 +245,7 @@ function run(holder, canvas) {
   function pulled(held = true) {
     if (!gesture) return;
     const { point, x, y } = gesture;
-    pull({ point, x, y, angle: at, ...(point === state.pulled.value ? { free: follows() } : {}) }, held);
+    pull({ point, x, y, angle: at, pixel: 1 / frame.scale, ...(point === state.pulled.value ? { free: follows() } : {}) }, held);
   }
 
   /** Another joint at a place, that the one in hand would merge with. @param {number} x @param {number} y */

@@ -1,7 +1,7 @@
 // What the page knows, as signals: what reads one is drawn again when it changes.
 import { batch, computed, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
-import { chosen } from "./units.js";
+import { UNITS, chosen } from "./units.js";
 
 /** @template T @typedef {import("./vendor/signals-core.mjs").Signal<T>} Signal */
 
@@ -80,7 +80,31 @@ export const findings = computed(() => [...new Set(inOrder.value.flatMap((each) 
 export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.warnings))]);
 
 // -- the user's choices, kept for the next time
-export const units = kept("units", chosen(0));
+const own = kept("units", chosen(0));
+/** Units of the file. @type {Signal<Record<string, string>>} */
+const ofFile = signal({});
+/** SI unit → unit that is shown: of the file, else of the user. @type {Signal<Record<string, string>>} */
+export const units = signal(own.value);
+effect(() => {
+  units.value = { ...own.value, ...ofFile.value };
+});
+
+/** What the user chooses holds, for this file too. @param {Record<string, string>} choice */
+export const choose = (choice) => batch(() => {
+  const changed = Object.fromEntries(Object.entries(choice).filter(([si, unit]) => unit !== units.value[si]));
+  own.value = { ...own.value, ...changed };
+  ofFile.value = Object.fromEntries(Object.entries(ofFile.value).filter(([si]) => !(si in changed)));
+});
+
+let read = "";
+/** The units of a file that is opened, or whose table of units changes; null of another file. @param {Record<string, [string, number]> | null} given */
+export function follow(given) {
+  const now = JSON.stringify(given);
+  if (now === read) return;
+  read = now;
+  for (const [si, [unit, factor]] of Object.entries(given ?? {})) UNITS[si].units[unit] ??= factor;
+  ofFile.value = Object.fromEntries(Object.entries(given ?? {}).map(([si, [unit]]) => [si, unit]));
+}
 export const look = kept("look", "");
 export const language = kept("language", "en");
 export const layers = kept("layers", { names: true, paths: true, velocities: false, accelerations: false, forces: false, centres: false, handles: true });
