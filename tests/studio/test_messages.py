@@ -181,7 +181,7 @@ def test_a_file_that_is_saved_is_whole_though_the_studio_is_killed(tmp_path: Pat
         "for n in range(10_000):\n"
         "    folder.write('bar.toml', f'name = \"{\"ab\"[n % 2] * 3_000_000}\"\\n', replace=True)\n"
     )
-    for n in range(8):
+    for n in range(5):
         process = subprocess.Popen([sys.executable, "-c", code, str(tmp_path)], stdout=subprocess.PIPE)
         assert process.stdout is not None
         process.stdout.readline()

@@ -67,6 +67,7 @@ class Drag:
     )
     # Address → change of the entry that moves the point by a pixel [SI], with the value where it began.
     worth: dict[str, tuple[float, float]] = field(default_factory=dict)
+    value: float | None = None  # of the result that was pulled [SI]
 
 
 def drag(

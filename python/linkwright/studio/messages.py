@@ -8,7 +8,15 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    TypeAdapter,
+    ValidationError,
+    model_validator,
+)
 
 from linkwright.kernel.errors import InputError
 
@@ -39,6 +47,8 @@ def _plain(value: Any) -> Any:
 Number = Annotated[float, Field(ge=-1e100, le=1e100, allow_inf_nan=False)]
 Value = Annotated[Any, AfterValidator(lambda value: None if value is None else _plain(value))]
 Limits = dict[str, tuple[Number, Number]]  # address → lower and upper limit [SI]
+# Response → at least, at most [SI]; null for no such limit.
+Bounds = dict[str, tuple[Number | None, Number | None]]
 Place = Literal["", "library", "template", "folder"]
 
 
@@ -73,6 +83,7 @@ class Reach(Request):
     of: str
     value: Number
     free: Limits
+    bounds: Bounds = {}
 
 
 class Merge(Request):
@@ -111,6 +122,7 @@ class Search(Request):
     ask: Literal["search"]
     kind: Literal["sweep", "optimise"]
     response: str
+    bounds: Bounds = {}
     entries: list[Varied]
     direction: Literal["minimise", "maximise"] = "minimise"
     machines: Annotated[int, Field(ge=1)] = 2000

@@ -13,6 +13,7 @@ import time
 import tomllib
 import traceback
 from collections.abc import Callable, Coroutine
+from dataclasses import asdict
 from typing import Any
 
 from anyio import to_thread
@@ -26,7 +27,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
 from linkwright.studio.controls import controls
-from linkwright.studio.design import reach, slopes
+from linkwright.studio.design import goals, reach, slopes
 from linkwright.studio.document import changed, merged, rounded
 from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
@@ -242,9 +243,9 @@ class Session:
 
     def _reached(self, pull: Reach, entries: dict[str, Any]) -> Body:
         """The entries that follow a result; they are put to the others."""
-        reached = reach(self._machine({}), pull.of, pull.value, pull.free)
+        reached = reach(self._machine({}), pull.of, pull.value, pull.free, pull.bounds)
         entries |= reached.entries
-        return {"reason": reached.reason}
+        return {"reason": reached.reason, "reached": reached.value}
 
     def _around(self, machine: Machine | None) -> Body:
         """Controls, chips and lanes of a machine that is not being pulled at."""
@@ -257,6 +258,7 @@ class Session:
             "chips": [] if machine is None else chips(machine),
             "lanes": [] if machine is None else lanes(machine),
             "units": None if machine is None else units_of(machine),
+            "goals": [] if machine is None else [asdict(goal) for goal in goals(machine)],
         }
 
     # -- slow analyses ---------------------------------------------------------------------------------------

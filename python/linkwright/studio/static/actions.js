@@ -43,6 +43,7 @@ const HEAR = {
     state.seconds.value = body.seconds;
     state.reason.value = body.reason ?? "";
     state.limit.value = body.limit ?? null;
+    state.reached.value = body.reached ?? null;
     if (body.words) state.message.value = body.words;
     state.problems.value = body.problems ?? SOUND;
     if (body.text !== undefined) {
@@ -52,6 +53,7 @@ const HEAR = {
     if (body.controls) state.controls.value = body.controls;
     if (body.chips) state.chips.value = body.chips;
     if (body.units) state.follow(body.units);
+    if (body.goals) state.kinematic.value = body.goals;
     if (body.lanes) begunLanes(body.lanes, !body.problems);
     state.live.value = body.controls === undefined ? body.set : {};
     if (body.machine !== undefined) state.machine.value = body.machine;
@@ -151,7 +153,7 @@ export const merge = (joint, into) => compute({ merge: { joint, into } });
 export const settle = (set, text) => (text === undefined ? compute({ set }) : write(text));
 
 /** The result that is looked at goes to a value; entries follow within their limits. @param {number} value @param {Record<string, [number, number]>} free @param {boolean} held */
-export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free } });
+export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free, bounds: state.bounds.value } });
 
 /** The machine at hand stays beside those that follow. */
 export function pin(text = state.text.value) {
@@ -170,7 +172,7 @@ export const unpin = (place) => (state.pins.value = state.pins.value.filter((_, 
 /** @param {object} asked */
 export function seek(asked) {
   state.search.value = { ...asked, done: 0, rows: 0, course: { machines: [], best: [] }, axes: [], kind: "" };
-  link.send({ ask: "search", ...asked });
+  link.send({ ask: "search", ...asked, bounds: state.bounds.value });
 }
 
 /** A file of the machine; null if it was stopped or cannot be made. @param {object} asked @returns {Promise<Blob | null>} */
@@ -274,6 +276,7 @@ export function start({ place, name }, text, saved) {
     state.locks.value = {};
     state.ends.value = {};
     state.free.value = {};
+    state.bounds.value = {};
     state.pins.value = [];
     state.search.value = null;
   });

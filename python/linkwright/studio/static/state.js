@@ -116,6 +116,20 @@ export const hidden = kept("hidden", /** @type {Record<string, boolean>} */ ({})
 export const ends = signal(/** @type {Record<string, [number, number]>} */ ({}));
 
 // -- design
+/** Results of the motion of the mechanism, which have no place among the numbers. @type {Signal<{ key: string, word: string, unit: string, value: number | null }[]>} */
+export const kinematic = signal([]);
+/** What says how something was computed, or counts, is no goal. */
+const NO_GOAL = /\.(accuracy|sweeps|steps|turns|settled|period_turns|multiplier)$|^(scheme|along|transient)\.|error/;
+/** Results that can be pulled, swept and sought; those of one name with what they are of. */
+export const goals = computed(() => {
+  const all = [...kinematic.value.map((each) => ({ symbol: "", ...each })), ...scalars.value.filter(({ key }) => !NO_GOAL.test(key))];
+  const count = (/** @type {string} */ word) => all.filter((each) => each.word === word).length;
+  return all.map(({ key, word, symbol, unit, value }) => ({ key, symbol, unit, value, word, of: count(word) > 1 ? key.split(".")[0].replaceAll("_", " ") : "" }));
+});
+/** The result that is pulled as it is now, while it is held. */
+export const reached = signal(/** @type {number | null} */ (null));
+/** What other results keep to: key → at least, at most [SI]. @type {Signal<Record<string, [number | null, number | null]>>} */
+export const bounds = signal({});
 /** The result whose derivatives stand beside the entries; empty for none. */
 export const goal = kept("goal", "");
 /** @type {Signal<Slopes | null>} */
@@ -147,7 +161,7 @@ export const listed = signal([]);
 export const seconds = signal(0);
 
 // -- what a link brings besides the machine
-const LINKED = /** @type {Record<string, Signal<any>>} */ ({ units, look, language, layers, pace, hidden, locks, ends, goal, free, trails, watched, pulled, seen });
+const LINKED = /** @type {Record<string, Signal<any>>} */ ({ units, look, language, layers, pace, hidden, locks, ends, goal, free, bounds, trails, watched, pulled, seen });
 export const shared = () => Object.fromEntries(Object.entries(LINKED).map(([key, { value }]) => [key, value]));
 
 /** Values of the same kind as ours; a link may hold anything. @param {Record<string, any>} given */

@@ -31,7 +31,7 @@ type Group = { address: string, key: string, about: string, entries: Entry[], gr
 type Problem = { key: string, found: string, expected: string, remedy: string, line: number | null };
 type Listed = { place: string, name: string, title: string };
 
-type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string, responses: string[] };
+type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string };
 type Pin = { name: string, text: string, scalars: Record<string, number>, plots: Record<string, { x: Float64Array, curves: Record<string, Float64Array> }> };
 
 /** A list to choose from: values with their words, and whether these are the user's own. */
