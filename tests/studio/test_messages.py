@@ -76,9 +76,7 @@ def answer_to(tab: Tab, request: dict[str, Any]) -> dict[str, Any]:
             return answer
 
 
-def test_every_wrong_shape_is_refused_in_words(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_every_wrong_shape_is_refused_in_words(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Any value at any place of any request is answered; no traceback, no file that is not finished."""
     (tmp_path / "bar.toml").write_text(TEXT)
     served, server = begun(tmp_path)

@@ -198,7 +198,9 @@ def test_a_drag_writes_what_a_pixel_is_worth_into_the_entries_that_are_there(tab
     moved = tab.ask(ask="compute", drag={"point": "A2", **pull})["text"]
     crank = re.search(r'cranks.A2\]\nradius = "([\d.]+) m"\nphase = "([\d.]+) deg"', moved)
     assert crank is not None
-    assert all(len(digits.partition(".")[2]) <= most for digits, most in zip(crank.groups(), (4, 1), strict=True))
+    assert all(
+        len(digits.partition(".")[2]) <= most for digits, most in zip(crank.groups(), (4, 1), strict=True)
+    )
     at = kinematics(loads(moved), np.array([0.4])).points["A2"].position[0]
     assert np.hypot(*(at - (pull["x"], pull["y"]))) < 2 * pull["pixel"]
     # The first crank has no phase: its radius alone follows.

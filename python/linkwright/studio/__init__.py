@@ -18,6 +18,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `transfer` | Transfer functions of the outputs as plots |
 | `views` | Pictures beside it: trains in their modes, the knife of a topper; what the gallery shows |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
+| `building` | Elements that are added, links that are drawn |
 | `design` | What entries do to a result, and which entries bring it to a value |
 | `search` | Sweeps and optimisations of the machine, in the process beside |
 | `export` | Reports, motions and poses as files |

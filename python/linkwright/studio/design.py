@@ -183,9 +183,7 @@ def reach(machine: Machine, response: str, wanted: float, free: Limits, bounds: 
 class _Reach:
     """One result on its way."""
 
-    def __init__(
-        self, machine: Machine, response: str, wanted: float, free: Limits, bounds: Bounds
-    ) -> None:
+    def __init__(self, machine: Machine, response: str, wanted: float, free: Limits, bounds: Bounds) -> None:
         self.wanted, self.names = wanted, list(free)
         self.at = np.array([float(get(machine, name)) for name in self.names])
         limits = np.array([free[name] for name in self.names], dtype=float)

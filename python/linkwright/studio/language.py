@@ -23,7 +23,18 @@ from linkwright.machine.machine import Machine
 # What a message says in sentences or words; everything else is read by the page, or is the user's own.
 _TEXTS = frozenset(
     (
-        *("about", "caption", "expected", "findings", "found", "mend", "obstacle", "reason", "remedy"),
+        *(
+            "about",
+            "caption",
+            "expected",
+            "findings",
+            "found",
+            "mend",
+            "obstacle",
+            "reason",
+            "remedy",
+            "waits",
+        ),
         *("tie", "title", "warnings", "word", "words"),
     )
 )

@@ -93,6 +93,30 @@ class Merge(Request):
     into: str
 
 
+class Add(Request):
+    """An element more; `size`: of the drawing [m], `picked`: point that was picked last."""
+
+    kind: str
+    size: Annotated[Number, Field(gt=0)]
+    picked: str = ""
+
+
+class Spot(Request):
+    """An end of a link that is drawn [m]; at a point of the drawing, its name."""
+
+    x: Number
+    y: Number
+    point: str = ""
+
+
+class Draw(Request):
+    """Links that were drawn with the mouse."""
+
+    links: list[tuple[Spot, Spot]]
+    angle: Number  # of the crank in the drawing [rad]
+    pixel: Annotated[Number, Field(gt=0)]  # size of one [m]
+
+
 class Compute(Request):
     """The machine with changes; `held`: they go on."""
 
@@ -105,6 +129,8 @@ class Compute(Request):
     drag: Pull | None = None
     reach: Reach | None = None
     merge: Merge | None = None
+    add: Add | None = None
+    draw: Draw | None = None
 
 
 class Varied(Request):

@@ -6,7 +6,7 @@ It answers one user of this computer, and nobody else: guards stand before every
 | --- | --- |
 | exact list of hosts | a foreign name that is made to resolve to this computer (DNS rebinding) |
 | origin present on sockets, and one of ours wherever it is present | scripts of other pages |
-| key in the first message of a socket and in a header of other requests | other users and programs of this computer |
+| key in the first message of a socket, in a header elsewhere | other users and programs of this computer |
 | headers of every answer | scripts and frames from elsewhere, were they ever to get into a page |
 | length of bodies | filling memory |
 
@@ -41,6 +41,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.limits import FILE_BYTES
+from linkwright.studio.building import menu
 from linkwright.studio.files import Folder
 from linkwright.studio.language import page_texts
 from linkwright.studio.messages import Enter, read
@@ -266,7 +267,7 @@ class Studio:
             self.once = ""
         elif not _same(given.key, self.key):
             return False
-        await page.send_bytes(packed(number, {"of": "entered", "key": self.key}))
+        await page.send_bytes(packed(number, {"of": "entered", "key": self.key, "kinds": menu()}))
         return True
 
 

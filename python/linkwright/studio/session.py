@@ -26,6 +26,7 @@ from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
+from linkwright.studio.building import End, added, drawn
 from linkwright.studio.controls import controls
 from linkwright.studio.design import goals, reach, slopes
 from linkwright.studio.document import changed, merged, rounded
@@ -33,8 +34,10 @@ from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
 from linkwright.studio.language import as_read, in_units, in_words, spoken, units_of
 from linkwright.studio.messages import (
+    Add,
     Bare,
     Compute,
+    Draw,
     Enter,
     Export,
     File,
@@ -192,6 +195,10 @@ class Session:
                 answer |= self._reached(asked.reach, entries)
             if asked.merge is not None:
                 answer |= self._merged(asked.merge)
+            if asked.add is not None:
+                answer |= self._added(asked.add)
+            if asked.draw is not None:
+                answer |= self._drawn(asked.draw)
             if not held and entries:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
@@ -240,6 +247,25 @@ class Session:
         except LinkwrightError as error:
             return {"words": f"{both.joint} was not merged with {both.into}: {error}"}
         return {"text": self.text}
+
+    def _added(self, asked: Add) -> Body:
+        """The text with an element more, or what it needs."""
+        path = base(self.folder, self.place, self.name)
+        try:
+            self.text = added(self.text, asked.kind, asked.size, asked.picked, path)
+        except LinkwrightError as error:
+            return {"words": str(error)}
+        return {"text": self.text}
+
+    def _drawn(self, asked: Draw) -> Body:
+        """The text with links that were drawn; what they wait for, or why they cannot be."""
+        path = base(self.folder, self.place, self.name)
+        links = [tuple(End(end.x, end.y, end.point) for end in link) for link in asked.links]
+        try:
+            self.text, waits = drawn(self.text, links, asked.angle, asked.pixel, path)
+        except LinkwrightError as error:
+            return {"words": f"The link was not added: {error}", "draft": "refused"}
+        return {"draft": "waiting", "waits": waits} if waits else {"draft": "done", "text": self.text}
 
     def _reached(self, pull: Reach, entries: dict[str, Any]) -> Body:
         """The entries that follow a result; they are put to the others."""

@@ -39,12 +39,18 @@ const SOUND = [];
 
 /** @type {Record<string, (body: any) => void>} */
 const HEAR = {
+  entered({ kinds }) {
+    state.kinds.value = kinds;
+  },
   machine(body) {
     state.seconds.value = body.seconds;
     state.reason.value = body.reason ?? "";
     state.limit.value = body.limit ?? null;
     state.reached.value = body.reached ?? null;
     if (body.words) state.message.value = body.words;
+    if (body.draft === "done") state.draft.value = [];
+    if (body.draft === "refused") state.draft.value = state.draft.value.slice(0, -1);
+    if (body.draft) state.waits.value = body.waits ?? "";
     state.problems.value = body.problems ?? SOUND;
     if (body.text !== undefined) {
       state.text.value = body.text;
@@ -148,6 +154,16 @@ export function pull(drag, held = true) {
 
 /** What hangs on a joint hangs on another; its element goes. @param {string} joint @param {string} into */
 export const merge = (joint, into) => compute({ merge: { joint, into } });
+
+/** An element more, of the size of the drawing. @param {string} kind */
+export function add(kind) {
+  const box = state.scene.value?.box;
+  const size = (box ? Math.max(box[2] - box[0], box[3] - box[1]) : 0) || 1;
+  compute({ add: { kind, size, picked: state.watched.value } });
+}
+
+/** Links that were drawn: they become elements once each new joint has two. @param {number} angle @param {number} pixel */
+export const draw = (angle, pixel) => compute({ draw: { links: state.draft.value, angle, pixel } });
 
 /** Let go: what was held goes into the file. @param {Record<string, any>} set @param {string} [text] another text in its place */
 export const settle = (set, text) => (text === undefined ? compute({ set }) : write(text));
@@ -277,6 +293,8 @@ export function start({ place, name }, text, saved) {
     state.ends.value = {};
     state.free.value = {};
     state.bounds.value = {};
+    state.draft.value = [];
+    state.waits.value = "";
     state.pins.value = [];
     state.search.value = null;
   });

@@ -73,6 +73,9 @@ addEventListener("keydown", (event) => {
   } else if ((event.ctrlKey || event.metaKey) && key === "z" && !(event.target instanceof HTMLTextAreaElement)) {
     event.preventDefault();
     (event.shiftKey ? redo : undo)();
+  } else if (key === "escape" && state.drawing.value) {
+    state.draft.value = [];
+    state.waits.value = "";
   } else if (key === " " && !inField && !(event.target instanceof HTMLButtonElement)) {
     event.preventDefault();
     state.playing.value = !state.playing.value;

@@ -33,6 +33,7 @@ export function connect(hear) {
         enter(body.key);
         isIn = true;
         forget();
+        hear.answer(of, body);
         return hear.state(true, true);
       }
       const told = asked.get(of);

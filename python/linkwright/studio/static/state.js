@@ -58,6 +58,13 @@ export const trails = signal([]);
 export const pulled = signal("");
 /** Whether joints merge that are dropped on joints. */
 export const building = signal(false);
+/** Kinds of elements that can be added. @type {Signal<{ kind: string, word: string, group: string }[]>} */
+export const kinds = signal([]);
+/** Whether the mouse draws links, those that wait for further ones, and what they wait for. */
+export const drawing = signal(false);
+/** @type {Signal<[Spot, Spot][]>} */
+export const draft = signal([]);
+export const waits = signal("");
 
 // -- answers, those of each lane apart, so that one does not wait for another
 /** @type {Signal<Record<string, Answers>>} */

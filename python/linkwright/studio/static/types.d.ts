@@ -38,6 +38,8 @@ type Pin = { name: string, text: string, scalars: Record<string, number>, plots:
 type Options = [value: string | number, words: any, isOwn?: boolean][];
 type Ctx = CanvasRenderingContext2D;
 type Sheet = { title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean };
+/** An end of a link that is drawn [m], at a point of the drawing with its name. */
+type Spot = { x: number, y: number, point: string };
 type Frame = { scale: number, x: number, y: number };
 type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string };
 /** What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands. */
