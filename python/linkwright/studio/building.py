@@ -218,7 +218,10 @@ KINDS: dict[str, Kind] = {
         _one("points", "P", lambda site: iter([{"x": site.length(0.5), "y": "0 m"}])),
     ),
     "cranks": Kind(
-        "Crank", "Mechanism", "", _one("cranks", "A", lambda site: iter([{"radius": site.length(0.15)}]))
+        "Crank",
+        "Mechanism",
+        "",
+        _one("cranks", "A", lambda site: iter([{"radius": site.length(0.15), "phase": "0 deg"}])),
     ),
     "linear_drivers": Kind(
         "Linear driver",

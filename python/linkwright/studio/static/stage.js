@@ -178,9 +178,10 @@ function run(holder, canvas) {
   /** The plane that links are drawn in: the origin, links that wait for others, the one in hand. @param {Record<string, any>} ink */
   function plane(ink) {
     const origin = toScreen(frame, 0, 0);
-    line(ctx, [[origin[0] - 8, origin[1]], [origin[0] + 8, origin[1]]]);
-    line(ctx, [[origin[0], origin[1] - 8], [origin[0], origin[1] + 8]]);
-    stroke(ctx, ink.soft, 1.5);
+    for (const [dx, dy] of [[8, 0], [0, 8]]) {
+      line(ctx, [[origin[0] - dx, origin[1] - dy], [origin[0] + dx, origin[1] + dy]]);
+      stroke(ctx, ink.soft, 1.5);
+    }
     ctx.setLineDash([6, 4]);
     for (const [start, end] of [...state.draft.value, ...(rope ? [rope] : [])]) {
       const ends = [start, end].map(({ x, y }) => toScreen(frame, x, y));

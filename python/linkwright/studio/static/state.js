@@ -104,13 +104,17 @@ export const choose = (choice) => batch(() => {
 });
 
 let read = "";
+let isLinked = false;
 /** The units of a file that is opened, or whose table of units changes; null of another file. @param {Record<string, [string, number]> | null} given */
 export function follow(given) {
   const now = JSON.stringify(given);
   if (now === read) return;
   read = now;
   for (const [si, [unit, factor]] of Object.entries(given ?? {})) UNITS[si].units[unit] ??= factor;
-  ofFile.value = Object.fromEntries(Object.entries(given ?? {}).map(([si, [unit]]) => [si, unit]));
+  // Those of a link hold, whatever its file says.
+  if (isLinked && given) return (isLinked = false);
+  const next = Object.fromEntries(Object.entries(given ?? {}).map(([si, [unit]]) => [si, unit]));
+  if (JSON.stringify(next) !== JSON.stringify(ofFile.value)) ofFile.value = next;
 }
 export const look = kept("look", "");
 export const language = kept("language", "en");
@@ -173,5 +177,6 @@ export const shared = () => Object.fromEntries(Object.entries(LINKED).map(([key,
 
 /** Values of the same kind as ours; a link may hold anything. @param {Record<string, any>} given */
 export const share = (given) => batch(() => {
+  isLinked = Boolean(given.units);
   for (const [key, own] of Object.entries(LINKED)) if (Object.prototype.toString.call(given[key]) === Object.prototype.toString.call(own.value)) own.value = given[key];
 });
