@@ -37,7 +37,7 @@ def test_slopes_are_those_of_the_package() -> None:
     machine = lw.read("roller_two_carts")
     found = slopes(machine, DELTA)
     assert found["slopes"] == lw.gradient(machine).of(DELTA)
-    with pytest.raises(InputError, match="forces.nothing"):
+    with pytest.raises(InputError, match=r"forces\.nothing"):
         slopes(machine, "forces.nothing")
 
 

@@ -17,7 +17,6 @@ from typing import Any
 import pytest
 
 from linkwright.kernel.files.library import template
-
 from linkwright.studio.worker import Worker
 
 from .conftest import Served, Tab, begun

@@ -191,7 +191,7 @@ def test_a_locked_entry_holds() -> None:
 
 
 def test_a_drag_writes_what_a_pixel_is_worth_into_the_entries_that_are_there(tab: Tab) -> None:
-    """Half a millimetre a pixel: tenths of millimetres and of degrees; no entry that the file did not have."""
+    """Half a millimetre a pixel: tenths of a millimetre and of a degree; no entry that was not there."""
     text = CARTS.read_text()
     tab.ask(ask="compute", text=text)
     pull = {"x": -0.12345, "y": 0.18222, "angle": 0.4, "pixel": 5e-4}

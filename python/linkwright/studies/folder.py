@@ -16,7 +16,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
@@ -148,8 +148,7 @@ class SweepFolder:
                         yield
                     finally:
                         if claims(lock, 0, _ALL):
-                            with suppress(OSError):
-                                place.unlink()
+                            _remove(place)
                     return
             sleep(_PAUSE * n)
         raise InputError(
@@ -265,6 +264,14 @@ def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
 def _is_ours(path: Path) -> bool:
     """What a run that was killed at its very beginning leaves behind."""
     return path.name == _LOCK or path.name.startswith(".linkwright-part-")
+
+
+def _remove(place: Path) -> None:
+    """Remove a file, unless it is held open, as on Windows, or gone."""
+    try:
+        place.unlink()
+    except OSError:
+        return
 
 
 def _is_still(file: IO[bytes], place: Path) -> bool:

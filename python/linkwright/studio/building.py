@@ -96,7 +96,7 @@ def _one(table: str, head: str, entries: Callable[[Site], Iterator[Entries]]) ->
     """Elements of one table of the mechanism."""
 
     def made(site: Site) -> Made:
-        yield from ((("mechanism", table, site.fresh(head)), each) for each in entries(site))
+        yield from ((("mechanism", table, site.fresh(head)), element) for element in entries(site))
 
     return made
 
@@ -105,7 +105,7 @@ def _load(head: str, entries: Callable[[Site], Iterator[Entries]]) -> Callable[[
     """Loads."""
 
     def made(site: Site) -> Made:
-        yield from ((("loads", site.fresh(head)), each) for each in entries(site))
+        yield from ((("loads", site.fresh(head)), load) for load in entries(site))
 
     return made
 

@@ -129,15 +129,15 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
     why it has a derivative on either side only.
     """
     try:
-        found = gradient(machine, [response])
+        exact = gradient(machine, [response])
     except InputError:
         return _differenced(machine, response)
-    rows = found.of(response)
+    rows = exact.of(response)
     return {
-        **_named(response, found.words[0], found.units[0]),
-        "value": float(found.values[0]),
+        **_named(response, exact.words[0], exact.units[0]),
+        "value": float(exact.values[0]),
         "slopes": {address: slope for address, slope in rows.items() if math.isfinite(slope)},
-        "tie": found.ties.get(response, ""),
+        "tie": exact.ties.get(response, ""),
     }
 
 

@@ -80,8 +80,8 @@ def rounded(raw: Mapping[str, Any], address: str, value: float, worth: float, st
     step = 10.0 ** math.floor(math.log10(worth / factor))
     steps = value / factor / step
     # Beyond the value the linkage may not close: at most as far as the pointer has gone.
-    whole = math.floor(steps) if value > start else math.ceil(steps)
-    return float(f"{whole * step:.12g}") * factor
+    rounded_steps = math.floor(steps) if value > start else math.ceil(steps)
+    return float(f"{rounded_steps * step:.12g}") * factor
 
 
 def short(value: float) -> str:

@@ -37,9 +37,9 @@ def _plain(value: Any) -> Any:
         case int() if -_INTEGER <= value < _INTEGER:
             return value
         case list():
-            return [_plain(each) for each in value]
+            return [_plain(part) for part in value]
         case dict():
-            return {key: _plain(each) for key, each in value.items()}
+            return {key: _plain(part) for key, part in value.items()}
     raise ValueError("expected finite numbers, texts, lists and tables")
 
 
@@ -133,7 +133,7 @@ class Compute(Request):
     draw: Draw | None = None
 
 
-class Varied(Request):
+class Variation(Request):
     """An entry of a sweep or a search, with its limits [SI]."""
 
     address: str
@@ -149,7 +149,7 @@ class Search(Request):
     kind: Literal["sweep", "optimise"]
     response: str
     bounds: Bounds = {}
-    entries: list[Varied]
+    entries: list[Variation]
     direction: Literal["minimise", "maximise"] = "minimise"
     machines: Annotated[int, Field(ge=1)] = 2000
 

@@ -26,7 +26,6 @@ import mimetypes
 import secrets
 import socket
 from collections.abc import Awaitable, Callable, MutableMapping
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -351,5 +350,7 @@ async def _converse(page: WebSocket, session: Session) -> None:
 async def _end(page: WebSocket, code: int) -> None:
     """Close a socket, unless the browser was first."""
     if page.client_state is WebSocketState.CONNECTED:
-        with suppress(WebSocketDisconnect, RuntimeError):
+        try:
             await page.close(code)
+        except (WebSocketDisconnect, RuntimeError):
+            return

@@ -15,7 +15,6 @@ import sys
 import threading
 from asyncio.subprocess import PIPE, Process
 from collections.abc import AsyncIterator, Iterator
-from contextlib import suppress
 from functools import lru_cache, partial
 from queue import SimpleQueue
 from typing import Any
@@ -169,9 +168,11 @@ class Worker:
         """End the process, whatever it is doing, without waiting until it is gone."""
         self.is_ended = True
         if self._process is not None and self._process.returncode is None:
-            # It may be gone, and not known to be.
-            with suppress(ProcessLookupError):
+            try:
                 self._process.kill()
+            except ProcessLookupError:
+                # It is gone, which was not known yet.
+                return
 
     async def end(self) -> None:
         """End the process, whatever it is doing."""
