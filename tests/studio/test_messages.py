@@ -30,6 +30,11 @@ SOUND: list[dict[str, Any]] = [
     {"ask": "compute", "set": {RADIUS: 0.05}},
     {"ask": "compute", "drag": {"point": "K", "x": 0.03, "y": 0.04, "angle": 0.2, "free": LIMITS}},
     {"ask": "compute", "held": True, "reach": {"of": "steady_state.unevenness", "value": 1, "free": LIMITS}},
+    {"ask": "compute", "add": {"kind": "sliders", "size": 1, "picked": "A"}},
+    {
+        "ask": "compute",
+        "draw": {"angle": 0, "pixel": 0.001, "links": [[{"x": 0, "y": 0, "point": "O"}, {"x": 1, "y": 1}]]},
+    },
     {"ask": "compute", "merge": {"joint": "A", "into": "C"}},
     {"ask": "slopes", "response": "steady_state.unevenness"},
     {"ask": "open", "place": "folder", "name": "bar.toml"},
@@ -92,6 +97,22 @@ def test_every_wrong_shape_is_refused_in_words(tmp_path: Path, capfd: pytest.Cap
     server.should_exit = True
     assert {path.name for path in tmp_path.iterdir()} <= {"bar.toml", "new.toml"}
     assert "Traceback" not in capfd.readouterr().err
+
+
+BROKEN = ["a = ", "mechanism = 1", "loads = 3\n[mechanism]\n", "[mechanism]\ncranks = 5\n", "units = 1\n"]
+
+
+@pytest.mark.parametrize("text", [*BROKEN, "format = 1\nname = 'x'\n[loads]\ng = 1\n", "[bodies]\nA = 1\n"])
+def test_requests_to_a_file_with_problems_are_answered(tab: Tab, text: str) -> None:
+    """Whatever is asked of a text that is no machine is answered by its problems, or refused in words."""
+    for request in SOUND[1:9]:
+        answer_to(tab, {"ask": "compute", "text": text})
+        answer = answer_to(tab, request)
+        assert "internal error" not in str(answer.get("words", "")), request
+    for kind in ("cranks", "bodies", "gravity", "motor", "dry"):
+        answer_to(tab, {"ask": "compute", "text": text})
+        answer = answer_to(tab, {"ask": "compute", "add": {"kind": kind, "size": 1.0}})
+        assert "internal error" not in str(answer.get("words", "")), kind
 
 
 @pytest.mark.parametrize(

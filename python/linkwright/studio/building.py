@@ -9,17 +9,16 @@ joint that needs no more than that. Links wait until each new joint has two.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, NamedTuple
 
-from linkwright.kernel.description.place import join
+from linkwright.kernel.description.place import join, keys, look
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.linkages.model.topology import DRIVERS, ORIGIN, Topology
 from linkwright.machine.read import loads
-from linkwright.studio.document import changed
+from linkwright.studio.document import changed, tables_of
 
 Entries = dict[str, Any]
 
@@ -37,9 +36,13 @@ class Site:
     @classmethod
     def of(cls, text: str, size: float, picked: str = "") -> Site:
         """That of a file."""
-        raw = tomllib.loads(text)
-        unit = "mm" if ' mm"' in text or raw.get("units", {}).get("length") == "mm" else "m"
-        return cls(raw, Topology.of(raw.get("mechanism", {})), size, unit, picked)
+        raw = tables_of(text)
+        unit = "mm" if ' mm"' in text or look(look(raw, "units"), "length") == "mm" else "m"
+        return cls(raw, Topology.of(look(raw, "mechanism")), size, unit, picked)
+
+    def names(self, table: str) -> list[str]:
+        """Names in a table of the file, which may be none."""
+        return list(keys(look(self.raw, table)))
 
     def length(self, share: float) -> str:
         """A share of the drawing's size as the file writes lengths."""
@@ -52,7 +55,7 @@ class Site:
 
     def fresh(self, head: str, more: Sequence[str] = ()) -> str:
         """A name that nothing has."""
-        names = {element.name for element in self.topology.elements} | {*self.raw.get("loads", {}), *more}
+        names = {element.name for element in self.topology.elements} | {*self.names("loads"), *more}
         return next(name for n in count(1) if (name := f"{head}{n}") not in names)
 
     def first(self, names: Sequence[str]) -> list[str]:
@@ -154,7 +157,7 @@ def _cam(site: Site) -> Entries:
 def _sections(key: str, much: str) -> list[Entries]:
     rise, back = f"{much}", f"-{much}"
     law = {"law": "modified_sine"}
-    steps = ({key: rise, **law}, {}, {key: back, **law}, {})
+    steps: tuple[Entries, ...] = ({key: rise, **law}, {}, {key: back, **law}, {})
     return [{"angle": "90 deg", **step} for step in steps]
 
 
@@ -187,7 +190,7 @@ def _dyad(site: Site) -> Made:
 
 def _bodies(site: Site) -> Made:
     for name in [*(n for n in site.moving if n == site.picked), *site.slides, *site.links, *site.moving]:
-        if name not in site.raw.get("bodies", {}):
+        if name not in site.names("bodies"):
             yield ("bodies", name), {"mass": "1 kg"}
 
 
@@ -195,14 +198,15 @@ def _drive(key: str, entry: Any) -> Callable[[Site], Made]:
     """A part of the drive that is not there yet."""
 
     def made(site: Site) -> Made:
-        if key not in site.raw.get("drive", {}):
+        if key not in site.names("drive"):
             yield ("drive", key), entry
 
     return made
 
 
 def _gravity(site: Site) -> Made:
-    if all(load.get("kind") != "gravity" for load in site.raw.get("loads", {}).values()):
+    loads = look(site.raw, "loads")
+    if all(look(look(loads, name), "kind") != "gravity" for name in site.names("loads")):
         yield ("loads", "gravity"), {"kind": "gravity"}
 
 

@@ -36,9 +36,9 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
     `entries`: address → SI number, written in the unit that stands there; or text, table or None. Raises
     `InputError` if the text is no TOML, or an address leads nowhere.
     """
+    raw = tables_of(text)
     try:
         document = tomlkit.parse(text)
-        raw = tomllib.loads(text)
     except (TOMLKitError, ValueError, RecursionError) as error:
         raise InputError(f"the file is no TOML: {error}") from None
     for address, value in entries.items():
@@ -48,6 +48,14 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
         else:
             _put(document, place, written(raw, place, value))
     return tomlkit.dumps(document)
+
+
+def tables_of(text: str) -> dict[str, Any]:
+    """The tables of a file; an `InputError` if it is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"the file is no TOML: {error}") from None
 
 
 def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
@@ -94,7 +102,7 @@ def merged(text: str, joint: str, other: str, path: str = "") -> str:
 
     Raises a `LinkwrightError` that says why, if the machine cannot be so.
     """
-    raw = tomllib.loads(text)
+    raw = tables_of(text)
     topology = Topology.of(raw.get("mechanism", {}))
     element = next((one for one in topology.elements if one.name == joint), None)
     if element is None or other not in topology.candidates("point") or joint == other:
