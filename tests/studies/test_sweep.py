@@ -333,6 +333,40 @@ def test_killed_at_any_moment(study_file: Files, tmp_path: Path) -> None:
     assert {path.suffix for path in (tmp_path / "rows").iterdir()} == {".parquet", ".json"}
 
 
+@needs_signals
+def test_a_second_run_into_one_folder_is_refused_until_the_first_has_gone(
+    study_file: Files, tmp_path: Path
+) -> None:
+    """Of two processes for the same rows the second ends with exit 2; a claim dies with its process."""
+    study, rows = study_file(("steps = 5", "steps = 120"), ("chunk = 4", "chunk = 3")), tmp_path / "rows"
+    first = run(study, rows)
+    while not list(rows.glob("part-*")) and first.poll() is None:
+        time.sleep(0.002)
+    first.send_signal(signal.SIGSTOP)
+    second = run(study, rows)
+    _, told = second.communicate(timeout=120)
+    assert second.returncode == 2
+    assert "another process computes rows" in told
+    assert "Traceback" not in told
+    first.send_signal(signal.SIGKILL)
+    first.communicate()
+    assert lw.sweep(lw.read_study(study), rows).is_complete
+    assert {path.suffix for path in rows.iterdir()} == {".parquet", ".json"}
+
+
+@needs_signals
+def test_of_two_studies_that_race_for_a_folder_one_is_refused(study_file: Files, tmp_path: Path) -> None:
+    """Two studies that begin at once in a new folder: one has it, the other ends with exit 2."""
+    study = study_file()
+    other = study.with_name("other.toml")
+    other.write_text(study.read_text().replace("steps = 5", "steps = 7"))
+    for n in range(2):
+        both = [run(one, tmp_path / f"rows{n}") for one in (study, other)]
+        told = [process.communicate(timeout=120)[1] for process in both]
+        assert sorted(process.returncode for process in both) == [0, 2], told
+        assert "found the results of another sweep" in "".join(told)
+
+
 def test_a_damaged_description_loses_no_row(study_file: Files, tmp_path: Path) -> None:
     """The same study writes it anew; another one leaves the folder as it is."""
     plan, rows = lw.read_study(study_file()), tmp_path / "rows"

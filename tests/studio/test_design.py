@@ -9,7 +9,7 @@ from tests.samples.fast_starts import FILE
 import linkwright as lw
 from linkwright.drive.batch import FAST_STARTS
 from linkwright.kernel.errors import InputError
-from linkwright.studio.design import reach, slopes
+from linkwright.studio.design import goals, reach, slopes
 from linkwright.studio.search import search
 
 from .conftest import Tab
@@ -37,8 +37,49 @@ def test_slopes_are_those_of_the_package() -> None:
     machine = lw.read("roller_two_carts")
     found = slopes(machine, DELTA)
     assert found["slopes"] == lw.gradient(machine).of(DELTA)
-    with pytest.raises(InputError, match="no derivative"):
-        slopes(machine, "forces.shaking_force_max")
+    with pytest.raises(InputError, match=r"forces\.nothing"):
+        slopes(machine, "forces.nothing")
+
+
+def test_results_of_the_motion_are_goals() -> None:
+    """Strokes, transmission angles and speeds are pulled, swept and sought; none of them is numerics."""
+    machine = lw.read("roller_two_carts")
+    known = {goal.key: goal for goal in goals(machine)}
+    stroke, fast = "linkage.cart1.stroke", "cycle_motion.cart1.place.velocity.maximum"
+    assert {stroke, fast, "linkage.cart1.transmission_angle_worst"} <= known.keys()
+    assert known[stroke].value == pytest.approx(0.4)
+    assert not any("sweeps" in key for key in known)
+    found = reach(machine, stroke, 0.36, {RADIUS: (0.1, 0.3)})
+    assert found.entries[RADIUS] == pytest.approx(0.18, rel=1e-6)
+    swift = lw.cycle_motion(machine).extremes["cart1.place.velocity"].maximum
+    assert swift is not None
+    found = reach(machine, fast, 0.9 * swift, {RADIUS: (0.1, 0.3)})
+    moved = lw.cycle_motion(lw.replace(machine, found.entries)).extremes["cart1.place.velocity"].maximum
+    assert moved == pytest.approx(0.9 * swift, rel=1e-5)
+    by = slopes(machine, fast)
+    beside = lw.cycle_motion(lw.replace(machine, {RADIUS: 0.2002})).extremes["cart1.place.velocity"].maximum
+    assert by["slopes"][RADIUS] == pytest.approx((beside - swift) / 0.0002, rel=0.01)
+
+
+def test_other_results_keep_their_limits() -> None:
+    """A pull stops at the limit of another result, a sweep leaves gaps beyond it, a search keeps it."""
+    machine = lw.read("roller_two_carts")
+    stroke, angle = "linkage.cart1.stroke", "linkage.cart1.transmission_angle_worst"
+    least = lw.linkage(lw.replace(machine, {RADIUS: 0.22})).element("cart1").transmission_angle_worst
+    assert least is not None
+    bounds = {angle: (least, None)}
+    found = reach(machine, stroke, 0.6, {RADIUS: (0.1, 0.4)}, bounds)
+    assert "at the limit of worst transmission angle of cart1" in found.reason
+    assert 0.2 < found.entries[RADIUS] <= 0.22
+    entries = [{"address": RADIUS, "low": 0.2, "high": 0.24, "steps": 5}]
+    asked = {"response": stroke, "bounds": bounds, "entries": entries}
+    swept = search(machine, {**asked, "kind": "sweep"}, lambda _: None)
+    assert np.isnan(swept["values"]).tolist() == [False, False, False, True, True]
+    assert any("beyond the limits" in words for words in swept["warnings"])
+    del entries[0]["steps"]
+    asked |= {"kind": "optimise", "direction": "maximise", "machines": 200}
+    best = search(machine, asked, lambda _: None)
+    assert best["entries"][RADIUS] == pytest.approx(0.22, rel=1e-4)
 
 
 def test_a_map_holds_what_each_machine_has() -> None:

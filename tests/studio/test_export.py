@@ -14,6 +14,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library_path
 from linkwright.studio.export import export
 from linkwright.studio.files import Folder
+from linkwright.studio.messages import Export
 from linkwright.studio.session import Session
 
 HEADS = {"pdf": b"%PDF", "gif": b"GIF8", "svg": b"<svg", "png": b"\x89PNG", "html": b"<!DOCTYPE html>"}
@@ -80,5 +81,6 @@ def test_nothing_to_draw_is_told() -> None:
 def test_a_company_file_lies_below_the_folder(tmp_path: Path) -> None:
     session = Session(Folder.of(tmp_path), lambda _: None)
     with pytest.raises(InputError, match="outside"):
-        session._to_make({"kind": "html", "company": "../company.toml"})
-    assert session._to_make({"company": "a/company.toml"})["company"] == str(tmp_path / "a/company.toml")
+        session._to_make(Export(ask="export", kind="html", company="../company.toml"))
+    made = session._to_make(Export(ask="export", kind="html", company="a/company.toml"))
+    assert made["company"] == str(tmp_path / "a/company.toml")

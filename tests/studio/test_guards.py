@@ -20,75 +20,89 @@ from linkwright.studio.server import Studio
 from .conftest import Served, Tab
 
 
-def test_page_opens_once_and_by_cookie_alone(served: Served) -> None:
-    assert served.get("/")[0] == 403
-    assert served.get("/?token=wrong")[0] == 403
-    # The fixture has used the token.
-    assert served.studio.app.token == ""
-    status, headers, body = served.get("/", Cookie=served.cookie)
+@pytest.mark.parametrize("key", ["", "wrong", "\u0444"])
+def test_a_socket_without_the_key_is_closed_before_it_learns_anything(served: Served, key: str) -> None:
+    """The first message of a socket brings the key; any other ends it without an answer."""
+    for body in ({"ask": "enter", "key": key}, {"ask": "gallery"}, {"ask": "enter"}):
+        door = served.door()
+        door.send(**body)
+        with pytest.raises(ConnectionClosed) as ended:
+            door.hear()
+        assert ended.value.rcvd is not None
+        assert ended.value.rcvd.code == 4403
+
+
+def test_no_cookie_is_set_or_read(served: Served) -> None:
+    """Browsers send cookies to every port of a host: the studio knows none, and requests need a header."""
+    status, headers, body = served.get("/")
     assert status == 200
     assert b"<html" in body
+    assert served.studio.key.encode() not in body
+    assert "set-cookie" not in headers
     assert headers["content-security-policy"].startswith("default-src 'self'")
     assert "access-control-allow-origin" not in headers
+    assert served.get("/texts/uk.json")[0] == 403
+    assert served.get("/texts/uk.json", Cookie=f"key={served.studio.key}")[0] == 403
+    assert served.get("/texts/uk.json", X_Linkwright_Key=served.studio.key)[0] == 200
 
 
-def test_token_becomes_a_cookie_that_no_script_reads(tmp_path: Path) -> None:
+def test_the_printed_address_opens_until_the_end_and_the_pass_of_the_browser_once(tmp_path: Path) -> None:
+    """Command lines of programs are seen by others: what a browser is started with opens once."""
     from .conftest import begun
 
     served, server = begun(tmp_path)
-    name = f"linkwright-{served.studio.port}="
-    assert served.cookie.startswith(name)
-    assert served.cookie.removeprefix(name) != served.studio.token
+    studio = served.studio
+    key, once = studio.key, studio.once
+    assert studio.address("open=library/x").endswith(f"/#key={key}&open=library/x")
+    assert studio.address(once=True).endswith(f"#key={once}")
+    assert served.door().ask(ask="enter", key=once)["key"] == key
+    again = served.door()
+    again.send(ask="enter", key=once)
+    with pytest.raises(ConnectionClosed):
+        again.hear()
+    for _ in range(3):
+        served.tab().socket.close()
     server.should_exit = True
-
-
-def test_cookie_is_http_only_and_strict(tmp_path: Path) -> None:
-
-    studio = Studio(tmp_path)
-    words = studio.app._set_cookie().decode()
-    assert "; HttpOnly" in words
-    assert "; SameSite=Strict" in words
-    studio.socket.close()
 
 
 @pytest.mark.parametrize(
     "host", ["evil.example", "127.0.0.1", "localhost:1", "127.0.0.1.evil.example:80", ""]
 )
 def test_foreign_hosts_are_refused(served: Served, host: str) -> None:
-    assert served.get("/", Host=host, Cookie=served.cookie)[0] in (400, 421)
-    assert served.get("/wire.js", Host=host, Cookie=served.cookie)[0] in (400, 421)
+    assert served.get("/", Host=host)[0] in (400, 421)
+    assert served.get("/wire.js", Host=host)[0] in (400, 421)
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1", "http://127.0.0.1:1"])
 def test_foreign_origins_are_refused(served: Served, origin: str) -> None:
-    assert served.get("/", Origin=origin, Cookie=served.cookie)[0] == 403
+    assert served.get("/", Origin=origin)[0] == 403
     with pytest.raises(InvalidStatus):
         served.tab(Origin=origin)
 
 
 @pytest.mark.parametrize(
     "headers",
-    [{"Origin": None}, {"Cookie": None}, {"Cookie": "linkwright-1=x"}, {"Host": "evil.example"}],
+    [{"Origin": None}, {"Host": "evil.example"}],
     ids=str,
 )
-def test_sockets_need_origin_host_and_cookie(served: Served, headers: dict[str, str | None]) -> None:
+def test_sockets_need_origin_and_host(served: Served, headers: dict[str, str | None]) -> None:
     with pytest.raises(InvalidStatus):
         served.tab(**headers)
 
 
 def test_bodies_and_other_methods_are_refused(served: Served) -> None:
-    assert served.get("/", "POST", Cookie=served.cookie)[0] == 405
-    assert served.get("/", "POST", b"x", Cookie=served.cookie, Content_Length="1")[0] == 413
-    assert served.get("/", Cookie=served.cookie, Transfer_Encoding="chunked")[0] in (400, 413)
+    assert served.get("/", "POST")[0] == 405
+    assert served.get("/", "POST", b"x", Content_Length="1")[0] == 413
+    assert served.get("/", Transfer_Encoding="chunked")[0] in (400, 413)
     # More digits than Python reads as a number; uvicorn's parser may refuse them before the guard does.
-    assert served.get("/", Cookie=served.cookie, Content_Length="9" * 5000)[0] in (400, 413)
+    assert served.get("/", Content_Length="9" * 5000)[0] in (400, 413)
 
 
 @pytest.mark.parametrize(
     "path", ["/../server.py", "/%2e%2e/server.py", "/..%2fserver.py", "//etc/passwd", "/vendor/%00"]
 )
 def test_pages_lie_in_their_folder(served: Served, path: str) -> None:
-    assert served.get(path, Cookie=served.cookie)[0] in (400, 404)
+    assert served.get(path)[0] in (400, 404)
 
 
 NO_MESSAGES: dict[str, bytes | str] = {
@@ -98,7 +112,6 @@ NO_MESSAGES: dict[str, bytes | str] = {
     "list": struct.pack("<II", 1, 2) + b"[]",
     "broken": struct.pack("<II", 1, 4) + b"{{{{",
     "deep": struct.pack("<II", 1, 200_000) + b"[" * 200_000,
-    "no words": struct.pack("<II", 1, 10) + b'{"ask": 1}',
     "text": "text",
 }
 
@@ -110,7 +123,7 @@ def test_what_is_no_message_ends_the_tab_alone(served: Served, tab: Tab, message
         tab.hear()
     assert ended.value.rcvd is not None
     assert ended.value.rcvd.code in (1003, 1007)
-    assert served.get("/", Cookie=served.cookie)[0] == 200
+    assert served.get("/")[0] == 200
 
 
 def test_oversized_messages_end_the_tab(served: Served, tab: Tab) -> None:
@@ -121,7 +134,7 @@ def test_oversized_messages_end_the_tab(served: Served, tab: Tab) -> None:
     with pytest.raises(ConnectionClosed) as ended:
         send_and_hear()
     assert ended.value.rcvd is None or ended.value.rcvd.code == 1009
-    assert served.get("/", Cookie=served.cookie)[0] == 200
+    assert served.get("/")[0] == 200
 
 
 def test_floods_of_requests_are_answered_by_the_newest(tab: Tab) -> None:
@@ -144,7 +157,7 @@ def test_floods_of_files_end_the_tab(served: Served, tab: Tab) -> None:
 
     with pytest.raises(ConnectionClosed):
         flood()
-    assert served.get("/", Cookie=served.cookie)[0] == 200
+    assert served.get("/")[0] == 200
 
 
 @pytest.mark.parametrize(
@@ -211,11 +224,11 @@ def test_server_listens_on_this_computer_alone(served: Served) -> None:
 
 
 def test_the_page_asks_for_modules_that_exist(served: Served) -> None:
-    status, _, page = served.get("/", Cookie=served.cookie)
+    status, _, page = served.get("/")
     links = re.findall(r'modulepreload" href="([^"]+)"', page.decode())
     assert status == 200
     assert {"app.js", "stage.js", "vendor/preact.mjs"} <= set(links)
-    assert all(served.get(f"/{link}", Cookie=served.cookie)[0] == 200 for link in links)
+    assert all(served.get(f"/{link}")[0] == 200 for link in links)
 
 
 def test_a_folder_keeps_its_port(tmp_path: Path) -> None:
@@ -241,7 +254,7 @@ def test_types_of_modules_are_ours_whatever_the_registry_says(
         monkeypatch.setitem(mimetypes.types_map, ending, "text/plain")
     served, server = begun(tmp_path)
     for name, kind in (("wire.js", "text/javascript"), ("studio.css", "text/css")):
-        status, headers, _ = served.get(f"/{name}", Cookie=served.cookie)
+        status, headers, _ = served.get(f"/{name}")
         assert status == 200
         assert headers["content-type"].startswith(kind)
     server.should_exit = True

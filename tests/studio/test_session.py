@@ -175,10 +175,10 @@ def test_a_size_with_a_tolerance_has_a_slider_and_keeps_it() -> None:
 
 
 def test_a_drag_brings_the_joint_to_its_place() -> None:
-    machine, place = lw.read(CARTS), (0.18, 0.12)
-    found = drag(machine, "A1", place, 0.4)
+    machine, place = lw.read(CARTS), (-0.12, 0.18)
+    found = drag(machine, "A2", place, 0.4)
     moved = lw.replace(machine, found.entries)
-    at = kinematics(moved, np.array([0.4])).points["A1"].position[0]
+    at = kinematics(moved, np.array([0.4])).points["A2"].position[0]
     # Entries have seven digits, as the file has.
     assert at == pytest.approx(place, abs=1e-6)
     assert not found.reason
@@ -186,8 +186,68 @@ def test_a_drag_brings_the_joint_to_its_place() -> None:
 
 def test_a_locked_entry_holds() -> None:
     machine = lw.read(CARTS)
-    found = drag(machine, "A1", (0.18, 0.12), 0.4, frozenset({"mechanism.cranks.A1.phase"}))
-    assert list(found.entries) == ["mechanism.cranks.A1.radius"]
+    found = drag(machine, "A2", (-0.12, 0.18), 0.4, frozenset({"mechanism.cranks.A2.phase"}))
+    assert list(found.entries) == ["mechanism.cranks.A2.radius"]
+
+
+def test_a_drag_writes_what_a_pixel_is_worth_into_the_entries_that_are_there(tab: Tab) -> None:
+    """Half a millimetre a pixel: tenths of a millimetre and of a degree; no entry that was not there."""
+    text = CARTS.read_text()
+    tab.ask(ask="compute", text=text)
+    pull = {"x": -0.12345, "y": 0.18222, "angle": 0.4, "pixel": 5e-4}
+    moved = tab.ask(ask="compute", drag={"point": "A2", **pull})["text"]
+    crank = re.search(r'cranks.A2\]\nradius = "([\d.]+) m"\nphase = "([\d.]+) deg"', moved)
+    assert crank is not None
+    assert all(
+        len(digits.partition(".")[2]) <= most for digits, most in zip(crank.groups(), (4, 1), strict=True)
+    )
+    at = kinematics(loads(moved), np.array([0.4])).points["A2"].position[0]
+    assert np.hypot(*(at - (pull["x"], pull["y"]))) < 2 * pull["pixel"]
+    # The first crank has no phase: its radius alone follows.
+    other = tab.ask(ask="compute", drag={**pull, "point": "A1", "x": 0.2, "y": 0.1})["text"]
+    assert other.count("phase") == text.count("phase")
+
+
+def test_the_units_of_the_file_are_told_to_the_page(tab: Tab) -> None:
+    """The table of units says which unit a page shows, with its size; without it nothing is said."""
+    text = CARTS.read_text()
+    assert tab.ask(ask="compute", text=text)["units"] == {}
+    given = tab.ask(ask="compute", text=f'{text}\n[units]\nlength = "mm"\nforce = "kN"\n')["units"]
+    assert given["m"] == ["mm", 0.001]
+    assert given["m/s"] == ["mm/s", 0.001]
+    assert given["N"] == ["kN", 1000]
+    assert "N m" not in given
+
+
+def test_forces_need_no_motor_where_a_design_speed_is_given(tab: Tab) -> None:
+    """As on the command line, forces are those at the design speed of a drive without motor."""
+    text = CARTS.read_text()
+    start, end = text.index("[drive.motor]"), text.index("[drive.gearbox]")
+    answer = tab.ask(ask="compute", text=text[:start] + text[end:])
+    (forces,) = (one for one in answer["results"] if one["name"] == "forces")
+    scalars = {one["name"]: one["value"] for one in forces["scalars"]}
+    machine = loads(text[:start] + text[end:])
+    assert scalars["torque_drive_max"] == pytest.approx(lw.forces(machine).torque_drive_max, rel=1e-9)
+    assert "obstacle" not in next(chip for chip in answer["chips"] if chip["name"] == "forces")
+
+
+def test_a_torque_in_front_of_a_law_is_called_so(tab: Tab) -> None:
+    """A law acts as a cam on the crankshaft: the torque at the crank is named as in the tables."""
+    text = """format = 1
+name = "Indexing arm"
+[drive]
+speed = "6 rad/s"
+[mechanism.cranks.A]
+radius = "0.2 m"
+law = "phi - 0.3 * sin(phi)"
+[bodies]
+A = { mass = "2 kg" }
+"""
+    answer = tab.ask(ask="compute", text=text)
+    (forces,) = (one for one in answer["results"] if one["name"] == "forces")
+    words = {one["name"]: one["word"] for one in forces["scalars"]}
+    assert words["torque_drive_max"].startswith("torque on the shaft in front of the law of A")
+    assert any(plot["title"] == "torque of the drive A" for plot in forces["plots"])
 
 
 def test_a_drag_stops_where_the_linkage_no_longer_turns() -> None:

@@ -103,6 +103,10 @@ class CycleMotion(Motion):
                 curves[f"{name}.acceleration"] = np.hypot(*path.acceleration.T)
         return curves
 
+    def element(self, name: str) -> Extremes:
+        """Extremes of a curve by its name; none of what is at rest."""
+        return self.extremes.get(name, _NONE)
+
     @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute or a column by its name."""

@@ -230,6 +230,10 @@ class Result(Record):
         _, mark = declared(type(self)).get(name, (None, None))
         return mark.unit if isinstance(mark, Label) else ""
 
+    def word_of(self, name: str, word: str) -> str:
+        """What a quantity is called in this result; `word`: as it is declared."""
+        return word
+
     def _entries(self) -> dict[str, Any]:
         """Fields and properties in the order of their definition."""
         names = [field.name for field in fields(self)]  # type: ignore[arg-type]

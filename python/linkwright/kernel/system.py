@@ -6,6 +6,7 @@
 | a process that Ctrl+C does not reach | signal blocked, own session | flag of the console, own group |
 | nobody reads a pipe | `EPIPE` | `EINVAL` of the C library |
 | a name that a program holds open | free to be replaced | refused until it is closed |
+| bytes of a file that a program claims | `fcntl` | `LockFile` of the C library |
 
 Source: Microsoft, Windows API: OpenProcess, GetExitCodeProcess, SetConsoleCtrlHandler, CreateProcess.
 """
@@ -15,10 +16,10 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from errno import EINVAL
+from errno import EACCES, EAGAIN, EINVAL
 from pathlib import Path
 from time import sleep
-from typing import Any
+from typing import IO, Any
 
 # Not `os.name` where it is asked: a test may say otherwise without changing the paths of Python.
 WINDOWS = os.name == "nt"
@@ -154,6 +155,31 @@ def rename(part: Path, place: Path) -> None:
         else:
             return
     part.replace(place)
+
+
+def claims(file: IO[bytes], first: int, count: int, *, wait: bool = False) -> bool:
+    """Claim bytes of a file, which need not be there, against other processes; False if one has them.
+
+    The claim ends with the file or the process, however that ends. `wait` for a process that claims briefly.
+    """
+    try:
+        if WINDOWS:
+            import msvcrt
+
+            file.seek(first)
+            msvcrt.locking(  # type: ignore[attr-defined]
+                file.fileno(),
+                msvcrt.LK_LOCK if wait else msvcrt.LK_NBLCK,  # type: ignore[attr-defined]
+                count,
+            )
+        else:
+            import fcntl
+
+            fcntl.lockf(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB), count, first)
+    except OSError as error:
+        # Some file systems of clusters know no claims: whoever shares a folder there keeps order himself.
+        return error.errno not in (EACCES, EAGAIN) and not WINDOWS
+    return True
 
 
 def quoted(words: Sequence[str]) -> str:

@@ -177,6 +177,10 @@ class Forces(Result):
         words = f"torque on the input shaft of the law of {', '.join(self.laws)}"
         return words if np.any(self.acceleration) else f"{words}, at constant speed"
 
+    def word_of(self, name: str, word: str) -> str:
+        """That of the driving torque says where it acts."""
+        return self.shaft or word if name in ("torque_drive", "torque_drive_max") else word
+
     def columns(self) -> dict[str, Floats]:
         """Components of the forces by name and unit: the frame, each pair with its moment, each driver."""
         unit = self.unit_of("shaking_force")

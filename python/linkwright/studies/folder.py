@@ -3,26 +3,32 @@
     _study.json             machine, study, version, hash, rows a file, units
     part-000000.parquet     rows 0 to n - 1
     part-000001.parquet     rows n to 2 n - 1
+    .linkwright-lock        a byte for each file, claimed by the process that computes it
 
 A file is a function of the hash and of its number alone, whoever computes it and whenever. It is written
 under another name, brought to the disk and renamed, so that one that has its name is whole; no list of files
-is kept, and processes need not know of each other. Readers of Parquet pass over names that begin with ``_``.
+is kept. Jobs of one study may share a folder if each computes files of its own; a second run for the same
+files is refused. Readers of Parquet pass over names that begin with ``_`` or a point.
 """
 
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from time import sleep
+from typing import IO, Any
 
 from linkwright import __version__
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import unwritable, write_file
 from linkwright.kernel.files.text_file import TextError, require_no_pipe
+from linkwright.kernel.system import claims
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
 from linkwright.studies.model import StudyFile
@@ -31,6 +37,12 @@ from linkwright.studies.plan import StudyPlan, plan
 from linkwright.studies.rows import LAYOUT, Rows
 
 MANIFEST = "_study.json"
+
+# Byte 0 stands for the description, byte n + 1 for file n; no folder has as many.
+_LOCK, _ALL = ".linkwright-lock", 1 << 30
+
+# How often it is asked for, since one that ends claims all for a moment, and how much longer each time [s].
+_TRIES, _PAUSE = 4, 0.05
 
 # Rows in a file: some 1 MB, and one to five seconds of one core; where analyses are made one by one, as long.
 _ROWS, _ROWS_SINGLE = 10_000, 500
@@ -92,25 +104,65 @@ class SweepFolder:
         """
         require_pyarrow()
         try:
-            if (self.path / MANIFEST).exists():
-                manifest = _manifest_of(self.path / MANIFEST)
-                if manifest is not None:
-                    _require_same(_known(self.path, manifest), self)
-                    return
-                self._require_own_rows()
-                write_file(self.path / MANIFEST, _text(self.manifest))
+            if (self.path / MANIFEST).exists() and (manifest := _manifest_of(self.path / MANIFEST)):
+                _require_same(_known(self.path, manifest), self)
                 return
             if self.path.exists() and not self.path.is_dir():
                 raise InputError(f"{self.path}: found a file, expected a folder")
-            if self.path.exists() and any(not _is_ours(path) for path in self.path.iterdir()):
-                raise InputError(
-                    f"{self.path}: found a folder with other files, expected a new or empty one, or that of "
-                    "an earlier run of the same study"
-                )
+            if not (self.path / MANIFEST).exists() and self.path.exists():
+                self._require_nothing_else()
             self.path.mkdir(parents=True, exist_ok=True)
-            write_file(self.path / MANIFEST, _text(self.manifest))
+            with self._alone(0, 1, wait=True):
+                self._describe()
         except OSError as error:
             raise unwritable(self.path, error) from None
+
+    def _describe(self) -> None:
+        """Write the description, unless another run of the same study was first."""
+        place = self.path / MANIFEST
+        if place.exists() and (manifest := _manifest_of(place)):
+            _require_same(_known(self.path, manifest), self)
+            return
+        self._require_own_rows()
+        write_file(place, _text(self.manifest))
+
+    @contextmanager
+    def claimed(self, first: int, last: int) -> Iterator[None]:
+        """Compute files from the first to the one before the last; an `InputError` if another run does."""
+        with self._alone(first + 1, last - first):
+            yield
+
+    @contextmanager
+    def _alone(self, first: int, count: int, *, wait: bool = False) -> Iterator[None]:
+        """Claim bytes of the lock, which the last one that uses it removes."""
+        place = self.path / _LOCK
+        for n in range(_TRIES):
+            try:
+                lock = place.open("ab")
+            except OSError as error:
+                raise unwritable(self.path, error) from None
+            with lock:
+                # One that was removed meanwhile holds nobody off.
+                if claims(lock, first, count, wait=wait) and _is_still(lock, place):
+                    try:
+                        yield
+                    finally:
+                        if claims(lock, 0, _ALL):
+                            _remove(place)
+                    return
+            sleep(_PAUSE * n)
+        raise InputError(
+            f"{self.path}: another process computes rows of this sweep; wait until it ends, or share the "
+            "files by --chunks"
+        )
+
+    def _require_nothing_else(self) -> None:
+        """Refuse a folder of others."""
+        if any(not _is_ours(path) for path in self.path.iterdir()):
+            raise InputError(
+                f"{self.path}: found a folder with other files, expected a new or empty one, or that of "
+                "an earlier run of the same study"
+            )
 
     def _require_own_rows(self) -> None:
         """Refuse a folder without a readable description whose rows are not those of this study."""
@@ -211,7 +263,23 @@ def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
 
 def _is_ours(path: Path) -> bool:
     """What a run that was killed at its very beginning leaves behind."""
-    return path.name.startswith(".linkwright-part-")
+    return path.name == _LOCK or path.name.startswith(".linkwright-part-")
+
+
+def _remove(place: Path) -> None:
+    """Remove a file, unless it is held open, as on Windows, or gone."""
+    try:
+        place.unlink()
+    except OSError:
+        return
+
+
+def _is_still(file: IO[bytes], place: Path) -> bool:
+    """Whether an open file has its name."""
+    try:
+        return os.path.samestat(os.fstat(file.fileno()), place.stat())
+    except FileNotFoundError:
+        return False
 
 
 def _hash(manifest: dict[str, Any]) -> str:

@@ -7,7 +7,8 @@ of a kind the name stands between, ``cam.valve.pressure_angle_max``; so does tha
 
 ``motion.C.x`` is the place of a point over the crank angle, ``motion.C.y`` likewise. ``path.tool.error_rms``
 is how far a point passes from the path ``tool`` of the study. ``forces.reaction_max.A`` is the largest force
-of a pair, ``linkage.R.swing`` the swing of an element.
+of a pair, ``linkage.R.swing`` the swing of an element, ``cycle_motion.ram.place.velocity.maximum`` the
+maximum velocity of a slider.
 """
 
 from __future__ import annotations
@@ -26,9 +27,11 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units import is_number
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
 from linkwright.studies.model import Response, StudyPath
 from linkwright.studies.point_responses import of_motion, of_path
 from linkwright.studies.study_response import (
+    CYCLE,
     ENTRY,
     LINKAGE,
     MOTION,
@@ -50,6 +53,7 @@ ANALYSES = {
     "run_up": "drive.run_up:run_up",
     "run_down": "drive.run_up:run_down",
     "linkage": "linkages.cycle:linkage",
+    "cycle_motion": "drive.cycle_motion:cycle_motion",
     "forces": "kinetostatics.forces:forces",
     "cam": "cam.profile.profile:cam_profile",
     "cam_check": "cam.profile.check:cam_check",
@@ -101,6 +105,8 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         )
     if text.startswith(f"{PAIRS}."):
         return _of_pair(machine, name, key, text, response)
+    if first == CYCLE:
+        return _of_cycle(machine, name, key, text, response)
     if first == LINKAGE and len(rest) > 1:
         return _of_element(machine, name, key, text, response)
     owner, inner, rest = _within(get_type_hints(analysis(first))["return"], rest)
@@ -256,6 +262,52 @@ def _of_element(machine: Machine, name: str, key: str, text: str, response: Resp
         raise wrong(name, key, text, f"{LINKAGE}.ELEMENT.{quantity}", suggestion(element, elements))
     word, unit = f"{marks[quantity].word} of {element}", marks[quantity].unit
     return StudyResponse(name, LINKAGE, (element,), quantity, word, unit, otherwise=response.otherwise)
+
+
+def _of_cycle(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
+    """An extreme of a curve of the motion over the cycle."""
+    curve, _, extreme = text.removeprefix(f"{CYCLE}.").rpartition(".")
+    if response.curve is not None:
+        raise wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
+    if extreme not in ("minimum", "maximum"):
+        raise wrong(name, key, text, f"{CYCLE}.CURVE.minimum or {CYCLE}.CURVE.maximum")
+    known = curves_of(machine)
+    if curve not in known:
+        raise wrong(name, key, text, f"{CYCLE}.CURVE.{extreme}", suggestion(curve, known))
+    word, unit = known[curve]
+    return StudyResponse(
+        name, CYCLE, (curve,), extreme, f"{extreme} {word}", unit, otherwise=response.otherwise
+    )
+
+
+def curves_of(machine: Machine) -> dict[str, tuple[str, str]]:
+    """Curves of the motion over the cycle that have extremes: name → word and SI unit."""
+    compiled, linkage = compile_machine(machine).first(), machine.linkage
+    points = linkage.moving_points()
+    known: dict[str, tuple[str, str]] = {}
+    for name in linkage.slides():
+        if name in compiled.slides:
+            known |= _rates(f"{name}.place", f"of {name}", ("position", "velocity", "acceleration"), "m")
+    for name in linkage.links():
+        words = ("angle", "angular velocity", "angular acceleration")
+        known |= _rates(f"{name}.angle", f"of {name}", words, "rad")
+    for name in points:
+        for axis in "xy":
+            words = (axis, f"velocity along {axis}", f"acceleration along {axis}")
+            known |= _rates(f"{name}.{axis}", f"of {name}", words, "m")
+        if name not in compiled.slides:
+            known[f"{name}.velocity"] = (f"speed of {name}", "m/s")
+            known[f"{name}.acceleration"] = (f"acceleration of {name}", "m/s²")
+    return known
+
+
+def _rates(curve: str, of: str, words: tuple[str, str, str], unit: str) -> dict[str, tuple[str, str]]:
+    """A coordinate with its velocity and acceleration."""
+    endings = (("", unit), (".velocity", f"{unit}/s"), (".acceleration", f"{unit}/s²"))
+    return {
+        curve + ending: (f"{word} {of}", of_rate)
+        for word, (ending, of_rate) in zip(words, endings, strict=True)
+    }
 
 
 def _of_pair(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:

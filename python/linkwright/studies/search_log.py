@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, TextIO
+from typing import IO, Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from linkwright import __version__
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.files.output import unwritable
+from linkwright.kernel.system import claims
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
 from linkwright.studies.engine import evaluate
@@ -31,6 +32,9 @@ from linkwright.studies.slopes import Slopes, slopes
 
 # Layout of the lines of a log: 2 with how many machines derivatives took.
 _LINES = 2
+
+# A byte behind all that a log ever has: whoever claims it writes the log.
+_CLAIMED = 1 << 30
 
 # Steps of differences as a share of the range, where there are no exact derivatives.
 _STEP = 1e-4
@@ -47,7 +51,7 @@ class SearchLog:
         # Machines that were computed for this search, now or before it was stopped; and for what.
         self.count = 0
         self._counted: set[str] = set()
-        self.file: TextIO | None = None
+        self.file: IO[bytes] | None = None
         self._machine: tuple[Machine | None, str] = (None, "")
         if path is not None:
             self._open(path, self._digest(plan, "study", b""))
@@ -56,7 +60,13 @@ class SearchLog:
         """Read what is there, and go on behind it."""
         try:
             # As bytes: the place where it goes on is counted in them, with ends of lines as they are.
-            data = path.read_bytes() if path.exists() else b""
+            self.file = path.open("a+b")
+            if not claims(self.file, _CLAIMED, 1):
+                raise InputError(
+                    f"{path}: another search writes this log; wait until it ends, or name another file"
+                )
+            self.file.seek(0)
+            data = self.file.read()
             lines = data.decode("utf-8").splitlines(keepends=True)
             complete = [line for line in lines if line.endswith("\n")]
             if complete and complete[0].strip() != study:
@@ -64,13 +74,17 @@ class SearchLog:
                     f"{path}: found the log of another search, or none; nothing was changed; name another"
                 )
             self.known = dict(json.loads(line) for line in complete[1:])
-            self.file = path.open("a", encoding="utf-8", newline="\n")
             self.file.truncate(sum(len(line.encode()) for line in complete))
-            self.file.write("" if complete else f"{study}\n")
+            self.file.write(b"" if complete else f"{study}\n".encode())
             self.file.flush()
+        except InputError:
+            self.close()
+            raise
         except OSError as error:
+            self.close()
             raise unwritable(path, error) from None
         except ValueError:
+            self.close()
             raise InputError(
                 f"{path}: found no log of a search; nothing was changed; name another file"
             ) from None
@@ -142,11 +156,11 @@ class SearchLog:
     def _write(self, key: str) -> None:
         assert self.file is not None
         try:
-            self.file.write(json.dumps([key, self.known[key]]) + "\n")
+            self.file.write(json.dumps([key, self.known[key]]).encode() + b"\n")
             self.file.flush()
             os.fsync(self.file.fileno())
         except OSError as error:
-            raise unwritable(Path(self.file.name), error) from None
+            raise unwritable(Path(str(self.file.name)), error) from None
 
     def _digest(self, plan: StudyPlan, kind: str, asked: bytes) -> str:
         """A sign for what is asked of which machine in which study."""

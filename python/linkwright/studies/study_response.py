@@ -23,6 +23,9 @@ MOTION, PATH, ENTRY = "motion", "path", "entry"
 # The linkage, whose elements have numbers of their own.
 LINKAGE = "linkage"
 
+# The motion over the cycle, whose curves have extremes.
+CYCLE = "cycle_motion"
+
 # Analyses of one part of the machine, by its name.
 OF_ONE_CAM = ("cam", "cam_check", "cam_force")
 
@@ -88,7 +91,7 @@ class StudyResponse:
 
     def number(self, result: Any) -> float:
         """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
-        if self.analysis == LINKAGE and self.of:
+        if self.analysis in (LINKAGE, CYCLE) and self.of:
             result = result.element(*self.of)
         if self.inner:
             result = getattr(result, self.inner)

@@ -120,7 +120,8 @@ def sweep(
     Raises
     ------
     InputError
-        The folder is that of another study, or cannot be written to; an analysis needs what the machine does
+        The folder is that of another study, cannot be written to, or another process computes the same files
+        of it; an analysis needs what the machine does
         not have; there is no such cluster, or processes were lost again and again.
     """
     if workers > 1 and cluster:
@@ -128,11 +129,13 @@ def sweep(
     if not 1 <= workers <= 1000:
         raise InputError(f"workers {workers}: expected 1 to 1000 processes")
     sweeps = begun(plan, folder)
-    missing, repaired = _missing(sweeps, chunks)
-    if workers == 1 and not cluster:
-        _compute(plan, sweeps, missing, watch)
-    else:
-        _compute_beside(sweeps, missing, _elsewhere(plan, sweeps, missing, workers, cluster), watch)
+    first, last = _share(sweeps, chunks)
+    with sweeps.claimed(first, last):
+        missing, repaired = _missing(sweeps, first, last)
+        if workers == 1 and not cluster:
+            _compute(plan, sweeps, missing, watch)
+        else:
+            _compute_beside(sweeps, missing, _elsewhere(plan, sweeps, missing, workers, cluster), watch)
     return summary(sweeps, plan.responses, repaired)
 
 
@@ -156,14 +159,19 @@ def _try(plan: StudyPlan) -> None:
         return
 
 
-def _missing(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[list[int], tuple[str, ...]]:
-    """Numbers of the files to compute, and names of those that are there but cut off."""
+def _share(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[int, int]:
+    """First number of the files to compute, and the one after the last."""
     first, last = chunks or (0, folder.n_parts)
     if not 0 <= first < last or first >= folder.n_parts:
         raise InputError(
             f"chunks {first}:{last}: expected numbers from 0 to {folder.n_parts}, the first smaller"
         )
-    numbers = [number for number in range(first, min(last, folder.n_parts)) if not folder.is_done(number)]
+    return first, min(last, folder.n_parts)
+
+
+def _missing(folder: SweepFolder, first: int, last: int) -> tuple[list[int], tuple[str, ...]]:
+    """Numbers of the files to compute, and names of those that are there but cut off."""
+    numbers = [number for number in range(first, last) if not folder.is_done(number)]
     return numbers, tuple(folder.part(number).name for number in numbers if folder.part(number).exists())
 
 

@@ -9,6 +9,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `command` | ``linkwright studio [FILE]`` |
 | `server` | The page, its modules, a socket for each tab |
 | `wire` | Messages: a number, words, arrays |
+| `messages` | What a page may ask: the shape of every request |
 | `session` | One tab: the newest machine at once, slow analyses beside, files |
 | `worker` | The process of slow analyses |
 | `analyses` | What can be computed, and which data are missing |
@@ -17,6 +18,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `transfer` | Transfer functions of the outputs as plots |
 | `views` | Pictures beside it: trains in their modes, the knife of a topper; what the gallery shows |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
+| `building` | Elements that are added, links that are drawn |
 | `design` | What entries do to a result, and which entries bring it to a value |
 | `search` | Sweeps and optimisations of the machine, in the process beside |
 | `export` | Reports, motions and poses as files |

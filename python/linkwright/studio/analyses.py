@@ -96,7 +96,7 @@ def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
         no_motor = None if has_motor(machine) else motor
         no_mass = None if _is_loaded(machine) else _no_mass(machine)
         yield "steady_state", "Steady motion", "fast", no_motor
-        yield "forces", "Forces", "fast", no_motor or no_mass
+        yield "forces", "Forces", "fast", (None if _design_speed(machine) else no_motor) or no_mass
         yield "linkage", "Extreme positions", "study", None
         yield "reduction", "Reduced inertia", "study", no_mass
         yield "run_up", "Run-up", "study", no_motor or _no_run_up(machine)
@@ -113,6 +113,11 @@ def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
     elif machine.has_crank:
         rigid = Obstacle("The driveline is rigid.", "Add an elastic crankshaft", _ELASTIC)
         yield "torsion", "Torsional vibration", "torsion", no_motor or rigid
+
+
+def _design_speed(machine: Machine) -> float | None:
+    """Speed of the crank at which forces are asked for where no motor makes a motion."""
+    return None if machine.drive is None or has_motor(machine) else machine.drive.speed
 
 
 def _no_mass(machine: Machine) -> Obstacle:
@@ -198,8 +203,11 @@ def fast(machine: Machine, *, held: bool) -> Answers:
         return Answers([], findings.findings, findings.warnings, views=views)
     steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
-    if steady is not None and _is_loaded(machine):
-        acting = findings.beside_of(_forces, machine, steady, _EVERY if held else 1)
+    if _is_loaded(machine):
+        if steady is not None:
+            acting = findings.beside_of(_forces, machine, steady, _EVERY if held else 1)
+        elif _design_speed(machine):
+            acting = findings.beside_of(forces, machine, n=_INTERVALS, contributions=False)
     scene = findings.of(drawing, machine, steady, acting)
     results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
     known = [shown(name, result) for name, result in results.items() if result is not None]

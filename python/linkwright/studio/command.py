@@ -28,8 +28,8 @@ Port = Annotated[
 def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> None:
     """Work on a machine in the browser.
 
-    The page is served on this computer alone, and its address opens once. Files are opened and saved below
-    the present folder. The studio ends with Ctrl+C.
+    The page is served on this computer alone; its address opens it until the studio ends. Files are opened
+    and saved below the present folder. The studio ends with Ctrl+C.
     """
     for package in ("starlette", "uvicorn", "websockets"):
         require(package, "studio", f"the studio needs {package}")
@@ -39,13 +39,13 @@ def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> 
         opened = Studio(Path.cwd(), port)
     except (OSError, OverflowError) as error:
         raise InputError(f"--port {port}: {error}; leave it out for a free one") from None
-    address = opened.address(_fragment(file) if file else "")
-    click.echo(f"Linkwright studio: {address}")
+    fragment = _fragment(file) if file else ""
+    click.echo(f"Linkwright studio: {opened.address(fragment)}")
     click.echo(f"Files below {opened.folder.root}; end with Ctrl+C.")
     if not no_browser:
         import webbrowser
 
-        webbrowser.open(address)
+        webbrowser.open(opened.address(fragment, once=True))
     opened.run()
 
 

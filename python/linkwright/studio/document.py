@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -35,9 +36,9 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
     `entries`: address → SI number, written in the unit that stands there; or text, table or None. Raises
     `InputError` if the text is no TOML, or an address leads nowhere.
     """
+    raw = tables_of(text)
     try:
         document = tomlkit.parse(text)
-        raw = tomllib.loads(text)
     except (TOMLKitError, ValueError, RecursionError) as error:
         raise InputError(f"the file is not valid TOML: {error}") from None
     for address, value in entries.items():
@@ -47,6 +48,14 @@ def changed(text: str, entries: Mapping[str, Any]) -> str:
         else:
             _put(document, place, written(raw, place, value))
     return tomlkit.dumps(document)
+
+
+def tables_of(text: str) -> dict[str, Any]:
+    """The tables of a file; an `InputError` if it is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"the file is no TOML: {error}") from None
 
 
 def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
@@ -68,6 +77,21 @@ def written(raw: Mapping[str, Any], place: tuple[str, ...], value: Any) -> Any:
     return to_text(float(short(value)), mark.kind)
 
 
+def rounded(raw: Mapping[str, Any], address: str, value: float, worth: float, start: float) -> float:
+    """A value with as many digits in the unit of the file as a pixel is worth, rounded towards `start`."""
+    place = resolve(raw, address)
+    mark, old = mark_of(annotation_at(Machine, place, raw)), _at(raw, place)
+    size = (size_and_limits(old) or (old,))[0] if isinstance(old, str) else old
+    match = _WRITTEN.fullmatch(size) if isinstance(size, str) else None
+    known = factor_of(match[1].strip()) if match and isinstance(mark, Quantity) else None
+    factor = known[0] if known else 1.0
+    step = 10.0 ** math.floor(math.log10(worth / factor))
+    steps = value / factor / step
+    # Beyond the value the linkage may not close: at most as far as the pointer has gone.
+    rounded_steps = math.floor(steps) if value > start else math.ceil(steps)
+    return float(f"{rounded_steps * step:.12g}") * factor
+
+
 def short(value: float) -> str:
     """A finite number with as many digits as a file needs."""
     return f"{value:.{_DIGITS}g}"
@@ -78,7 +102,7 @@ def merged(text: str, joint: str, other: str, path: str = "") -> str:
 
     Raises a `LinkwrightError` that says why, if the machine cannot be so.
     """
-    raw = tomllib.loads(text)
+    raw = tables_of(text)
     topology = Topology.of(raw.get("mechanism", {}))
     element = next((one for one in topology.elements if one.name == joint), None)
     if element is None or other not in topology.candidates("point") or joint == other:

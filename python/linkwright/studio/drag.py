@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from dataclasses import replace as replaced
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,9 @@ class Drag:
     limit: float | None = (
         None  # crank angle at which the linkage is at its limit there [rad]; None if at none
     )
+    # Address → change of the entry that moves the point by a pixel [SI], with the value where it began.
+    worth: dict[str, tuple[float, float]] = field(default_factory=dict)
+    value: float | None = None  # of the result that was pulled [SI]
 
 
 def drag(
@@ -73,25 +77,28 @@ def drag(
     angle: float,
     locked: frozenset[str] = frozenset(),
     limits: Limits | None = None,
+    pixel: float = 0.0,
 ) -> Drag:
     """The entries that bring a point to a place [m], and why they stop.
 
     `machine`: as it was when the drag began; `angle`: of the crank in the drawing [rad]; `locked`: addresses
     that hold their values; `limits`: entries that follow with their limits [SI], without them those of the
-    handle.
+    handle; `pixel`: size of one in the drawing [m].
     """
     known = {*machine.mechanism.points, *machine.linkage.moving_points()}
     if point not in known:
         raise InputError(f"{point}: no point of this machine")
     free = [entry for entry in (limits or entries_of(machine, point)) if entry not in locked]
     if not free:
-        return Drag({}, f"all entries of {point} are locked")
+        is_locked = any(entry in locked for entry in entries_of(machine, point))
+        return Drag({}, f"all entries of {point} are locked" if is_locked else f"no entry places {point}")
     before = np.array([float(get(machine, entry)) for entry in free])
     size = float(np.hypot(*place)) + float(np.abs(before).max()) or 1.0
     ends = [_limits(machine, entry, size, limits) for entry in free]
     low, high = np.minimum(before, np.array(ends).T[0]), np.maximum(before, np.array(ends).T[1])
     search = _Search(machine, point, np.array(place), angle, free, before, low, high, size, closure(machine))
-    return search.stopped(search.nearest())
+    found = search.stopped(search.nearest())
+    return replaced(found, worth=search.worth(found.entries, pixel)) if pixel else found
 
 
 def _limits(machine: Machine, entry: str, size: float, limits: Limits | None) -> tuple[float, float]:
@@ -229,8 +236,8 @@ class _Search:
         is_held = (wanted <= self.low) | (wanted >= self.high)
         if is_held.any():
             held = [name for name, is_it in zip(self.free, is_held, strict=True) if is_it]
-            return "at the limits of " + ", ".join(".".join(name.split(".")[-2:]) for name in held)
-        names = " and ".join(entry.rsplit(".", 1)[-1] for entry in self.free)
+            return "at the limits of " + ", ".join(".".join(split(name)[-2:]) for name in held)
+        names = " and ".join(split(entry)[-1] for entry in self.free)
         return f"{self.point} moves with {names} alone"
 
     def _obstacle(self, row: Floats) -> tuple[str, Ranges]:
@@ -242,6 +249,13 @@ class _Search:
             return str(error), ()
         moves = closed.turns_fully or (bool(closed.ranges) and not self.closed.turns_fully)
         return "" if moves else str(closure_error(closed, machine)), closed.ranges
+
+    def worth(self, entries: Mapping[str, float], pixel: float) -> dict[str, tuple[float, float]]:
+        """What a pixel is worth in each entry."""
+        at = np.array([entries[name] for name in self.free])
+        slopes = np.hypot(*self._slopes(at, self._placed(at[None])[0]))
+        pairs = zip(self.free, slopes, self.before, strict=True)
+        return {name: (pixel / float(slope), float(start)) for name, slope, start in pairs if slope > 0}
 
     def _entries(self, row: Floats) -> dict[str, float]:
         """Entries with the digits that the file will have."""

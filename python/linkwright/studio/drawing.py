@@ -46,6 +46,10 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
     scene = moving_scene(machine, steady)
     if scene is None:
         return None
+    if steady is None and machine.drive is not None and machine.drive.speed:
+        # Without a motor the crank turns at its design speed.
+        ratio = machine.drive.speed / scene["speeds"]
+        scene |= {"speeds": scene["speeds"] * ratio, "times": scene["times"] / ratio, "true_speed": True}
     motion, speeds = scene.pop("motion"), scene["speeds"]
     accelerations = np.zeros_like(speeds) if steady is None else _along(scene, steady)
     rates = {
@@ -130,7 +134,8 @@ def _handles(mechanism: Mechanism) -> Iterator[tuple[str, list[str]]]:
     for table, names in _PLACES.items():
         for name, element in getattr(mechanism, table).items():
             if name != ORIGIN or table != "points":
-                given = [name for name in names if getattr(element, name) is not None]
+                # What the file does not have stays out of it.
+                given = [name for name in names if name in element.model_fields_set]
                 yield name, [join(("mechanism", table, name, entry)) for entry in given]
     for name in mechanism.joints:
         bars = [joint for joint, bar in mechanism.bars.items() if name in (bar.start, bar.end)]

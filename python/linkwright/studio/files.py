@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import stat
-import tempfile
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 from linkwright.kernel import system
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import library, library_path, template, templates
+from linkwright.kernel.files.output import write_file
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 
@@ -72,20 +72,7 @@ class Folder:
         path = self.inside(name)
         if path.exists() and not (replace and path.is_file()):
             raise InputError(f"{name} exists already; choose another name")
-        try:
-            handle, made = tempfile.mkstemp(dir=path.parent, prefix=".linkwright-", suffix=".tmp")
-        except OSError as error:
-            raise InputError(f"{name}: {error.strerror}") from None
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-            # Windows knows one permission, to write, and replaces no file without it.
-            mode = path.stat().st_mode if path.exists() and not system.WINDOWS else 0o644
-            Path(made).chmod(stat.S_IMODE(mode))
-            system.rename(Path(made), path)
-        except OSError as error:
-            Path(made).unlink(missing_ok=True)
-            raise InputError(f"{name}: {error.strerror}") from None
+        write_file(path, text)
 
     def machines(self) -> Iterator[dict[str, str]]:
         """Machine files of the folder: those that say their format."""

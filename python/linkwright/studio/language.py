@@ -16,13 +16,25 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.kernel.page.language import ENGLISH, Language, language
-from linkwright.kernel.page.out_units import reader, shown_in
+from linkwright.kernel.page.out_units import OutUnits, reader, shown_in
 from linkwright.kernel.page.sentences import sentences
+from linkwright.machine.machine import Machine
 
 # What a message says in sentences or words; everything else is read by the page, or is the user's own.
 _TEXTS = frozenset(
     (
-        *("about", "caption", "expected", "findings", "found", "mend", "obstacle", "reason", "remedy"),
+        *(
+            "about",
+            "caption",
+            "expected",
+            "findings",
+            "found",
+            "mend",
+            "obstacle",
+            "reason",
+            "remedy",
+            "waits",
+        ),
         *("tie", "title", "warnings", "word", "words"),
     )
 )
@@ -67,6 +79,16 @@ _WRITTEN = str.maketrans({"°": "deg", "²": "^2", "³": "^3"})
 def in_units(units: Iterable[str]) -> AbstractContextManager[None]:
     """Numbers of sentences, reports and figures in the units of the page, as long as the block lasts."""
     return shown_in(", ".join(str(unit).translate(_WRITTEN) for unit in units))
+
+
+# SI units of the kinds that the page lets choose.
+_KINDS = ("m", "rad", "rad/s", "m/s", "m/s²", "N", "N m", "kg", "kg m²", "W", "s", "J", "Pa")
+
+
+def units_of(machine: Machine) -> dict[str, tuple[str, float]]:
+    """Units of the table ``[units]`` of a file: SI unit → unit, and its size in SI."""
+    chosen = OutUnits.of_table(machine.units)
+    return {unit: chosen.shown(unit) for unit in _KINDS if chosen.has(unit)}
 
 
 def in_words(body: Any, code: str, key: str = "") -> Any:

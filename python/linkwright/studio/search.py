@@ -12,10 +12,10 @@ import numpy as np
 from linkwright.kernel.errors import InputError
 from linkwright.machine.machine import Machine
 from linkwright.studies.engine import evaluate
-from linkwright.studies.model import StudyFile
 from linkwright.studies.optimise import optimise
-from linkwright.studies.plan import StudyPlan, plan
+from linkwright.studies.plan import StudyPlan
 from linkwright.studies.rows import fast_start_warnings
+from linkwright.studio.design import kept, study_of
 from linkwright.studio.document import short
 
 Body = dict[str, Any]
@@ -31,7 +31,8 @@ _ROWS, _PAUSE = 64, 0.15
 def search(machine: Machine, asked: Body, tell: Tell) -> Body:
     """Compute a curve or a map over entries, or the best machine, and tell what is there so far.
 
-    `asked`: ``kind``, ``"sweep"`` or ``"optimise"``; ``response``; ``entries``, each with ``address``,
+    `asked`: ``kind``, ``"sweep"`` or ``"optimise"``; ``response``; ``bounds``, what other results keep to;
+    ``entries``, each with ``address``,
     ``low`` and ``high`` [SI]; of a sweep, ``steps`` of each entry; of an optimisation ``direction``,
     ``"minimise"`` or ``"maximise"``, and ``machines``.
 
@@ -47,16 +48,12 @@ def search(machine: Machine, asked: Body, tell: Tell) -> Body:
 
 def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
     """The study that the page describes."""
-    entries = asked["entries"]
-    if not entries:
-        raise InputError("no entry varies: choose one")
-    variables = {
-        f"v{n}": {"address": entry["address"], "range": (float(entry["low"]), float(entry["high"]))}
-        | ({"steps": int(entry["steps"])} if "steps" in entry else {})
-        for n, entry in enumerate(entries)
+    entries = {
+        entry["address"]: {"range": (entry["low"], entry["high"])}
+        | ({"steps": entry["steps"]} if "steps" in entry else {})
+        for entry in asked["entries"]
     }
-    tables = {"variables": variables, "responses": {"y": str(asked["response"])}, **more}
-    return plan(machine, StudyFile.model_validate(tables))
+    return study_of(machine, asked["response"], entries, asked.get("bounds", {}), **more)
 
 
 def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
@@ -82,8 +79,11 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
         tell(sweep)
         end = min(done + _ROWS, len(values))
         rows = evaluate(study, study.rows(done, end))
-        values[done:end] = rows.columns["y"]
+        keeps = kept(study, rows.columns)
+        values[done:end] = np.where(keeps, rows.columns["y"], np.nan)
         reasons.update(rows.failures())
+        if broken := int(np.sum(~keeps & np.isfinite(rows.columns["y"]))):
+            reasons["beyond the limits of other results"] += broken
         fast_starts.update(rows.not_settling())
         done = end
 

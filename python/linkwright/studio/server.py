@@ -6,9 +6,13 @@ It answers one user of this computer, and nobody else: guards stand before every
 | --- | --- |
 | exact list of hosts | a foreign name that is made to resolve to this computer (DNS rebinding) |
 | origin present on sockets, and one of ours wherever it is present | scripts of other pages |
-| token once, then a cookie | other users and programs of this computer |
+| key in the first message of a socket, in a header elsewhere | other users and programs of this computer |
 | headers of every answer | scripts and frames from elsewhere, were they ever to get into a page |
 | length of bodies | filling memory |
+
+The page and its modules are those of the package and no secret; a machine is behind the key. Browsers send
+cookies to every port of a host: the page therefore keeps the key itself, which stands behind ``#`` in the
+address and so in no request for a page.
 
 Pure ASGI, so that pages and sockets pass the same code.
 """
@@ -23,10 +27,8 @@ import secrets
 import socket
 from collections.abc import Awaitable, Callable, MutableMapping
 from functools import cache
-from http.cookies import CookieError, SimpleCookie
 from pathlib import Path
 from typing import Any
-from urllib.parse import parse_qs
 
 import uvicorn
 from starlette.applications import Starlette
@@ -34,14 +36,16 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.limits import FILE_BYTES
+from linkwright.studio.building import menu
 from linkwright.studio.files import Folder
 from linkwright.studio.language import page_texts
+from linkwright.studio.messages import Enter, read
 from linkwright.studio.session import Session
-from linkwright.studio.wire import WireError
+from linkwright.studio.wire import WireError, packed, unpacked
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
@@ -83,16 +87,10 @@ class Guards:
         The application.
     port : int
         That it is served on.
-    token : str
-        Word that opens the door once; the cookie has another.
     """
 
-    def __init__(self, app: App, port: int, token: str) -> None:
+    def __init__(self, app: App, port: int) -> None:
         self.app = app
-        self.token = token
-        self.key = secrets.token_urlsafe(32)
-        # Cookies know no ports: two studios side by side need names of their own.
-        self.cookie = f"linkwright-{port}"
         self.hosts = frozenset(f"{name}:{port}".encode() for name in ("127.0.0.1", "localhost"))
         self.origins = frozenset(b"http://" + host for host in self.hosts)
 
@@ -103,11 +101,6 @@ class Guards:
         is_socket = scope["type"] == "websocket"
         headers = scope["headers"]
         status = self._refused(headers, is_socket=is_socket)
-        if status is None and not is_socket and self._brings_token(scope):
-            await _redirect(send, self._set_cookie())
-            return
-        if status is None and not self._is_known(headers):
-            status = 403
         if status is not None:
             await _refuse(send, status, is_socket=is_socket)
             return
@@ -128,26 +121,6 @@ class Guards:
         ):
             return 413
         return None
-
-    def _brings_token(self, scope: Scope) -> bool:
-        """Whether the address has the token; it opens once."""
-        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        if scope["path"] != "/" or not self.token or not _same(given, self.token):
-            return False
-        self.token = ""
-        return True
-
-    def _is_known(self, headers: list[tuple[bytes, bytes]]) -> bool:
-        """Whether the cookie is ours."""
-        jar: SimpleCookie = SimpleCookie()
-        try:
-            jar.load(b"; ".join(_values(headers, b"cookie")).decode("latin-1"))
-        except CookieError:
-            return False
-        return self.cookie in jar and _same(jar[self.cookie].value, self.key)
-
-    def _set_cookie(self) -> bytes:
-        return f"{self.cookie}={self.key}; Path=/; HttpOnly; SameSite=Strict".encode()
 
 
 def _same(given: str, known: str) -> bool:
@@ -175,20 +148,13 @@ def _with_headers(send: Send) -> Send:
     return guarded
 
 
-async def _redirect(send: Send, cookie: bytes) -> None:
-    """To the page without the token, which then stands neither in the address nor in the history."""
-    headers = [(b"location", b"/"), (b"set-cookie", cookie), (b"content-length", b"0"), *_HEADERS]
-    await send({"type": "http.response.start", "status": 303, "headers": headers})
-    await send({"type": "http.response.body", "body": b""})
-
-
 async def _refuse(send: Send, status: int, *, is_socket: bool) -> None:
     """End a request without an answer."""
     if is_socket:
         # Before it is accepted: the server answers 403 to the handshake.
         await send({"type": "websocket.close", "code": _POLICY})
         return
-    words = b"Refused. Open the address that linkwright studio printed; it opens once.\n"
+    words = b"Refused. Open the address that linkwright studio printed.\n"
     headers = [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(words)).encode())]
     await send({"type": "http.response.start", "status": status, "headers": [*headers, *_HEADERS]})
     await send({"type": "http.response.body", "body": words})
@@ -202,8 +168,12 @@ MESSAGE_BYTES = 2 * FILE_BYTES.most
 # Tabs at once; each may have a process beside.
 _TABS = 16
 
-# Codes of a socket that brings no message, and that there is no room for (RFC 6455, 7.4.1).
-_NO_MESSAGE, _NO_ROOM = 1003, 1013
+# Codes of a socket that brings no message, that there is no room for, and that brings no key of this studio
+# (RFC 6455, 7.4.1 and 7.4.2).
+_NO_MESSAGE, _NO_ROOM, _NO_KEY = 1003, 1013, 4403
+
+# Header with the key, and seconds that a socket may take to bring it.
+_KEY_HEADER, _PATIENCE = "x-linkwright-key", 10.0
 
 
 class Studio:
@@ -222,19 +192,22 @@ class Studio:
         self.folder = Folder.of(folder)
         self.socket = _bound(port) if port else _bound_for(self.folder.root)
         self.port: int = self.socket.getsockname()[1]
-        self.token = secrets.token_urlsafe(32)
+        # The key opens the studio until it ends. The browser is started with a pass that opens once: other
+        # users see the command lines of programs.
+        self.key, self.once = secrets.token_urlsafe(32), secrets.token_urlsafe(32)
         self.tabs = 0
         routes = [
             Route("/", _page),
-            Route("/texts/{code}.json", _texts),
+            Route("/texts/{code}.json", self._texts),
             WebSocketRoute("/socket", self._tab),
             Mount("/", StaticFiles(directory=STATIC)),
         ]
-        self.app = Guards(Starlette(routes=routes), self.port, self.token)
+        self.app = Guards(Starlette(routes=routes), self.port)
 
-    def address(self, fragment: str = "") -> str:
-        """The address that opens the studio, once; `fragment`: what the page should open, after ``#``."""
-        return f"http://127.0.0.1:{self.port}/?token={self.token}" + (f"#{fragment}" if fragment else "")
+    def address(self, fragment: str = "", *, once: bool = False) -> str:
+        """The address that opens the studio until it ends, or `once`; `fragment`: what the page opens."""
+        key = self.once if once else self.key
+        return f"http://127.0.0.1:{self.port}/#key={key}" + (f"&{fragment}" if fragment else "")
 
     def server(self) -> uvicorn.Server:
         """The server, not begun yet."""
@@ -255,17 +228,46 @@ class Studio:
         """Serve until interrupted."""
         self.server().run(sockets=[self.socket])
 
+    async def _texts(self, request: Request) -> Response:
+        """Texts of the page in a language."""
+        if not _same(request.headers.get(_KEY_HEADER, ""), self.key):
+            return Response(status_code=403)
+        try:
+            return JSONResponse(page_texts(request.path_params["code"]))
+        except InputError:
+            return Response(status_code=404)
+
     async def _tab(self, page: WebSocket) -> None:
         """One tab."""
+        await page.accept()
+        if not await self._enters(page):
+            await _end(page, _NO_KEY)
+            return
         if self.tabs >= _TABS:
-            await page.close(_NO_ROOM)
+            await _end(page, _NO_ROOM)
             return
         self.tabs += 1
         try:
-            await page.accept()
             await _converse(page, Session(self.folder, page.send_bytes))
         finally:
             self.tabs -= 1
+
+    async def _enters(self, page: WebSocket) -> bool:
+        """Whether the first message of a socket brings the key, or the pass, which is answered by the key."""
+        try:
+            message = await asyncio.wait_for(page.receive(), _PATIENCE)
+            number, body = unpacked(message.get("bytes") or b"")
+            given = read(body)
+        except (TimeoutError, WireError, InputError):
+            return False
+        if not isinstance(given, Enter):
+            return False
+        if self.once and _same(given.key, self.once):
+            self.once = ""
+        elif not _same(given.key, self.key):
+            return False
+        await page.send_bytes(packed(number, {"of": "entered", "key": self.key, "kinds": menu()}))
+        return True
 
 
 # What a browser must be told of modules and sheets, which it refuses otherwise.
@@ -321,17 +323,12 @@ def _index() -> str:
     return (STATIC / "index.html").read_text(encoding="utf-8").replace("</head>", f"{links}</head>")
 
 
-async def _texts(request: Request) -> Response:
-    try:
-        return JSONResponse(page_texts(request.path_params["code"]))
-    except InputError:
-        return Response(status_code=404)
-
-
 async def _converse(page: WebSocket, session: Session) -> None:
     """Hand messages on until the tab closes or sends what is no message."""
     answering = asyncio.create_task(session.run())
     code = None
+    # The lanes of the session begin before the first message comes.
+    await asyncio.sleep(0)
     try:
         while code is None:
             message = await page.receive()
@@ -347,4 +344,13 @@ async def _converse(page: WebSocket, session: Session) -> None:
         answering.cancel()
         await asyncio.gather(answering, return_exceptions=True)
     if code is not None:
-        await page.close(code)
+        await _end(page, code)
+
+
+async def _end(page: WebSocket, code: int) -> None:
+    """Close a socket, unless the browser was first."""
+    if page.client_state is WebSocketState.CONNECTED:
+        try:
+            await page.close(code)
+        except (WebSocketDisconnect, RuntimeError):
+            return

@@ -12,8 +12,8 @@ import math
 import time
 import tomllib
 import traceback
-from collections.abc import Callable, Mapping
-from itertools import chain
+from collections.abc import Callable, Coroutine
+from dataclasses import asdict
 from typing import Any
 
 from anyio import to_thread
@@ -26,12 +26,30 @@ from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads
 from linkwright.studio.analyses import chips, failed, fast, lanes
+from linkwright.studio.building import End, added, drawn
 from linkwright.studio.controls import controls
-from linkwright.studio.design import reach, slopes
-from linkwright.studio.document import changed, merged
+from linkwright.studio.design import goals, reach, slopes
+from linkwright.studio.document import changed, merged, rounded
 from linkwright.studio.drag import drag
 from linkwright.studio.files import Folder, base, gallery, opened
-from linkwright.studio.language import as_read, in_units, in_words, spoken
+from linkwright.studio.language import as_read, in_units, in_words, spoken, units_of
+from linkwright.studio.messages import (
+    Add,
+    Bare,
+    Compute,
+    Draw,
+    Enter,
+    Export,
+    File,
+    Merge,
+    Pull,
+    Reach,
+    Save,
+    Search,
+    SlopesOf,
+    Speak,
+    read,
+)
 from linkwright.studio.views import thumbnail
 from linkwright.studio.wire import WireError, packed, unpacked
 from linkwright.studio.worker import Worker
@@ -63,64 +81,81 @@ class Session:
         self.language, self.units = "en", list[str]()
         # The last text that was sound, with its path and its machine.
         self.sound: tuple[str, str, Machine] | None = None
-        self.newest: tuple[int, Body] | None = None
-        self.others: asyncio.Queue[tuple[int, Body]] = asyncio.Queue(_WAITING)
+        self.newest: tuple[int, Compute] | None = None
+        self.others: asyncio.Queue[tuple[int, Any]] = asyncio.Queue(_WAITING)
         self.changed, self.quiet = asyncio.Event(), asyncio.Event()
         # Number and text that slow analyses are due for, and which of them the user stopped.
         self.due: tuple[int, str, list[str]] | None = None
         self.worker, self.running, self.stopped = Worker(), "", False
         # Searches have a process of their own: they go on while the machine changes.
         self.searcher: Worker = Worker()
-        self.search: tuple[int, Body] | None = None
+        self.search: tuple[int, Search] | None = None
         self.sought = asyncio.Event()
         # Files that were asked for, made one after another.
         self.maker: Worker = Worker()
-        self.exports: asyncio.Queue[tuple[int, Body]] = asyncio.Queue(_WAITING)
+        self.exports: asyncio.Queue[tuple[int, Export]] = asyncio.Queue(_WAITING)
+        # Everything that is begun ends with the tab: what starts a process too, so that none is left behind.
+        self.tasks = asyncio.TaskGroup()
 
     async def run(self) -> None:
         """Answer until cancelled."""
         try:
-            async with asyncio.TaskGroup() as tasks:
+            async with self.tasks:
                 for lane in (self._compute, self._answer, self._beside, self._search, self._export):
-                    tasks.create_task(lane())
+                    self.tasks.create_task(lane())
         finally:
-            await self.worker.end()
-            await self.searcher.end()
-            await self.maker.end()
+            workers = (self.worker, self.searcher, self.maker)
+            # All at once: an end of the server does not wait for the first to be gone.
+            for worker in workers:
+                worker.kill()
+            await asyncio.gather(*(worker.end() for worker in workers))
 
     def take(self, message: bytes) -> None:
         """Take one message of the page; a `WireError` if it is none, or more wait than a page ever sends."""
-        number, body = unpacked(message)
-        if body["ask"] == "compute":
-            self.newest = (number, body)
-            self.changed.set()
-        elif body["ask"] == "search":
-            self.search = (number, body)
-            self.sought.set()
-        elif body["ask"] == "language":
-            self._speak(str(body.get("code", "")), body.get("units"))
-        elif body["ask"] == "end search":
-            asyncio.ensure_future(self.searcher.end())  # noqa: RUF006 (as of what is stopped)
-        elif body["ask"] == "end export":
-            asyncio.ensure_future(self.maker.end())  # noqa: RUF006 (as of what is stopped)
-        elif body["ask"] == "stop":
-            asyncio.ensure_future(self._stop())  # noqa: RUF006 (it ends a process, and is not waited for)
-        else:
-            waiting = self.exports if body["ask"] == "export" else self.others
-            try:
-                waiting.put_nowait((number, body))
-            except asyncio.QueueFull:
-                raise WireError("too many requests at once") from None
-
-    def _speak(self, code: str, units: Any) -> None:
-        """Answer in a language, and in units, from now on."""
-        listed = list(map(str, units)) if isinstance(units, list) else []
+        number, text = unpacked(message)
         try:
-            spoken(code)
-            with in_units(listed):
-                self.language, self.units = code, listed
+            asked = read(text)
+            match asked:
+                case Compute():
+                    self.newest = (number, asked)
+                    self.changed.set()
+                case Search():
+                    self.search = (number, asked)
+                    self.sought.set()
+                case Speak():
+                    self._speak(asked)
+                case Enter():
+                    raise InputError("request 'enter': expected once, as the first message")
+                case Bare(ask="end search"):
+                    self._begin(self.searcher.end())
+                case Bare(ask="end export"):
+                    self._begin(self.maker.end())
+                case Bare(ask="stop"):
+                    self._begin(self._stop())
+                case _:
+                    (self.exports if isinstance(asked, Export) else self.others).put_nowait((number, asked))
+        except asyncio.QueueFull:
+            raise WireError("too many requests at once") from None
         except InputError as error:
-            raise WireError(str(error)) from None
+            self._begin(self._refuse(number, error))
+
+    def _begin(self, task: Coroutine[Any, Any, None]) -> None:
+        """Do something that nothing waits for, as long as there is the tab."""
+        try:
+            self.tasks.create_task(task)
+        except RuntimeError:
+            # The tab is ending.
+            task.close()
+
+    async def _refuse(self, number: int, error: LinkwrightError) -> None:
+        """Say why a request is not answered."""
+        await self.send(self._packed(number, {"of": "refused", "words": str(error)}))
+
+    def _speak(self, asked: Speak) -> None:
+        """Answer in a language, and in units, from now on."""
+        spoken(asked.code)
+        with in_units(asked.units):
+            self.language, self.units = asked.code, asked.units
 
     def _packed(self, number: int, body: Body) -> bytes:
         """A message in the language of the tab."""
@@ -135,9 +170,9 @@ class Session:
             self.changed.clear()
             if self.newest is None:
                 continue
-            (number, body), self.newest = self.newest, None
+            (number, asked), self.newest = self.newest, None
             try:
-                message, due = await to_thread.run_sync(self._computed, number, body)
+                message, due = await to_thread.run_sync(self._computed, number, asked)
             except Exception as error:
                 message, due = _internal(number, error), None
             await self.send(message)
@@ -145,23 +180,25 @@ class Session:
                 self.due = due
                 self.quiet.set()
 
-    def _computed(self, number: int, body: Body) -> tuple[bytes, tuple[int, str, list[str]] | None]:
+    def _computed(self, number: int, asked: Compute) -> tuple[bytes, tuple[int, str, list[str]] | None]:
         """The answer to one request to compute, and what slow analyses are due."""
         begun = time.perf_counter()
-        held = bool(body.get("held"))
-        if isinstance(text := body.get("text"), str):
-            self.text = text
-            self.place, self.name = str(body.get("place", "")), str(body.get("name", ""))
-        entries = dict(body["set"]) if isinstance(body.get("set"), dict) else {}
+        held, entries = asked.held, dict(asked.set)
+        if asked.text is not None:
+            self.text, self.place, self.name = asked.text, asked.place, asked.name
         answer: Body = {"of": "machine", "set": entries}
         machine: Machine | None = None
         try:
-            if isinstance(pull := body.get("drag"), dict):
-                answer |= self._dragged(pull, entries)
-            if isinstance(pull := body.get("reach"), dict):
-                answer |= self._reached(pull, entries)
-            if isinstance(both := body.get("merge"), dict):
-                answer |= self._merged(str(both["joint"]), str(both["into"]))
+            if asked.drag is not None:
+                answer |= self._dragged(asked.drag, entries)
+            if asked.reach is not None:
+                answer |= self._reached(asked.reach, entries)
+            if asked.merge is not None:
+                answer |= self._merged(asked.merge)
+            if asked.add is not None:
+                answer |= self._added(asked.add)
+            if asked.draw is not None:
+                answer |= self._drawn(asked.draw)
             if not held and entries:
                 self.text, entries = changed(self.text, entries), {}
                 answer["text"] = self.text
@@ -190,29 +227,51 @@ class Session:
             return replace(self.sound[2], entries) if entries else self.sound[2]
         return loads(self.text, entries, path=path)
 
-    def _dragged(self, pull: Body, entries: dict[str, Any]) -> Body:
+    def _dragged(self, pull: Pull, entries: dict[str, Any]) -> Body:
         """The entries that follow a joint; they are put to the others."""
-        start = self._machine({})
-        place = (float(pull["x"]), float(pull["y"]))
-        locked = frozenset(map(str, pull.get("locked", ())))
-        limits = _limits(pull["free"]) if pull.get("free") else None
-        dragged = drag(start, str(pull["point"]), place, float(pull["angle"]), locked, limits)
-        entries |= dragged.entries
+        start, place = self._machine({}), (pull.x, pull.y)
+        locked, limits = frozenset(pull.locked), pull.free or None
+        dragged = drag(start, pull.point, place, pull.angle, locked, limits, pull.pixel)
+        raw = tomllib.loads(self.text)
+        for address, value in dragged.entries.items():
+            worth, begun = dragged.worth.get(address, (0.0, math.nan))
+            # What has moved by less than a pixel stays as it is written.
+            if not abs(value - begun) < worth:
+                entries[address] = rounded(raw, address, value, worth, begun) if worth else value
         return {"reason": dragged.reason, "limit": dragged.limit}
 
-    def _merged(self, joint: str, into: str) -> Body:
+    def _merged(self, both: Merge) -> Body:
         """The text with two joints made one, or why they cannot be."""
         try:
-            self.text = merged(self.text, joint, into, base(self.folder, self.place, self.name))
+            self.text = merged(self.text, both.joint, both.into, base(self.folder, self.place, self.name))
         except LinkwrightError as error:
-            return {"words": f"{joint} was not merged with {into}: {error}"}
+            return {"words": f"{both.joint} was not merged with {both.into}: {error}"}
         return {"text": self.text}
 
-    def _reached(self, pull: Body, entries: dict[str, Any]) -> Body:
+    def _added(self, asked: Add) -> Body:
+        """The text with an element more, or what it needs."""
+        path = base(self.folder, self.place, self.name)
+        try:
+            self.text = added(self.text, asked.kind, asked.size, asked.picked, path)
+        except LinkwrightError as error:
+            return {"words": str(error)}
+        return {"text": self.text}
+
+    def _drawn(self, asked: Draw) -> Body:
+        """The text with links that were drawn; what they wait for, or why they cannot be."""
+        path = base(self.folder, self.place, self.name)
+        links = [tuple(End(end.x, end.y, end.point) for end in link) for link in asked.links]
+        try:
+            self.text, waits = drawn(self.text, links, asked.angle, asked.pixel, path)
+        except LinkwrightError as error:
+            return {"words": f"The link was not added: {error}", "draft": "refused"}
+        return {"draft": "waiting", "waits": waits} if waits else {"draft": "done", "text": self.text}
+
+    def _reached(self, pull: Reach, entries: dict[str, Any]) -> Body:
         """The entries that follow a result; they are put to the others."""
-        reached = reach(self._machine({}), str(pull["of"]), float(pull["value"]), _limits(pull["free"]))
+        reached = reach(self._machine({}), pull.of, pull.value, pull.free, pull.bounds)
         entries |= reached.entries
-        return {"reason": reached.reason}
+        return {"reason": reached.reason, "reached": reached.value}
 
     def _around(self, machine: Machine | None) -> Body:
         """Controls, chips and lanes of a machine that is not being pulled at."""
@@ -224,6 +283,8 @@ class Session:
             "controls": None if raw is None else controls(raw),
             "chips": [] if machine is None else chips(machine),
             "lanes": [] if machine is None else lanes(machine),
+            "units": None if machine is None else units_of(machine),
+            "goals": [] if machine is None else [asdict(goal) for goal in goals(machine)],
         }
 
     # -- slow analyses ---------------------------------------------------------------------------------------
@@ -254,7 +315,7 @@ class Session:
         self.running = lane
         job = {"number": number, "lane": lane, "text": text, "path": path}
         job |= {"language": self.language, "units": self.units}
-        task = asyncio.create_task(self.worker.run(job))
+        task = self.tasks.create_task(self.worker.run(job))
         stale = 0.0
         while not task.done():
             await asyncio.wait({task}, timeout=0.05)
@@ -287,10 +348,10 @@ class Session:
             self.sought.clear()
             if self.search is None:
                 continue
-            (number, body), self.search = self.search, None
+            (number, asked), self.search = self.search, None
             path = base(self.folder, self.place, self.name)
             job = {"number": number, "lane": "search", "text": self.text, "path": path}
-            job |= {"search": body, "language": self.language}
+            job |= {"search": asked.model_dump(exclude_none=True), "language": self.language}
             is_ended = True
             async for message in self.searcher.messages(job):
                 await self.send(message)
@@ -303,33 +364,25 @@ class Session:
     async def _export(self) -> None:
         """Make the files that were asked for, in their order."""
         while True:
-            number, body = await self.exports.get()
+            number, asked = await self.exports.get()
             path = base(self.folder, self.place, self.name)
             try:
                 job = {"number": number, "lane": "export", "text": self.text, "path": path}
-                job |= {"export": self._to_make(body), "language": self.language}
+                job |= {"export": self._to_make(asked), "language": self.language}
             except LinkwrightError as error:
-                await self.send(self._packed(number, {"of": "refused", "words": str(error)}))
-                continue
-            except Exception as error:
-                await self.send(_internal(number, error))
+                await self._refuse(number, error)
                 continue
             message = await self.maker.run(job)
             ended = self._packed(number, {"of": "export", "ended": True})
             await self.send(ended if message is None else message)
 
-    def _to_make(self, body: Body) -> Body:
+    def _to_make(self, asked: Export) -> Body:
         """What is asked for, with the real paths of a company file and of the variants."""
         path = base(self.folder, self.place, self.name)
-        variants = [
-            {"name": str(one["name"]), "text": str(one["text"]), "path": path}
-            for one in body.get("variants") or ()
-        ]
-        company = str(body.get("company") or "")
         return {
-            **body,
-            "variants": variants,
-            "company": str(self.folder.inside(company)) if company else "",
+            **asked.model_dump(),
+            "variants": [{**one.model_dump(), "path": path} for one in asked.variants],
+            "company": str(self.folder.inside(asked.company)) if asked.company else "",
         }
 
     # -- files -----------------------------------------------------------------------------------------------
@@ -337,55 +390,45 @@ class Session:
     async def _answer(self) -> None:
         """Answer requests for files, in their order."""
         while True:
-            number, body = await self.others.get()
+            number, asked = await self.others.get()
             try:
-                answer = await to_thread.run_sync(self._asked, body)
+                answer = await to_thread.run_sync(self._asked, asked)
                 message = self._packed(number, answer)
             except LinkwrightError as error:
-                message = self._packed(number, {"of": "refused", "words": str(error)})
+                await self._refuse(number, error)
+                continue
             except Exception as error:
                 message = _internal(number, error)
             await self.send(message)
 
-    def _asked(self, body: Body) -> Body:
+    def _asked(self, asked: Bare | SlopesOf | File | Save) -> Body:
         """The answer to a request for files."""
-        ask = body["ask"]
-        if ask == "gallery":
-            return {"of": "gallery", "machines": gallery(self.folder), "folder": str(self.folder.root)}
-        if ask == "slopes":
-            return {"of": "slopes", **slopes(self._machine({}), str(body.get("response", "")))}
-        place, name = str(body.get("place", "folder")), str(body.get("name", ""))
-        if ask == "open":
-            text = opened(self.folder, place, name)
-            self.place, self.name = place, name
-            return {"of": "file", "place": place, "name": name, "text": text}
-        if ask == "thumbnail":
-            return {"of": "thumbnail", **thumbnail(self.folder, place, name)}
-        if ask == "save":
-            self.folder.write(name, str(body.get("text", "")), replace=self._replaces(name, body))
-            self.place, self.name = "folder", name
-            return {"of": "saved", "name": name}
-        return {"of": "refused", "words": f"{ask!r}: no such request"}
+        match asked:
+            case SlopesOf():
+                return {"of": "slopes", **slopes(self._machine({}), asked.response)}
+            case File(ask="open"):
+                text = opened(self.folder, asked.place, asked.name)
+                self.place, self.name = asked.place, asked.name
+                return {"of": "file", "place": asked.place, "name": asked.name, "text": text}
+            case File():
+                return {"of": "thumbnail", **thumbnail(self.folder, asked.place, asked.name)}
+            case Save():
+                self.folder.write(asked.name, asked.text, replace=self._replaces(asked))
+                self.place, self.name = "folder", asked.name
+                return {"of": "saved", "name": asked.name}
+        return {"of": "gallery", "machines": gallery(self.folder), "folder": str(self.folder.root)}
 
-    def _replaces(self, name: str, body: Body) -> bool:
+    def _replaces(self, asked: Save) -> bool:
         """Whether a file is replaced: by all means, or as long as it has the text that the page knows."""
-        known = body.get("replace", False)
-        if not isinstance(known, str):
-            return bool(known)
-        if self.folder.inside(name).exists() and opened(self.folder, "folder", name) != known:
+        if isinstance(asked.replace, bool):
+            return asked.replace
+        name = asked.name
+        if self.folder.inside(name).exists() and opened(self.folder, "folder", name) != asked.replace:
             raise InputError(
                 f"{name} was changed elsewhere since it was opened here; open it again, or write over it "
                 "with Save as and Replace"
             )
         return True
-
-
-def _limits(free: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
-    """Entries that may follow, with their limits [SI]."""
-    limits = {str(address): (float(low), float(high)) for address, (low, high) in free.items()}
-    if not all(map(math.isfinite, chain.from_iterable(limits.values()))):
-        raise InputError("limits: expected finite ones")
-    return limits
 
 
 def _stands_alone(machine: Machine, address: str, value: Any) -> bool:

@@ -26,7 +26,12 @@ def shown(name: str, result: Result) -> dict[str, Any]:
     ``name``; ``scalars`` with name, words, symbol, unit and SI value; ``plots``, each with an abscissa and
     the curves that have one unit.
     """
-    declared = [quantity._replace(unit=result.unit_of(quantity.name)) for quantity in _declared_of(result)]
+    declared = [
+        quantity._replace(
+            unit=result.unit_of(quantity.name), word=result.word_of(quantity.name, quantity.word)
+        )
+        for quantity in _declared_of(result)
+    ]
     return {
         "name": name,
         "scalars": list(_scalars(result, declared)),
@@ -220,5 +225,5 @@ def _title(name: str, column: str, unit: str) -> str:
     words = (part or column).replace("_", " ")
     if name != "forces" or part.startswith("shaking_"):
         return words
-    drive = "driving force of {}" if unit == "N" else "driving torque of {}"
+    drive = "force of the drive {}" if unit == "N" else "torque of the drive {}"
     return _FORCES.get(last, drive if last == "drive" else "{}").format(words)

@@ -51,8 +51,8 @@ def packed(number: int, body: Any) -> bytes:
     return b"".join([_HEAD.pack(number, len(text)), text, *(array.tobytes() for array in arrays)])
 
 
-def unpacked(message: bytes) -> tuple[int, dict[str, Any]]:
-    """Number and table of a message that brings no arrays; a `WireError` if it is none."""
+def unpacked(message: bytes) -> tuple[int, bytes]:
+    """Number and JSON of a message that brings a table and no arrays; a `WireError` if it is none."""
     if len(message) < _HEAD.size:
         raise WireError("shorter than its head")
     number, length = _HEAD.unpack_from(message)
@@ -63,6 +63,6 @@ def unpacked(message: bytes) -> tuple[int, dict[str, Any]]:
         body = json.loads(text)
     except (ValueError, RecursionError):
         raise WireError("no JSON") from None
-    if not isinstance(body, dict) or not isinstance(body.get("ask"), str):
+    if not isinstance(body, dict):
         raise WireError("no request")
-    return number, body
+    return number, text

@@ -139,9 +139,11 @@ class Worker:
         job : dict
             As of `run`; ``search`` or ``export`` besides, what was asked for.
         """
-        process = await self._running()
         self.is_ended = is_last = False
-        if process.stdin is None or process.stdout is None:
+        process = await self._running()
+        if self.is_ended or process.stdin is None or process.stdout is None:
+            # It was ended while it began.
+            await self.end()
             return
         try:
             process.stdin.write(json.dumps(job).encode() + b"\n")
@@ -162,11 +164,21 @@ class Worker:
             )
         return self._process
 
+    def kill(self) -> None:
+        """End the process, whatever it is doing, without waiting until it is gone."""
+        self.is_ended = True
+        if self._process is not None and self._process.returncode is None:
+            try:
+                self._process.kill()
+            except ProcessLookupError:
+                # It is gone, which was not known yet.
+                return
+
     async def end(self) -> None:
         """End the process, whatever it is doing."""
+        self.kill()
         process, self._process = self._process, None
-        if process is not None and process.returncode is None:
-            process.kill()
+        if process is not None:
             await process.wait()
 
 

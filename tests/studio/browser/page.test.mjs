@@ -158,43 +158,75 @@ test("the keyboard alone builds a machine from nothing, moves a joint, and saves
   near(await scalar(page, "steady_state.torque_motor_rms"), results.steady_state.torque_motor_rms);
 });
 
+test("links that the mouse draws make a four-bar linkage", async () => {
+  await page.evaluate(() => (globalThis.studio.state.dialog.value = "gallery"));
+  await page.locator("#empty").click();
+  await known(page);
+  const { x, y, width, height } = await page.locator(".stage canvas").boundingBox();
+  const at = (u, v) => [x + u * width, y + v * height];
+  const link = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, { steps: 4 });
+    await page.mouse.up();
+    await known(page);
+  };
+  await page.locator("#draw").click();
+  const [pivot, pin, joint, frame] = [at(0.3, 0.6), at(0.35, 0.45), at(0.6, 0.25), at(0.7, 0.6)];
+  await link(pivot, pin);
+  await shows(() => text(), (words) => words.includes("cranks.A1"));
+  const crank = await text();
+  // Close to the pin is on it; a coupler alone waits for a rocker.
+  await link([pin[0] + 3, pin[1] - 2], joint);
+  await page.getByText("J1 has one link").waitFor();
+  assert.equal(await text(), crank);
+  await link(joint, frame);
+  await shows(() => text(), (words) => /start = "A1"\nend = "J1"[\s\S]*start = "J1"\nend = "P2"/.test(words));
+  await page.locator("#draw").click();
+  await complete(page);
+  const drawn = await page.evaluate(() => Object.keys(globalThis.studio.state.scene.value.points));
+  assert.ok(["A1", "J1"].every((name) => drawn.includes(name)), drawn.join());
+  // No more digits than a pixel is worth.
+  assert.match(await text(), /joints\.J1\]\nx = "-?0?\.?\d{1,4} m"/);
+  await page.evaluate(() => (globalThis.studio.state.saved.value = globalThis.studio.state.text.value));
+});
+
 test("every drag is done by clicks too: one entry a gesture, none if nothing moved", async () => {
   await open("folder", "carts.toml");
   const before = await text();
-  await page.locator('.handle[data-point="A1"]').click();
+  await page.locator('.handle[data-point="A2"]').click();
   await page.keyboard.press("Escape");
   await known(page);
   assert.equal(await entries(), 0);
-  const [x, y] = await handle(page, "A1");
+  const [x, y] = await handle(page, "A2");
   await page.mouse.click(x, y);
   await page.mouse.click(x + 10, y - 30);
   await known(page);
   await shows(() => text(), (words) => words !== before);
-  await shows(() => handle(page, "A1"), ([X, Y]) => Math.hypot(X - x - 10, Y - y + 30) < 2);
+  await shows(() => handle(page, "A2"), ([X, Y]) => Math.hypot(X - x - 10, Y - y + 30) < 2);
   assert.equal(await entries(), 1);
   await page.keyboard.press("Control+z");
   await known(page);
   assert.equal(await text(), before);
   // The mouse holds nothing any more.
-  const place = await handle(page, "A1");
+  const place = await handle(page, "A2");
   await page.mouse.move(x + 60, y - 80, { steps: 2 });
-  assert.deepEqual(await handle(page, "A1"), place);
+  assert.deepEqual(await handle(page, "A2"), place);
 });
 
 test("a locked entry holds while a joint is dragged, beyond the edge of the drawing too", async () => {
   const before = await text();
-  await page.getByRole("button", { name: "Lock radius of A1" }).click();
-  const [x, y] = await grip(page, "A1");
+  await page.getByRole("button", { name: "Lock radius of A2" }).click();
+  const [x, y] = await grip(page, "A2");
   await page.mouse.move(x + 30, y - 60, { steps: 3 });
   await page.mouse.move(x + 30, 20, { steps: 2 });
   await page.mouse.up();
   await known(page);
-  await shows(() => text(), (words) => words !== before && words.includes('radius = "0.2 m"'));
-  assert.match(await text(), /\[mechanism\.cranks\.A1\]\nradius = "0\.2 m"\nphase = /);
+  await shows(() => text(), (words) => words !== before && words.includes('cranks.A2]\nradius = "0.2 m"'));
   await page.mouse.move(x, y + 40);
   await known(page);
   assert.equal(await entries(), 1, "what is let go outside is no longer held");
-  await page.getByRole("button", { name: "Lock radius of A1" }).click();
+  await page.getByRole("button", { name: "Lock radius of A2" }).click();
   await page.keyboard.press("Control+z");
   await known(page);
 });
@@ -282,6 +314,34 @@ test("tables of the report stand among the numbers, diagrams are enlarged, both 
   await page.getByRole("button", { name: "SI" }).click();
   await page.keyboard.press("Escape");
   await known(page);
+});
+
+test("the units of a file are those of the page, until the user chooses others", async () => {
+  const unit = () => page.evaluate(() => [globalThis.studio.state.units.value.m, globalThis.studio.state.units.value.N]);
+  const before = await unit();
+  await write(`${CARTS}\n[units]\nlength = "cm"\nforce = "kN"\n`);
+  await shows(unit, (now) => now.join() === "cm,kN");
+  assert.equal(await page.locator(`[data-address="${RADIUS}"]`).inputValue(), "20");
+  await page.evaluate(() => globalThis.studio.state.choose({ ...globalThis.studio.state.units.value, m: "in" }));
+  await known(page);
+  await shows(unit, (now) => now.join() === "in,kN");
+  await write(CARTS);
+  await shows(unit, (now) => now[1] === before[1]);
+  await page.evaluate((m) => globalThis.studio.state.choose({ ...globalThis.studio.state.units.value, m }), before[0]);
+  await known(page);
+});
+
+test("own files are the first of the list, names have no quotes, and no two entries the same", async () => {
+  await page.getByRole("button", { name: "Machines" }).click();
+  assert.equal(await page.locator("dialog h3").first().textContent(), "Files of this folder");
+  await page.keyboard.press("Escape");
+  await page.getByRole("tab", { name: "Design" }).click();
+  const words = await page.locator("#over-0 option").allTextContents();
+  assert.equal(new Set(words).size, words.length, words.join("; "));
+  assert.ok(words.some((each) => each.includes("cart1.rod")) && !words.some((each) => /["']/.test(each)), words.join("; "));
+  const results = await page.locator("#asked option").allTextContents();
+  assert.equal(new Set(results).size, results.length, results.join("; "));
+  assert.ok(results.includes("stroke of the slide of cart1") && !results.some((each) => /sweeps/.test(each)), results.join("; "));
 });
 
 test("a name with markup is a name", async () => {

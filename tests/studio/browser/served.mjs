@@ -67,7 +67,7 @@ export async function served(options) {
     for (const each of open) each();
     rmSync(folder, { recursive: true, force: true });
   };
-  return { folder, server, origin, context, page, faults, end };
+  return { folder, server, address, origin, browser, context, page, faults, end };
 }
 
 /** A tab at an address, whose faults are noted. */

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from linkwright.kernel.command.parameter import HELP
+from linkwright.kernel.files.output import write_file
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -189,8 +190,8 @@ def _install(shell: str) -> None:
     place, words = _PLACES[shell]
     path = Path.home() / place
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Shells read no other ends of lines, on Windows neither.
-    path.write_text(_script(shell), encoding="utf-8", newline="\n")
+    # With the ends of lines of the script: shells read no other, on Windows neither.
+    write_file(path, _script(shell))
     click.echo(f"Written:\n  {path}\n{words}")
 
 

@@ -100,6 +100,11 @@ class OutUnits:
         rest = (unit for unit in other.chosen if not any(own.measures(unit) for own in self.chosen))
         return OutUnits((*self.chosen, *rest), self.digits)
 
+    def has(self, unit: str) -> bool:
+        """Whether a unit was chosen for what is in another one, or follows from that of lengths."""
+        own = _unit(unit)
+        return own is not None and self._wanted(own) is not None
+
     def shown(self, unit: str, usual: str = "") -> tuple[str, float]:
         """The unit in which a quantity is shown, and by what its value is divided.
 

@@ -2,6 +2,7 @@
 import { batch, effect, signal } from "./vendor/signals-core.mjs";
 import { folded, unfolded } from "./folded.js";
 import { history } from "./history.js";
+import { taken } from "./key.js";
 import { speak } from "./language.js";
 import * as state from "./state.js";
 import { hodographs, pointPlots } from "./points.js";
@@ -22,12 +23,13 @@ export const measured = /** @type {{ redrawn: number[] }} */ ({ redrawn: [] });
 
 const link = connect({
   answer: (number, body) => batch(() => HEAR[body.of]?.(body)),
-  state(connected) {
+  state(connected, known) {
     if (connected) tongue();
     if (connected && !state.connected.value && state.text.value) {
       compute({ text: state.text.value });
     }
     state.connected.value = connected;
+    state.known.value = known;
     if (connected) begin();
   },
 });
@@ -37,11 +39,18 @@ const SOUND = [];
 
 /** @type {Record<string, (body: any) => void>} */
 const HEAR = {
+  entered({ kinds }) {
+    state.kinds.value = kinds;
+  },
   machine(body) {
     state.seconds.value = body.seconds;
     state.reason.value = body.reason ?? "";
     state.limit.value = body.limit ?? null;
+    state.reached.value = body.reached ?? null;
     if (body.words) state.message.value = body.words;
+    if (body.draft === "done") state.draft.value = [];
+    if (body.draft === "refused") state.draft.value = state.draft.value.slice(0, -1);
+    if (body.draft) state.waits.value = body.waits ?? "";
     state.problems.value = body.problems ?? SOUND;
     if (body.text !== undefined) {
       state.text.value = body.text;
@@ -49,6 +58,8 @@ const HEAR = {
     }
     if (body.controls) state.controls.value = body.controls;
     if (body.chips) state.chips.value = body.chips;
+    if (body.units) state.follow(body.units);
+    if (body.goals) state.kinematic.value = body.goals;
     if (body.lanes) begunLanes(body.lanes, !body.problems);
     state.live.value = body.controls === undefined ? body.set : {};
     if (body.machine !== undefined) state.machine.value = body.machine;
@@ -134,7 +145,7 @@ export const hold = (set) => compute({ held: true, set });
 
 /**
  * A joint that is dragged, or let go; the entries of its handle follow, or those with limits.
- * @param {{ point: string, x: number, y: number, angle: number, free?: Record<string, [number, number]> }} drag @param {boolean} [held]
+ * @param {{ point: string, x: number, y: number, angle: number, pixel: number, free?: Record<string, [number, number]> }} drag @param {boolean} [held]
  */
 export function pull(drag, held = true) {
   const locked = Object.keys(state.locks.value).filter((address) => state.locks.value[address]);
@@ -144,11 +155,21 @@ export function pull(drag, held = true) {
 /** What hangs on a joint hangs on another; its element goes. @param {string} joint @param {string} into */
 export const merge = (joint, into) => compute({ merge: { joint, into } });
 
+/** An element more, of the size of the drawing. @param {string} kind */
+export function add(kind) {
+  const box = state.scene.value?.box;
+  const size = (box ? Math.max(box[2] - box[0], box[3] - box[1]) : 0) || 1;
+  compute({ add: { kind, size, picked: state.watched.value } });
+}
+
+/** Links that were drawn: they become elements once each new joint has two. @param {number} angle @param {number} pixel */
+export const draw = (angle, pixel) => compute({ draw: { links: state.draft.value, angle, pixel } });
+
 /** Let go: what was held goes into the file. @param {Record<string, any>} set @param {string} [text] another text in its place */
 export const settle = (set, text) => (text === undefined ? compute({ set }) : write(text));
 
 /** The result that is looked at goes to a value; entries follow within their limits. @param {number} value @param {Record<string, [number, number]>} free @param {boolean} held */
-export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free } });
+export const to = (value, free, held) => compute({ held, reach: { of: state.goal.value, value, free, bounds: state.bounds.value } });
 
 /** The machine at hand stays beside those that follow. */
 export function pin(text = state.text.value) {
@@ -167,7 +188,7 @@ export const unpin = (place) => (state.pins.value = state.pins.value.filter((_, 
 /** @param {object} asked */
 export function seek(asked) {
   state.search.value = { ...asked, done: 0, rows: 0, course: { machines: [], best: [] }, axes: [], kind: "" };
-  link.send({ ask: "search", ...asked });
+  link.send({ ask: "search", ...asked, bounds: state.bounds.value });
 }
 
 /** A file of the machine; null if it was stopped or cannot be made. @param {object} asked @returns {Promise<Blob | null>} */
@@ -196,7 +217,7 @@ effect(() => {
 const tongue = () => link.send({ ask: "language", code: state.language.value, units: listed(state.units.value) });
 
 effect(() => {
-  speak(state.language.value);
+  if (taken.value) speak(state.language.value, taken.value);
 });
 
 let spoken = "";
@@ -254,6 +275,7 @@ export async function open(place, name) {
 /** @param {{ place: string, name: string }} of @param {string} text @param {string} saved */
 export function start({ place, name }, text, saved) {
   batch(() => {
+    state.follow(null);
     state.place.value = { place, name };
     state.text.value = text;
     state.saved.value = saved;
@@ -270,6 +292,9 @@ export function start({ place, name }, text, saved) {
     state.locks.value = {};
     state.ends.value = {};
     state.free.value = {};
+    state.bounds.value = {};
+    state.draft.value = [];
+    state.waits.value = "";
     state.pins.value = [];
     state.search.value = null;
   });

@@ -37,7 +37,7 @@ function Tabs({ name, tabs }) {
 }
 
 function Message() {
-  const words = state.connected.value ? state.message.value : "The studio has ended, or cannot be reached. Your work is kept in this page.";
+  const words = state.connected.value ? state.message.value : state.known.value ? "The studio has ended, or cannot be reached. Your work is kept in this page." : "This page has no key to the studio. Open the address that linkwright studio printed last.";
   if (!words) return null;
   return html`<div class="message" role="alert">${words} ${state.connected.value ? html`<button onClick=${() => (state.message.value = "")}>Close</button>` : null}</div>`;
 }
@@ -73,6 +73,9 @@ addEventListener("keydown", (event) => {
   } else if ((event.ctrlKey || event.metaKey) && key === "z" && !(event.target instanceof HTMLTextAreaElement)) {
     event.preventDefault();
     (event.shiftKey ? redo : undo)();
+  } else if (key === "escape" && state.drawing.value) {
+    state.draft.value = [];
+    state.waits.value = "";
   } else if (key === " " && !inField && !(event.target instanceof HTMLButtonElement)) {
     event.preventDefault();
     state.playing.value = !state.playing.value;

@@ -7,7 +7,7 @@ import { hold, letBack, settle } from "./actions.js";
 import { Icon } from "./icons.js";
 import { Build, Remove, isElement } from "./build.js";
 import { said } from "./language.js";
-import { effect, entryAt } from "./slopes.js";
+import { effect, entryAt, keysOf } from "./slopes.js";
 import * as state from "./state.js";
 import { number, read, shownUnit, typed } from "./units.js";
 
@@ -78,14 +78,22 @@ function Quantity({ entry }) {
         <input class="end" value=${places(low)} aria-label="${key}, lower end of the slider" onChange=${end(0)} />
         <input type="range" step="any" min=${low} max=${high} value=${si} aria-label="${key}, slider" data-slider=${address}
           aria-valuetext="${number(si / factor)} ${word}"
-          onInput=${({ target }) => hold({ [address]: Number(target.value) })}
-          onChange=${({ target }) => settle({ [address]: Number(target.value) })}
+          onInput=${({ target }) => hold({ [address]: coarse(target, factor) })}
+          onChange=${({ target }) => settle({ [address]: coarse(target, factor) })}
           onKeyDown=${(event) => {
             if (event.key === "Escape") letBack();
             arrow(event, low, high, address, si);
           }} />
         <input class="end" value=${places(high)} aria-label="${key}, upper end of the slider" onChange=${end(1)} />
       </div>` : null}`;
+}
+
+/** The value of a slider with as many digits as a pixel of it is worth, within its ends. @param {any} target @param {number} factor */
+function coarse({ value, min, max, clientWidth }, factor) {
+  const [low, high] = [Number(min), Number(max)];
+  const step = 10 ** Math.floor(Math.log10((high - low) / factor / Math.max(clientWidth, 1)));
+  const near = Number((Math.round(Number(value) / factor / step) * step).toPrecision(12)) * factor;
+  return near > low && near < high ? near : Number(value);
 }
 
 /** Which way an arrow key goes; 0 of another key. @param {{ key: string }} event */
@@ -140,7 +148,7 @@ function Row({ entry, draggable }) {
   return html`
     <div class="row ${isPulled ? "pulled" : ""} ${isLong(entry) ? "long" : ""}">
       <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
-      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${address.split(".").at(-2)}" title=${locked ? "Locked: dragging joints does not change it" : "Follows dragged joints; lock it"}
+      <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${keysOf(address).at(-2)}" title=${locked ? "Locked: dragging joints does not change it" : "Follows dragged joints; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
       ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
       <${Problems} address=${address} />

@@ -6,6 +6,7 @@ import { Chart } from "./chart.js";
 import { Choice, ofNames } from "./choice.js";
 import { endsOf, follows, wayOf } from "./controls.js";
 import { Heat } from "./heat.js";
+import { said } from "./language.js";
 import { Sign } from "./numbers.js";
 import { effect, entryAt, named, ranked } from "./slopes.js";
 import * as state from "./state.js";
@@ -14,28 +15,28 @@ import { number, read, shownUnit } from "./units.js";
 /** Entries that are listed first. */
 const FIRST = 8;
 
-/** Scalars that have derivatives: those of the steady motion. */
-const goals = () => (state.results.value.find(({ name }) => name === "steady_state")?.scalars ?? []).filter(({ name }) => {
-  const known = state.slopes.value?.responses;
-  return !known || known.includes(`steady_state.${name}`);
-});
+/** Results to choose from. @returns {Options} */
+const choices = () => state.goals.value.map(({ key, word, symbol, of }) => [key, [said(word), symbol && `, ${symbol.replace("_", " ")}`, of && ` (${said(of)})`].join("")]);
 
 /** @param {{ children?: any, title: string }} props */
 const Section = ({ title, children }) => html`<section class="design" aria-label=${title}><h3>${title}</h3>${children}</section>`;
 
 function Goal() {
-  const found = goals();
-  const now = found.find(({ name }) => `steady_state.${name}` === state.goal.value);
+  const found = choices();
+  const now = state.goals.value.find(({ key }) => key === state.goal.value);
   return html`
     <${Section} title="Pull a result">
       <label class="line"><span>Result</span> <${Choice} id="goal" value=${now ? state.goal.value : ""} choose=${(key) => (state.goal.value = key)}
-        options=${[["", "none"], ...found.map(({ name, word, symbol }) => [`steady_state.${name}`, [word, symbol && `, ${symbol.replace("_", " ")}`]])]} /></label>
-      ${found.length ? null : html`<p class="about">A result can be set once there is a steady motion.</p>`}
-      ${now ? html`<${Pull} now=${now} />` : null}
+        options=${[["", "none"], ...found]} /></label>
+      ${found.length ? null : html`<p class="about">A result can be set once something moves.</p>`}
+      ${now && known(now) !== null ? html`<${Pull} now=${{ ...now, value: known(now) }} />` : null}
     <//>`;
 }
 
-/** @param {{ now: Words & { value: number } }} props */
+/** Value of a goal: while it is pulled the last one that was reached; else that of its derivatives, which some need to be known by. @param {{ key: string, value: number | null }} goal */
+const known = ({ key, value }) => state.reached.value ?? value ?? (state.slopes.value?.response === key ? state.slopes.value.value : null);
+
+/** @param {{ now: { symbol: string, unit: string, value: number } }} props */
 function Pull({ now }) {
   const { unit, factor } = shownUnit(now.unit, state.units.value);
   // While it is pulled the ends stay where they were.
@@ -48,7 +49,7 @@ function Pull({ now }) {
     state.reason.value = "";
   };
   return html`
-    <div class="line"><span><${Sign} symbol=${now.symbol} /></span>
+    <div class="line"><span>${now.symbol ? html`<${Sign} symbol=${now.symbol} />` : "Value"}</span>
       <input class="number" aria-label="Wanted value" inputmode="decimal" value=${number(now.value / factor, 6)}
         onChange=${({ target }) => {
           const value = read(target.value);
@@ -138,13 +139,37 @@ const HEADS = ["unevenness", "dynamism", "speed_mean_time", "speed_min", "speed_
 /** @param {number} now @param {number} old */
 const against = (now, old) => (old ? `(${now >= old ? "+" : "−"}${number(Math.abs(now / old - 1) * 100, 2)} %)` : "");
 
+/** What other results keep to while one is pulled, swept or sought. */
+function Bounded() {
+  const bounds = state.bounds.value;
+  const put = (/** @type {string} */ key, /** @type {0 | 1} */ which, /** @type {number} */ factor) => (/** @type {any} */ { target }) => {
+    const pair = /** @type {[number | null, number | null]} */ ([...bounds[key]]);
+    const value = read(target.value) * factor;
+    pair[which] = target.value.trim() && Number.isFinite(value) ? value : null;
+    state.bounds.value = { ...bounds, [key]: pair };
+  };
+  const left = choices().filter(([key]) => !(key in bounds));
+  return html`
+    <${Section} title="Limits of results">
+      ${Object.entries(bounds).map(([key, ends]) => {
+        const goal = state.goals.value.find((each) => each.key === key);
+        const { unit, factor } = shownUnit(goal?.unit ?? "", state.units.value);
+        const field = (/** @type {0 | 1} */ which, /** @type {string} */ word) => html`<label>${word} <input class="number" inputmode="decimal" aria-label="${word}, ${goal?.word ?? key}" value=${ends[which] === null ? "" : number(ends[which] / factor, 6)} onChange=${put(key, which, factor)} /></label>`;
+        return html`<div class="bound" key=${key}><span>${goal?.word ?? key}</span> ${field(0, "at least")} ${field(1, "at most")} <small>${unit}</small>
+          <button class="quiet" aria-label="Remove the limit of ${goal?.word ?? key}" onClick=${() => (state.bounds.value = Object.fromEntries(Object.entries(bounds).filter(([each]) => each !== key)))}>remove</button></div>`;
+      })}
+      <label class="line"><span>Limit</span> <${Choice} id="bound" value="" options=${[["", "choose a result"], ...left]} choose=${(key) => key && (state.bounds.value = { ...bounds, [key]: [null, null] })} /></label>
+      <p class="about">A result that is pulled stops at them, a sweep leaves gaps beyond them, a search keeps them.</p>
+    <//>`;
+}
+
 function Search() {
   const [kind, setKind] = useState("sweep");
   const [direction, setDirection] = useState("minimise");
   const [wanted, setAsked] = useState("steady_state.unevenness");
   const [picked, setPicked] = useState(["", ""]);
   const [steps, setSteps] = useState(41);
-  const all = state.scalars.value;
+  const all = state.goals.value;
   const asked = all.some(({ key }) => key === wanted) ? wanted : all[0]?.key ?? "";
   const numbers = entries();
   const free = Object.keys(follows());
@@ -162,7 +187,7 @@ function Search() {
   return html`
     <${Section} title="Sweep or search">
       <div class="line"><span>What</span> <${Choice} aria-label="What is done" value=${kind} choose=${setKind} options=${[["sweep", "Sweep entries"], ["optimise", "Search for the best"]]} /></div>
-      <label class="line"><span>Result</span> <${Choice} id="asked" value=${asked} choose=${setAsked} options=${all.map(({ key, word }) => [key, word])} /></label>
+      <label class="line"><span>Result</span> <${Choice} id="asked" value=${asked} choose=${setAsked} options=${choices()} /></label>
       ${kind === "sweep" ? [0, 1].map((n) => html`
         <label class="line" key=${n}><span>${n ? "and over" : "over"}</span> <${Choice} id="over-${n}" value=${picked[n]} choose=${(address) => setPicked(picked.map((each, k) => (k === n ? address : each)))}
           options=${[["", n ? "nothing more" : "choose an entry"], ...numbers.map(({ address }) => [address, named(address)])]} /></label>`) : html`
@@ -193,8 +218,8 @@ const runs = (found) => found && !found.ended && !found.last && !(found.kind ===
 function Found() {
   const found = state.search.value;
   if (!found) return null;
-  const result = state.scalars.value.find(({ key }) => key === found.response);
-  const words = result ?? { name: found.response ?? "", word: found.response ?? "", symbol: "", unit: "" };
+  const result = state.goals.value.find(({ key }) => key === found.response);
+  const words = result ? { ...result, name: result.key } : { name: found.response ?? "", word: found.response ?? "", symbol: "", unit: "" };
   const state_ = found.words ?? (found.ended ? `stopped after ${found.done ?? 0} of ${found.rows ?? 0}` : runs(found) ? `${found.done} of ${found.rows} machines` : `${found.done} machines`);
   return html`
     <p class="about" role="status" id="found">${state_}</p>
@@ -237,4 +262,4 @@ function Course({ found, words }) {
     ${found.value === null ? null : html`<p><button id="take" onClick=${() => settle(found.entries)}>Apply</button></p>`}`;
 }
 
-export const Design = () => html`<${Goal} /><${PointGoal} /><${Variants} /><${Search} />`;
+export const Design = () => html`<${Goal} /><${PointGoal} /><${Bounded} /><${Variants} /><${Search} />`;

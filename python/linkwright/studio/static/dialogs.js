@@ -14,10 +14,10 @@ import { SETS, UNITS, chosen } from "./units.js";
 function Units() {
   const choice = state.units.value;
   return html`
-    <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => (state.units.value = chosen(n))}>${word}</button>`)}</div>
+    <div class="sets" role="group" aria-label="Sets of units">${SETS.map((word, n) => html`<button key=${word} onClick=${() => state.choose(chosen(n))}>${word}</button>`)}</div>
     <div class="units">${Object.entries(UNITS).map(([si, { word, units }]) => html`
-      <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(unit) => (state.units.value = { ...choice, [si]: unit })} /></label>`)}</div>
-    <p class="about">The file keeps its units. A number with its own unit, such as <code>8.5 in</code>, can be typed into every field.</p>`;
+      <label key=${si}>${word}<${Choice} value=${choice[si]} options=${Object.keys(units).map((unit) => [unit, unitSaid(unit)])} choose=${(unit) => state.choose({ ...choice, [si]: unit })} /></label>`)}</div>
+    <p class="about">The units of the table [units] of a file are used when it is opened; the file keeps its units. A number with its own unit, such as <code>8.5 in</code>, can be typed into every field.</p>`;
 }
 
 function SaveAs() {

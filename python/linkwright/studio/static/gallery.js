@@ -11,7 +11,7 @@ import { colours } from "./theme.js";
 import { onward, placeOf, watchable } from "./timeline.js";
 import { paintTrain } from "./twist.js";
 
-const PLACES = /** @type {Record<string, string>} */ ({ template: "Templates to start from", library: "Machines of the library", folder: "Files of this folder" });
+const PLACES = /** @type {Record<string, string>} */ ({ folder: "Files of this folder", template: "Templates to start from", library: "Machines of the library" });
 
 /** Seconds of one period of a train. */
 const PERIOD = 2.4;

@@ -68,9 +68,9 @@ export const decimal = (digits) => (catalogue.value.decimal === "." ? digits : d
 /** A number as it was typed, with a decimal point: a comma is one where the language has it. @param {string} digits */
 export const point = (digits) => (catalogue.value.decimal === "." ? digits : digits.replace(catalogue.value.decimal, "."));
 
-/** The catalogue of a language, from the server. @param {string} code */
-export async function speak(code) {
-  const found = code === "en" ? ENGLISH : await fetch(`texts/${code}.json`).then((answer) => (answer.ok ? answer.json() : ENGLISH), () => ENGLISH);
+/** The catalogue of a language, from the server. @param {string} code @param {string} key */
+export async function speak(code, key) {
+  const found = code === "en" ? ENGLISH : await fetch(`texts/${code}.json`, { headers: { "X-Linkwright-Key": key } }).then((answer) => (answer.ok ? answer.json() : ENGLISH), () => ENGLISH);
   document.documentElement.lang = found.code;
   catalogue.value = found;
 }

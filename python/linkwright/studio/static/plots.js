@@ -8,6 +8,7 @@ import { Icon } from "./icons.js";
 import { Hodograph } from "./hodograph.js";
 import { catalogue } from "./language.js";
 import { hodographs, pointPlots } from "./points.js";
+import { Sign } from "./numbers.js";
 import * as state from "./state.js";
 import { colours } from "./theme.js";
 import { number, shownUnit } from "./units.js";
@@ -60,7 +61,7 @@ function Panel({ plot }) {
   const head = useMemo(() => html`
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
-        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6} ${n < 6 ? "" : "again"}"></i>${short(symbol, word)}</span>`) : null}</span>
+        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6} ${n < 6 ? "" : "again"}"></i>${symbol ? html`<${Sign} symbol=${symbol} />` : word}</span>`) : null}</span>
         <span class="tools">
           <button class="quiet" aria-pressed=${data} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
           ${[["CSV", asCsv], ["PNG", asPng], ["SVG", asSvg]].map(([kind, make]) => html`<button key=${kind} class="quiet" onClick=${make} title="Download ${kind}">${kind}</button>`)}

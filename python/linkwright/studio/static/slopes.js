@@ -1,6 +1,6 @@
 // What an entry does to the result that is looked at, in words: "δ falls by 3 % per cm".
 import { isElement } from "./build.js";
-import { said, saidOf } from "./language.js";
+import { catalogue, said, saidOf } from "./language.js";
 import * as state from "./state.js";
 import { number, shownUnit } from "./units.js";
 
@@ -10,16 +10,24 @@ const STEP = 0.05;
 /** Changes below this share are none. */
 const NONE = 5e-5;
 
-/** @type {{ of: Group | null, by: Map<string, Entry> }} */
-let known = { of: null, by: new Map() };
+/** @type {{ of: Group | null, language: string, by: Map<string, Entry>, count: Map<string, number> }} */
+let known = { of: null, language: "", by: new Map(), count: new Map() };
+
+/** Keys of an address; names of the user may stand in quotes. @param {string} address @returns {string[]} */
+export const keysOf = (address) => (address.match(/"[^"]*"|'[^']*'|[^.]+/g) ?? []).map((key) => key.replace(/^(["'])(.*)\1$/s, "$2"));
 
 /** The entry at an address; undefined if there is none. @param {string} address */
 export function entryAt(address) {
   const whole = state.controls.value;
-  if (known.of !== whole) {
-    known = { of: whole, by: new Map() };
+  const language = catalogue.value.code;
+  if (known.of !== whole || known.language !== language) {
+    known = { of: whole, language, by: new Map(), count: new Map() };
     const walk = (/** @type {Group} */ group) => {
-      for (const each of group.entries) known.by.set(each.address, each);
+      for (const each of group.entries) {
+        known.by.set(each.address, each);
+        const words = worded(each.address);
+        known.count.set(words, (known.count.get(words) ?? 0) + 1);
+      }
       group.groups.forEach(walk);
     };
     if (whole) walk(whole);
@@ -27,13 +35,21 @@ export function entryAt(address) {
   return known.by.get(address);
 }
 
-/** An address as words: "radius of A1". @param {string} address */
+/** An address as words: "radius of A1"; with its table where two entries are called so. @param {string} address */
 export function named(address) {
-  const keys = address.split(".").map((key) => key.replaceAll("_", " "));
-  const of = keys[keys.length - 2];
+  entryAt(address);
+  const words = worded(address);
+  const keys = keysOf(address);
+  return keys.length > 2 && (known.count.get(words) ?? 0) > 1 ? `${words} (${said(keys[keys.length - 3].replaceAll("_", " "))})` : words;
+}
+
+/** @param {string} address */
+function worded(address) {
+  const keys = keysOf(address);
+  const [of, key] = keys.slice(-2);
   // What the user has named keeps its name.
   const isNamed = isElement(address.slice(0, address.lastIndexOf(".")));
-  return keys.length > 1 ? saidOf("{} of {}", said(keys[keys.length - 1]), isNamed ? of : said(of)) : address;
+  return keys.length > 1 ? saidOf("{} of {}", said(key.replaceAll("_", " ")), isNamed ? of : said(of.replaceAll("_", " "))) : address;
 }
 
 /**

@@ -1,7 +1,11 @@
-// The socket: one request to compute at a time; of held ones that wait, the newest alone is sent.
+// The socket: it brings the key first, then one request to compute at a time; of held ones that wait, the newest alone is sent.
+import { enter, key } from "./key.js";
 import { pack, unpack } from "./wire.js";
 
-/** @param {{ answer: (number: number, body: any) => void, state: (connected: boolean) => void }} hear */
+/** How a socket is closed that brings no key, or that of another studio. */
+const NO_KEY = 4403;
+
+/** @param {{ answer: (number: number, body: any) => void, state: (connected: boolean, known: boolean) => void }} hear */
 export function connect(hear) {
   let number = 0;
   /** @type {WebSocket} */
@@ -9,23 +13,29 @@ export function connect(hear) {
   /** @type {Asked[]} */
   let waiting = [];
   let onTheWay = 0;
+  let isIn = false;
   /** @type {Map<number, (body: any) => void>} */
   const asked = new Map();
 
   function open() {
     socket = new WebSocket(`ws://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => {
+    socket.onopen = () => socket.send(pack(0, { ask: "enter", key: key() }));
+    socket.onclose = ({ code }) => {
+      isIn = false;
       forget();
-      hear.state(true);
-    };
-    socket.onclose = () => {
-      forget();
-      hear.state(false);
+      hear.state(false, code !== NO_KEY);
       setTimeout(open, 1500);
     };
     socket.onmessage = ({ data }) => {
       const { number: of, body } = unpack(data);
+      if (body.of === "entered") {
+        enter(body.key);
+        isIn = true;
+        forget();
+        hear.answer(of, body);
+        return hear.state(true, true);
+      }
       const told = asked.get(of);
       asked.delete(of);
       if (of === onTheWay && body.of !== "beside" && body.of !== "stopped") {
@@ -50,7 +60,7 @@ export function connect(hear) {
   /** @param {Asked} body @returns {number} */
   function send(body) {
     number += 1;
-    if (socket.readyState === WebSocket.OPEN) socket.send(pack(number, body));
+    if (isIn && socket.readyState === WebSocket.OPEN) socket.send(pack(number, body));
     return number;
   }
 

@@ -3,7 +3,7 @@ import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { effect } from "./vendor/signals-core.mjs";
 import "./vendor/signals.mjs";
-import { letBack, merge, pull } from "./actions.js";
+import { draw as drawLinks, letBack, merge, pull } from "./actions.js";
 import { paintArrows } from "./arrows.js";
 import { paintCentres } from "./centres.js";
 import { follows } from "./controls.js";
@@ -31,13 +31,16 @@ export const frames = { count: 0 };
 /** Whether nothing was built yet. */
 const isEmpty = () => !(state.controls.value?.groups ?? []).some(({ key, groups }) => key !== "mechanism" || groups.length);
 
+/** Metres that an empty drawing shows. */
+const EMPTY = [-0.3, -0.25, 0.7, 0.45];
+
 export function Stage() {
   const holder = useRef(/** @type {HTMLDivElement | null} */ (null));
   const canvas = useRef(/** @type {HTMLCanvasElement | null} */ (null));
   useEffect(() => run(/** @type {any} */ (holder.current), /** @type {any} */ (canvas.current)), []);
   const points = state.handled.value ? state.handled.value.split("\n") : [];
   return html`
-    <div class="stage" ref=${holder}>
+    <div class="stage ${state.drawing.value ? "draws" : ""}" ref=${holder}>
       <canvas ref=${canvas} role="img" aria-label="Drawing of ${state.machine.value || "the machine"}, to scale"></canvas>
       <div class="handles">
         ${state.layers.value.handles ? points.map((point) => html`
@@ -45,7 +48,7 @@ export function Stage() {
             aria-label="Joint ${point}" aria-pressed=${state.picked.value === point}></button>`) : null}
       </div>
       ${state.reason.value ? html`<p class="reason" role="status">${state.reason.value}</p>` : null}
-      ${state.isDrawn.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems, shown at their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "This machine has no moving linkage; its results are in the plots.") : "Opening …"}</p>`}
+      ${state.isDrawn.value || state.drawing.value ? null : html`<p class="nothing">${state.problems.value.length ? "The file has problems, shown at their entries." : state.machine.value ? (isEmpty() ? "The machine is empty. Open Add an element, on the left, and begin with a crank." : "This machine has no moving linkage; its results are in the plots.") : "Opening …"}</p>`}
     </div>`;
 }
 
@@ -66,7 +69,8 @@ function run(holder, canvas) {
 
   function sized() {
     [width, height] = [holder.clientWidth, holder.clientHeight];
-    if (state.scene.value) frame = fit(state.scene.value.box, width, height);
+    // Under the mouse that draws, the plane stays where it is.
+    if (!state.drawing.value) frame = fit(state.scene.value?.box ?? EMPTY, width, height);
     stillFor = null;
     dirty = true;
   }
@@ -74,8 +78,11 @@ function run(holder, canvas) {
   observer.observe(holder);
 
   const forget = effect(() => {
-    for (const each of [state.scene, state.layers, shownLook, state.picked, state.units, state.trails]) void each.value;
-    if (state.scene.value && !gesture) {
+    for (const each of [state.scene, state.layers, shownLook, state.picked, state.units, state.trails, state.draft]) void each.value;
+    if (state.drawing.value) {
+      if (state.scene.peek()) toAssembly(/** @type {Scene} */ (state.scene.peek()));
+      own = "";
+    } else if (state.scene.value && !gesture) {
       // A drawing stays where it is while a length is pulled; another machine is fitted anew.
       const name = `${state.machine.value} ${Object.keys(state.scene.value.points).length}`;
       if (name !== own) {
@@ -95,8 +102,14 @@ function run(holder, canvas) {
   function draw() {
     const scene = state.scene.value;
     blank(canvas, width, height);
-    if (!scene) return;
     const ink = colours();
+    if (!scene) {
+      if (state.drawing.value) {
+        plane(ink);
+        bar(ink);
+      }
+      return;
+    }
     const k = placeOf(scene.times, state.time.value);
     const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
     if (stillFor !== scene) {
@@ -111,6 +124,7 @@ function run(holder, canvas) {
       limitPose(view);
       ghost(view);
     }
+    if (state.drawing.value) plane(ink);
     bar(ink);
     place(scene, k);
     const { unit, factor } = shownUnit("rad/s", state.units.value);
@@ -161,6 +175,26 @@ function run(holder, canvas) {
     ctx.setLineDash([]);
   }
 
+  /** The plane that links are drawn in: the origin, links that wait for others, the one in hand. @param {Record<string, any>} ink */
+  function plane(ink) {
+    const origin = toScreen(frame, 0, 0);
+    for (const [dx, dy] of [[8, 0], [0, 8]]) {
+      line(ctx, [[origin[0] - dx, origin[1] - dy], [origin[0] + dx, origin[1] + dy]]);
+      stroke(ctx, ink.soft, 1.5);
+    }
+    ctx.setLineDash([6, 4]);
+    for (const [start, end] of [...state.draft.value, ...(rope ? [rope] : [])]) {
+      const ends = [start, end].map(({ x, y }) => toScreen(frame, x, y));
+      line(ctx, ends);
+      stroke(ctx, ink.accent, 3);
+      for (const [x, y] of ends) {
+        circle(ctx, x, y, 6);
+        stroke(ctx, ink.accent, 2);
+      }
+    }
+    ctx.setLineDash([]);
+  }
+
   /** @param {Record<string, any>} ink */
   function bar(ink) {
     const { unit, factor } = shownUnit("m", state.units.value);
@@ -208,6 +242,42 @@ function run(holder, canvas) {
   }
   let handle = requestAnimationFrame(step);
 
+  // -- links that are drawn
+
+  /** The link in hand. @type {[Spot, Spot] | null} */
+  let rope = null;
+
+  /** Joints are placed where the mechanism is assembled. @param {Scene} scene */
+  function toAssembly(scene) {
+    const mechanism = state.controls.peek()?.groups.find(({ key }) => key === "mechanism");
+    const wanted = mechanism?.entries.find(({ key }) => key === "assembled_at")?.si ?? 0;
+    state.time.value = between(scene.times, placeOf(scene.angles, wanted));
+  }
+
+  /** A joint near a place of the plane, or the place itself. @param {number} x @param {number} y @returns {Spot} */
+  function spot(x, y) {
+    const scene = state.scene.value;
+    const k = scene ? placeOf(scene.times, state.time.value) : 0;
+    const joints = [
+      ...state.draft.value.flat(),
+      ...Object.entries(scene?.points ?? {}).map(([point, path]) => ({ point, ...xy(pairAt(path, k)) })),
+      { x: 0, y: 0, point: "O" },
+    ];
+    const near = joints.find((each) => Math.hypot(each.x - x, each.y - y) * frame.scale < ONTO);
+    return near ? { ...near } : { x, y, point: "" };
+  }
+  const xy = (/** @type {[number, number]} */ [x, y]) => ({ x, y });
+
+  /** The link in hand ends; one without a length is none. */
+  function tied() {
+    const link = rope;
+    rope = null;
+    dirty = true;
+    if (!link || Math.hypot(link[0].x - link[1].x, link[0].y - link[1].y) * frame.scale < ONTO) return;
+    state.draft.value = [...state.draft.value, link];
+    drawLinks(state.scene.value ? angle() : 0, 1 / frame.scale);
+  }
+
   // -- gestures
 
   /** @param {PointerEvent | MouseEvent} event @returns {[number, number]} */
@@ -245,7 +315,7 @@ function run(holder, canvas) {
   function pulled(held = true) {
     if (!gesture) return;
     const { point, x, y } = gesture;
-    pull({ point, x, y, angle: at, ...(point === state.pulled.value ? { free: follows() } : {}) }, held);
+    pull({ point, x, y, angle: at, pixel: 1 / frame.scale, ...(point === state.pulled.value ? { free: follows() } : {}) }, held);
   }
 
   /** Another joint at a place, that the one in hand would merge with. @param {number} x @param {number} y */
@@ -279,6 +349,11 @@ function run(holder, canvas) {
   function down(event) {
     if (event.button !== 0) return;
     holder.setPointerCapture(event.pointerId);
+    if (state.drawing.value) {
+      const start = spot(...under(event));
+      rope = [start, start];
+      return;
+    }
     const point = /** @type {HTMLElement} */ (event.target).closest?.(".handle")?.getAttribute("data-point");
     // A joint in hand follows the mouse, so that its own handle is under it where it is put down.
     if (point && !gesture?.moved) begin(point);
@@ -286,6 +361,11 @@ function run(holder, canvas) {
   }
   /** @param {PointerEvent} event */
   function over(event) {
+    if (rope) {
+      rope = [rope[0], spot(...under(event))];
+      dirty = true;
+      return;
+    }
     if (gesture) return move(...under(event));
     if (!panned) return;
     const [dx, dy] = [event.clientX - panned.x, event.clientY - panned.y];
@@ -298,6 +378,7 @@ function run(holder, canvas) {
   /** @param {PointerEvent} event */
   function up(event) {
     panned = null;
+    if (rope) return tied();
     if (!gesture) return;
     // A joint that was picked by a click goes where the next click is.
     const isPicked = gesture.key;
@@ -308,7 +389,7 @@ function run(holder, canvas) {
     if (isPicked) state.picked.value = "";
   }
   function cancelled() {
-    panned = null;
+    panned = rope = null;
     end(false);
   }
   /** @param {KeyboardEvent} event */

@@ -1,7 +1,7 @@
 // What the page knows, as signals: what reads one is drawn again when it changes.
 import { batch, computed, effect, signal } from "./vendor/signals-core.mjs";
 import { history } from "./history.js";
-import { chosen } from "./units.js";
+import { UNITS, chosen } from "./units.js";
 
 /** @template T @typedef {import("./vendor/signals-core.mjs").Signal<T>} Signal */
 
@@ -58,6 +58,13 @@ export const trails = signal([]);
 export const pulled = signal("");
 /** Whether joints merge that are dropped on joints. */
 export const building = signal(false);
+/** Kinds of elements that can be added. @type {Signal<{ kind: string, word: string, group: string }[]>} */
+export const kinds = signal([]);
+/** Whether the mouse draws links, those that wait for further ones, and what they wait for. */
+export const drawing = signal(false);
+/** @type {Signal<[Spot, Spot][]>} */
+export const draft = signal([]);
+export const waits = signal("");
 
 // -- answers, those of each lane apart, so that one does not wait for another
 /** @type {Signal<Record<string, Answers>>} */
@@ -80,7 +87,35 @@ export const findings = computed(() => [...new Set(inOrder.value.flatMap((each) 
 export const warnings = computed(() => [...new Set(inOrder.value.flatMap((each) => each.warnings))]);
 
 // -- the user's choices, kept for the next time
-export const units = kept("units", chosen(0));
+const own = kept("units", chosen(0));
+/** Units of the file. @type {Signal<Record<string, string>>} */
+const ofFile = signal({});
+/** SI unit → unit that is shown: of the file, else of the user. @type {Signal<Record<string, string>>} */
+export const units = signal(own.value);
+effect(() => {
+  units.value = { ...own.value, ...ofFile.value };
+});
+
+/** What the user chooses holds, for this file too. @param {Record<string, string>} choice */
+export const choose = (choice) => batch(() => {
+  const changed = Object.fromEntries(Object.entries(choice).filter(([si, unit]) => unit !== units.value[si]));
+  own.value = { ...own.value, ...changed };
+  ofFile.value = Object.fromEntries(Object.entries(ofFile.value).filter(([si]) => !(si in changed)));
+});
+
+let read = "";
+let isLinked = false;
+/** The units of a file that is opened, or whose table of units changes; null of another file. @param {Record<string, [string, number]> | null} given */
+export function follow(given) {
+  const now = JSON.stringify(given);
+  if (now === read) return;
+  read = now;
+  for (const [si, [unit, factor]] of Object.entries(given ?? {})) UNITS[si].units[unit] ??= factor;
+  // Those of a link hold, whatever its file says.
+  if (isLinked && given) return (isLinked = false);
+  const next = Object.fromEntries(Object.entries(given ?? {}).map(([si, [unit]]) => [si, unit]));
+  if (JSON.stringify(next) !== JSON.stringify(ofFile.value)) ofFile.value = next;
+}
 export const look = kept("look", "");
 export const language = kept("language", "en");
 export const layers = kept("layers", { names: true, paths: true, velocities: false, accelerations: false, forces: false, centres: false, handles: true });
@@ -92,6 +127,20 @@ export const hidden = kept("hidden", /** @type {Record<string, boolean>} */ ({})
 export const ends = signal(/** @type {Record<string, [number, number]>} */ ({}));
 
 // -- design
+/** Results of the motion of the mechanism, which have no place among the numbers. @type {Signal<{ key: string, word: string, unit: string, value: number | null }[]>} */
+export const kinematic = signal([]);
+/** What says how something was computed, or counts, is no goal. */
+const NO_GOAL = /\.(accuracy|sweeps|steps|turns|settled|period_turns|multiplier)$|^(scheme|along|transient)\.|error/;
+/** Results that can be pulled, swept and sought; those of one name with what they are of. */
+export const goals = computed(() => {
+  const all = [...kinematic.value.map((each) => ({ symbol: "", ...each })), ...scalars.value.filter(({ key }) => !NO_GOAL.test(key))];
+  const count = (/** @type {string} */ word) => all.filter((each) => each.word === word).length;
+  return all.map(({ key, word, symbol, unit, value }) => ({ key, symbol, unit, value, word, of: count(word) > 1 ? key.split(".")[0].replaceAll("_", " ") : "" }));
+});
+/** The result that is pulled as it is now, while it is held. */
+export const reached = signal(/** @type {number | null} */ (null));
+/** What other results keep to: key → at least, at most [SI]. @type {Signal<Record<string, [number | null, number | null]>>} */
+export const bounds = signal({});
 /** The result whose derivatives stand beside the entries; empty for none. */
 export const goal = kept("goal", "");
 /** @type {Signal<Slopes | null>} */
@@ -112,6 +161,8 @@ export const watched = signal("");
 
 // -- the page
 export const connected = signal(true);
+/** Whether the studio has taken the key of this page. */
+export const known = signal(true);
 export const message = signal("");
 export const dialog = signal("");
 /** Name of the diagram that is seen over the page. */
@@ -121,10 +172,11 @@ export const listed = signal([]);
 export const seconds = signal(0);
 
 // -- what a link brings besides the machine
-const LINKED = /** @type {Record<string, Signal<any>>} */ ({ units, look, language, layers, pace, hidden, locks, ends, goal, free, trails, watched, pulled, seen });
+const LINKED = /** @type {Record<string, Signal<any>>} */ ({ units, look, language, layers, pace, hidden, locks, ends, goal, free, bounds, trails, watched, pulled, seen });
 export const shared = () => Object.fromEntries(Object.entries(LINKED).map(([key, { value }]) => [key, value]));
 
 /** Values of the same kind as ours; a link may hold anything. @param {Record<string, any>} given */
 export const share = (given) => batch(() => {
+  isLinked = Boolean(given.units);
   for (const [key, own] of Object.entries(LINKED)) if (Object.prototype.toString.call(given[key]) === Object.prototype.toString.call(own.value)) own.value = given[key];
 });

@@ -31,13 +31,15 @@ type Group = { address: string, key: string, about: string, entries: Entry[], gr
 type Problem = { key: string, found: string, expected: string, remedy: string, line: number | null };
 type Listed = { place: string, name: string, title: string };
 
-type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string, responses: string[] };
+type Slopes = { response: string, word: string, symbol: string, unit: string, value: number, slopes: Record<string, number>, tie: string };
 type Pin = { name: string, text: string, scalars: Record<string, number>, plots: Record<string, { x: Float64Array, curves: Record<string, Float64Array> }> };
 
 /** A list to choose from: values with their words, and whether these are the user's own. */
 type Options = [value: string | number, words: any, isOwn?: boolean][];
 type Ctx = CanvasRenderingContext2D;
 type Sheet = { title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean };
+/** An end of a link that is drawn [m], at a point of the drawing with its name. */
+type Spot = { x: number, y: number, point: string };
 type Frame = { scale: number, x: number, y: number };
 type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string };
 /** What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands. */
