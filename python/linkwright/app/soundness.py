@@ -31,7 +31,7 @@ from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.closure import closure
+from linkwright.linkages.closure import closure, is_screw
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions
 from linkwright.linkages.whole_cycle import over_whole_cycle
@@ -114,7 +114,9 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
             for cam in sound:
                 findings.of(loaded_cam, machine, cam)
             yield "cams at constant speed: followers that leave them"
-    compiled = findings.of(require_turn, machine)
+    # The travel of a screw ends; without masses and loads nothing asks for a whole revolution.
+    ends = is_screw(machine) and not (machine.bodies or machine.loads or machine.drive)
+    compiled = (findings.beside_of if ends else findings.of)(require_turn, machine)
     if compiled is not None:
         findings.add(idle_parts(machine))
         findings.warn(law_cautions(machine))

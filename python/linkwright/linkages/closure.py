@@ -457,6 +457,12 @@ def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
     return AssemblyError(_sentence(closed, machine), element=closed.element, crank_angle=at)
 
 
+def is_screw(machine: Machine) -> bool:
+    """Whether only screws and the like drive the machine, whose travel ends: no crank that rotates on."""
+    drivers = machine.linkage.linear_drivers
+    return not machine.linkage.cranks and bool(drivers) and all(one.per_turn for one in drivers.values())
+
+
 def _sentence(closed: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
     gap = compile_machine(machine).law_gap
@@ -471,6 +477,10 @@ def _sentence(closed: Closure, machine: Machine) -> str:
     if not closed.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"
     where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)
+    if is_screw(machine):
+        return (
+            f"the mechanism closes only at drive angles {where}: beyond, {what}; keep the drive within them"
+        )
     return f"the mechanism closes only at crank angles {where}: beyond, {what}; {remedy}"
 
 
