@@ -52,6 +52,7 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
     if steady is not None:
         sentences += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         sentences += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
+        sentences += _held(drive, steady)
     return tuple(sentences)
 
 
@@ -307,6 +308,19 @@ def _beyond(drive: Drive, steady: SteadyState) -> str:
         case _:
             return ""
     return f", up to {fastest:.4g} rad/s, beyond its {word} speed of {limit:.4g} rad/s"
+
+
+def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """The part of the revolution in which a self-locking gearbox holds the load."""
+    least = float(steady.torque_drive.min())
+    if not drive.gearbox.locks or least >= -_SMALL * float(np.abs(steady.torque_drive).max()):
+        return
+    time = np.interp(np.linspace(0, steady.period, 1000), steady.time, steady.torque_drive)
+    yield (
+        f"The load drives the gearbox during {100 * float(np.mean(time < 0)):.3g} % of the time: it is "
+        f"self-locking (drive.gearbox.reverse = 0) and holds up to {-least:.4g} N m at the crank, while the "
+        "motor runs without torque."
+    )
 
 
 def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:

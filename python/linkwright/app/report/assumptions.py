@@ -116,11 +116,17 @@ def _drive(drive: Drive) -> Iterator[str]:
     if drive.motor is None:
         return
     gearbox = drive.gearbox
+    forward = (
+        f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
+        f"η = {number(gearbox.efficiency)}; "
+    )
+    if gearbox.locks:
+        yield f"{forward}it is self-locking: it holds any load that drives the crank, and none reaches the motor."
+        return
     back = number(float(reverse_factor(drive)))
     usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as given"
     yield (
-        f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
-        f"η = {number(gearbox.efficiency)}; while the load drives the motor, η is replaced by "
+        f"{forward}while the load drives the motor, η is replaced by "
         f"{back}{usual if gearbox.efficiency != 1 or gearbox.reverse is not None else ''}."
     )
 

@@ -38,17 +38,17 @@ else:
 Shaft = Literal["motor", "crank"]
 End = Literal["motor", "gearbox", "crank"]
 
-_REVERSE = '"same", or a number greater than 0'
+_REVERSE = '"same", a number greater than 0, or 0 for a self-locking gearbox'
 
 
 def _reverse(value: object) -> object:
     """The torque factor of the gearbox when the load drives the motor."""
-    if value is None or value == "same" or (is_number(value) and 0 < float(value) < float("inf")):
+    if value is None or value == "same" or (is_number(value) and 0 <= float(value) < float("inf")):
         return value
     raise wrong(show(value), _REVERSE)
 
 
-_REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "exclusiveMinimum": 0}]}
+_REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "minimum": 0}]}
 
 
 class Gearbox(Description):
@@ -62,8 +62,9 @@ class Gearbox(Description):
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
     ] = Field(
         None,
-        description="The same factor while the load drives the motor: a number, or "
-        '"same" for the efficiency in both directions. Default: 1/efficiency.',
+        description="The same factor while the load drives the motor: a number, "
+        '"same" for the efficiency in both directions, or 0 for a self-locking gearbox, which holds any load '
+        "that drives (worm, screw). Default: 1/efficiency.",
     )
     inertia: Annotated[float, not_negative(INERTIA)] = Field(0.0, description="At the motor shaft.")
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
@@ -73,6 +74,11 @@ class Gearbox(Description):
         None,
         description="Of teeth or belt: torque at the motor shaft per angle there. Default: rigid.",
     )
+
+    @property
+    def locks(self) -> bool:
+        """Whether it is self-locking: no load drives the motor through it."""
+        return is_number(self.reverse) and float(self.reverse) == 0
 
 
 class Coupling(Description):
