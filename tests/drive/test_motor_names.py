@@ -17,7 +17,14 @@ LIFT = str(Path(__file__).parents[2] / "examples" / "scissor_lift" / "machine.to
 
 @pytest.mark.parametrize(
     ("name", "poles"),
-    [("IE3 5.5 kW 6-pole", 6), ("IE3 7 kW 4-pole frame 132", 4), ("IE3 5.5 kW 4-pole", 4), ("4A999S6U3", 6)],
+    [
+        ("IE3 5.5 kW 6-pole", 6),
+        ("IE3 7 kW 4-pole frame 132", 4),
+        ("IE3 5.5 kW 4-pole", 4),
+        ("4A999S6U3", 6),
+        ("AIR 6 kW 2-pole", 2),
+        ("4A160X8U3", 8),
+    ],
 )
 def test_motors_of_that_number_of_poles_are_named(name: str, poles: int) -> None:
     with pytest.raises(MachineError) as error:
@@ -29,8 +36,8 @@ def test_motors_of_that_number_of_poles_are_named(name: str, poles: int) -> None
 
 
 def test_a_number_of_poles_that_no_motor_has() -> None:
-    with pytest.raises(MachineError, match="the catalogue has motors with 4, 6 poles"):
-        motor("IE3 5.5 kW 2-pole")
+    with pytest.raises(MachineError, match="the catalogue has motors with 2, 4, 6, 8 poles"):
+        motor("IE3 5.5 kW 10-pole")
 
 
 def test_a_screw_that_ends_is_no_finding() -> None:

@@ -72,16 +72,18 @@ def _without_rotor(drive: Drive) -> Iterator[str]:
     """A motor without the inertia of its rotor."""
     motor = drive.motor
     assert motor is not None
-    if motor.inertia or "inertia" in motor.model_fields_set or isinstance(motor, ConstantSpeedMotor):
-        return
-    if isinstance(motor, InductionMotor) and motor.torque_rated is not None:
-        estimate = estimated_inertia(float(motor.torque_rated))
-        source = (
-            f"The catalogue gives no rotor inertia for {motor.catalogue}" if motor.catalogue else _NO_ROTOR
-        )
+    if isinstance(motor, InductionMotor) and motor.inertia_is_estimated:
         yield (
-            f"{source}, and zero is used; similarity with {KNOWN} gives an estimate of {estimate:.3g} kg m²: "
-            "give drive.motor.inertia."
+            f"The catalogue gives no rotor inertia for {motor.catalogue}: an estimate by similarity "
+            f"with {KNOWN} is used, {motor.inertia:.3g} kg m²: give drive.motor.inertia."
+        )
+    elif motor.inertia or "inertia" in motor.model_fields_set or isinstance(motor, ConstantSpeedMotor):
+        return
+    elif isinstance(motor, InductionMotor) and motor.torque_rated is not None:
+        estimate = estimated_inertia(float(motor.torque_rated))
+        yield (
+            f"{_NO_ROTOR}, and zero is used; similarity with {KNOWN} gives an estimate of {estimate:.3g} "
+            "kg m²: give drive.motor.inertia."
         )
     elif motor.torque_rated is not None:
         yield f"{_NO_ROTOR}, and zero is used: give drive.motor.inertia."

@@ -121,7 +121,10 @@ def _drive(drive: Drive) -> Iterator[str]:
         f"η = {number(gearbox.efficiency)}; "
     )
     if gearbox.locks:
-        yield f"{forward}it is self-locking: it holds any load that drives the crank, and none reaches the motor."
+        yield (
+            f"{forward}it is self-locking: it holds any load that drives the crank, and none reaches the "
+            "motor."
+        )
         return
     back = number(float(reverse_factor(drive)))
     usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as given"

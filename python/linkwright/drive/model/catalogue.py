@@ -222,7 +222,8 @@ def checked_name(type: str) -> str:
 def entries(type: str) -> dict[str, Any]:
     """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
     The rated torque is left out where it is only power over speed; a breakdown torque that the source does
-    not give is the minimum of IEC 60034-1, a starting torque that of IEC 60034-12 for design N.
+    not give is the minimum of IEC 60034-1, a starting torque that of IEC 60034-12 for design N,
+    the inertia of a rotor by similarity.
     """
     known = _given(_row(type))
     names = (
@@ -238,6 +239,7 @@ def entries(type: str) -> dict[str, Any]:
     values = {name: known[name] for name in names if name in known}
     if motor(type).breakdown is not None:
         values["torque_breakdown"] = motor(type).breakdown
+    values.setdefault("inertia", estimated_inertia(motor(type).torque_rated))
     return values | motor(type).start
 
 
