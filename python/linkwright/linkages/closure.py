@@ -459,8 +459,9 @@ def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
 
 def is_screw(machine: Machine) -> bool:
     """Whether only screws and the like drive the machine, whose travel ends: no crank that rotates on."""
-    drivers = machine.linkage.linear_drivers
-    return not machine.linkage.cranks and bool(drivers) and all(one.per_turn for one in drivers.values())
+    own = machine.mechanism
+    screws = [driver.per_turn for driver in own.linear_drivers.values()]
+    return bool(screws) and all(screws) and not (own.cranks or own.cams or machine.pumping_unit)
 
 
 def _sentence(closed: Closure, machine: Machine) -> str:
