@@ -5,7 +5,7 @@
 | mechanism | closes over the whole revolution, loads have values there | `require_turn` |
 | mechanism | no law has a corner that moves masses, no part of it is idle | `require_turn`, `idle_parts` |
 | drive | masses and loads repeat, the motor drives, the machine starts | `over_whole_cycle`, `start_of` |
-| pumping unit | the crank rotates fully | `PolishedRod` |
+| pumping unit | the crank rotates fully, ratings are not exceeded | `pumping_unit`, `unit_findings` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
 | cams at a given speed | followers that leave them | `loaded_cam` |
@@ -95,10 +95,12 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
     if not machine.has_crank:
         return
     if machine.pumping_unit is not None:
-        from linkwright.pumping.unit import PolishedRod
+        from linkwright.pumping.cautions import unit_findings
+        from linkwright.pumping.unit import pumping_unit
 
-        findings.of(PolishedRod.of, machine, machine.pumping_unit)
-        yield "pumping unit: full rotation of its crank"
+        unit = findings.of(pumping_unit, machine)
+        findings.add(unit_findings(unit) if unit is not None else ())
+        yield "pumping unit: full rotation of its crank, ratings of gearbox and structure"
     if machine.rod_rotator is not None:
         from linkwright.pumping.rod_rotator import rod_rotator
 
