@@ -143,7 +143,7 @@ def loads_as(
     """
     tables = tables_of(text, path)
     _check_format(tables, path, text)
-    places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    places = [(apply(tables, change, model), change) for change in parse_all(overrides)]
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     columns: list[Column] = []

@@ -176,7 +176,7 @@ def motor(type: str) -> CatalogueMotor:
 def _like(type: str) -> str:
     """Types that a name may stand for: of the number of poles that it gives, if it gives one."""
     known = _by_type()
-    named = re.search(r"(\d+)[- ]?pole|^4A\w*?\D(\d+)U3", type)
+    named = re.search(r"(\d+)[- ]?pole|^4A\d+[A-Z]+(\d+)", type)
     if named is None:
         return suggestion(type, known)
     poles = int(named[1] or named[2])

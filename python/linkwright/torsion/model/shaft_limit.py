@@ -20,7 +20,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.base import CheckedDescription, fault, formerly
 from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model import permitted_stress
@@ -55,7 +55,7 @@ _KINDS: dict[str, tuple[Kind, ...]] = {
     "design_factor": ("iacs_m68",),
     "firing": ("kr_crankshaft",),
 }
-_STRESSES = ("stress_permitted", "stress_transient", "stress_greatest")
+_STRESSES = ("stress_permitted", "stress_transient", "stress_max")
 
 
 class StressedSection(NamedTuple):
@@ -89,7 +89,11 @@ class ShaftLimit(CheckedDescription):
     stress_transient: Stress | None = Field(
         None, description="The same, while barred speed ranges are passed quickly."
     )
-    stress_greatest: Stress | None = Field(None, description="Shear stress of mean and vibration together.")
+    stress_max: Stress | None = Field(
+        None,
+        validation_alias=formerly("stress_greatest", "stress_max"),
+        description="Shear stress of mean and vibration together.",
+    )
     torque_permitted: PositiveTorque | None = Field(None, description="Sum of mean and vibratory torque.")
     vibratory_torque_permitted: PositiveTorque | None = Field(
         None, description="Amplitude of the torque in continuous operation."
