@@ -231,8 +231,8 @@ def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
     turn = float(motion.crank_angle[-1] - motion.crank_angle[0])
     if more or not has_axial(machine) or not motion.speed.all():
         return None
-    whole = over_whole_motion(compile_machine(machine))
-    if whole is None or abs(turn - 2 * pi * whole.turns) > _WHOLE_TURN:
+    repeating = over_whole_motion(compile_machine(machine))
+    if repeating is None or abs(turn - 2 * pi * repeating.turns) > _WHOLE_TURN:
         return None
     return shaking_orders(machine, speed=turn / float(motion.time[-1] - motion.time[0]))
 
