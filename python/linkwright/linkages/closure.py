@@ -185,7 +185,13 @@ def _over(turns: int, per_turn: int) -> Floats:
 
 def limiter_at(compiled: CompiledMachine, angle: float) -> str:
     """Name of the dyad that limits the motion at an end of a range."""
-    return _Search(compiled, 1).limiter(angle)
+    return limiters_at(compiled, [angle])[0]
+
+
+def limiters_at(compiled: CompiledMachine, angles: Iterable[float]) -> list[str]:
+    """Names of the dyads that limit the motion at ends of ranges."""
+    search = _Search(compiled, 1)
+    return [search.limiter(angle) for angle in angles]
 
 
 class _Search:
