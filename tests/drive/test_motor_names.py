@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -50,3 +51,17 @@ def test_a_screw_that_ends_is_no_finding() -> None:
         (words,) = [text for text in said["warnings"] if "closes only" in text]
         assert "drive angles -4500.00° to 103500.00°" in words
         assert "crank" not in words
+
+
+def test_a_screw_has_no_crank(tmp_path: Path) -> None:
+    """Tables, warnings and report of the lift speak of its drive; only keys say crank."""
+    for command in (["run"], ["check"], ["motion"], ["run", "--out", str(tmp_path / "out")]):
+        word, *options = command
+        said = CliRunner().invoke(application(), [word, LIFT, *options]).stdout
+        assert said
+        assert "crank" not in said.replace("crank_angle", ""), command
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    text = re.sub(r"<(script|style|math).*?</\1>", "", page, flags=re.DOTALL)
+    text = re.sub(r"<[^>]+>", " ", text)
+    left = [found for found in re.findall(r"\w+ +crank +\w+", text) if found.split()[0] != "post"]
+    assert left in ([], ["the crank J"]), left

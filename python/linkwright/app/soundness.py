@@ -122,7 +122,8 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
     if compiled is not None:
         findings.add(idle_parts(machine))
         findings.warn(law_cautions(machine))
-    yield "mechanism: closure over the whole revolution" + (", loads there" if machine.loads else "")
+    range_ = "travel" if is_screw(machine) else "whole revolution"
+    yield f"mechanism: closure over the {range_}" + (", loads there" if machine.loads else "")
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)

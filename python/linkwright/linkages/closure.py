@@ -470,6 +470,11 @@ def is_screw(machine: Machine) -> bool:
     return bool(screws) and all(screws) and not (own.cranks or own.cams or machine.pumping_unit)
 
 
+def driver_word(machine: Machine) -> str:
+    """What rotates at the angle φ: the crank, or the drive of a screw."""
+    return "drive" if is_screw(machine) else "crank"
+
+
 def _sentence(closed: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
     gap = compile_machine(machine).law_gap
