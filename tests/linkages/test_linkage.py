@@ -572,7 +572,7 @@ def test_circuits_are_branches_that_meet_at_limits(seed: int) -> None:
 
 
 def test_circuits_end_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An assembly in which corners coincide has hundreds of ranges; where looking ends, it is told."""
+    """An assembly in which corners coincide has hundreds of ranges; a search that is cut says so."""
     machine = lw.read("peaucellier_straight_line")
     began = time.perf_counter()
     found = lw.circuits(machine)

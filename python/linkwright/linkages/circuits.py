@@ -61,9 +61,7 @@ class Circuit(Record):
     ]
     complete: Annotated[
         bool,
-        About(
-            "Whether all assemblies were looked at. False: the search ended at 4096 branches or 1024 turns."
-        ),
+        About("Whether all assemblies were looked at; a search ends at 4096 branches or 1024 revolutions."),
     ] = True
 
     @property
@@ -100,9 +98,9 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
         if turns > _TURNS_MAX or len(branches) > _BRANCHES_MAX:
             complete = False
             break
-        found, looked = _branches(compiled, slots, signs)
-        branches += found
-        turns += looked
+        more, revolutions = _branches(compiled, slots, signs)
+        branches += more
+        turns += revolutions
     return tuple(Circuit(tuple(one for one, _ in group), complete) for group in _joined(branches))
 
 
@@ -156,18 +154,16 @@ def _branches(
     limits = iter(
         () if where.turns_fully else limiters_at(other, [end for pair in where.ranges for end in pair])
     )
-    found = [
+    branches = [
         (Branch(words, low, high, where.turns_fully), list(zip((low, high), limits, strict=False)))
         for low, high in where.ranges
     ]
-    return found, where.turns or 1
+    return branches, where.turns or 1
 
 
 def _joined(branches: list[Ended]) -> list[list[Ended]]:
-    """Branches in groups that meet at limits, the group of the given assembly, which is the first, first.
-
-    Two branches meet if they end at the same angle, by the same dyad, and differ in that dyad alone.
-    """
+    """Branches in groups that meet at limits; the first group has the given assembly, the first branch."""
+    # Two meet if they end at the same angle, by the same dyad, and differ in that dyad alone.
     first = list(range(len(branches)))
 
     def root(n: int) -> int:
