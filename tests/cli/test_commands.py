@@ -260,3 +260,28 @@ def test_help_loads_nothing_heavy() -> None:
     )
     subprocess.run([sys.executable, "-c", code], check=True)
     assert "check" in program("--help").stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "table", "words"),
+    [
+        (
+            "rod_rotator_intermittent",
+            "rod_rotator.pin_distance=4.5",
+            "[rod_rotator]",
+            "no link and lever fit",
+        ),
+        ("rod_rotator_continuous", "pumping_unit.P=1", "[pumping_unit]", "closes only"),
+        ("roller_two_carts", "mechanism.sliders.cart1.rod=0.1 m", "[mechanism.sliders.cart1]", "closes only"),
+    ],
+)
+def test_what_does_not_close_is_told_with_file_and_line(
+    name: str, change: str, table: str, words: str
+) -> None:
+    """Also of elements that a table stands for, such as the rotator's link and lever."""
+    file = TWO_CARTS.with_name(f"{name}.toml")
+    line = file.read_text(encoding="utf-8").splitlines().index(table) + 1
+    done = run("forces", str(file), "--set", change, "--speed", "1 rad/s")
+    assert done.exit_code == 1
+    assert done.stderr.startswith(f"{file}:{line}: ")
+    assert words in done.stderr

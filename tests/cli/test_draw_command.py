@@ -150,7 +150,7 @@ def test_a_pose_is_that_of_the_angle_given(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("machine", "angle", "code", "words"),
     [
-        ("examples/scissor_lift/machine.toml", "-5000 deg", 1, "closes only at crank angles"),
+        ("examples/scissor_lift/machine.toml", "-5000 deg", 1, "closes only at drive angles"),
         ("machines/topper.toml", "0 deg", 2, "has no mechanism"),
     ],
 )

@@ -42,10 +42,10 @@ def test_what_is_asked_for_narrows_the_list() -> None:
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--poles", "3"], "4, 6 poles"),
+        (["--poles", "3"], "2, 4, 6, 8 poles"),
         (["--series", "AIQ"], '"AIR"'),
-        (["--series", "AIR", "--poles", "4"], "6 poles"),
-        (["--power-min", "9 MW"], '--power-min: found "9 MW", expected at most 55 kW'),
+        (["--series", "AIR", "--poles", "4"], "2, 6, 8 poles"),
+        (["--power-min", "9 MW"], '--power-min: found "9 MW", expected at most 75 kW'),
         (["--power-min", "9 kg"], "a power"),
     ],
 )

@@ -86,3 +86,19 @@ def test_wrong_input(words: tuple[str, ...], said: str) -> None:
     done = run(*words)
     assert done.exit_code == 2
     assert said in done.stderr
+
+
+def test_a_long_motion_has_a_short_table_of_events() -> None:
+    """Kinks at which nothing jumps are in JSON alone; of many jumps the first and the last are shown."""
+    events = told("--revolutions", "60")["events"]
+    kinks = [event for event in events if event["kind"] == "kink"]
+    assert len(kinks) > 400
+    shown = run("--revolutions", "60").stdout
+    assert f"Events, 2 of {len(events)}" in shown
+    assert "kink" not in shown
+    rod = str(Path(__file__).parents[1] / "found" / "tangent_rod.toml")
+    shown = CliRunner().invoke(application(), ["transient", rod, "--revolutions", "60"]).stdout
+    table = shown[shown.index("Events, 24 of ") : shown.index("Motion in time")]
+    assert table.count("jump of") == 22
+    assert "end of the" in table
+    assert "Events  " in run("--duration", "0.1 s").stdout

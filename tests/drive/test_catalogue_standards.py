@@ -7,14 +7,19 @@ their own fan).
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import linkwright as lw
 from linkwright.drive.model.catalogue import OVERLOAD, CatalogueMotor
+from linkwright.drive.model.catalogue import motor as catalogue_motor
+from linkwright.sizing.motor_change import rotor_inertia
 
 INDUCTION = [motor for motor in lw.motors() if motor.kind == "induction"]
 FRAMED = [motor for motor in INDUCTION if motor.frame is not None]
+ONE_CART = (Path(__file__).parents[2] / "machines" / "roller_one_cart.toml").read_text(encoding="utf-8")
 
 # Rated power of motors with four poles [kW] → frame.
 FRAMES = {
@@ -55,3 +60,25 @@ def test_frames_suit_the_power(motor: CatalogueMotor) -> None:
     assert FRAMES[motor.power_rated / 1e3].startswith(motor.frame)
     # Makers print the minimum of the class.
     assert motor.efficiency == pytest.approx(EFFICIENCIES[motor.series][motor.power_rated / 1e3], abs=5e-4)
+
+
+def test_a_rotor_without_a_printed_inertia_is_estimated_and_marked() -> None:
+    """A file that names a type of the catalogue has the inertia that sizing has, and says that it is one."""
+    machine = lw.loads(ONE_CART.replace('inertia = "0.0442 kg m^2"', ""))
+    motor = machine.drive.motor
+    assert motor.inertia_is_estimated
+    assert motor.inertia == rotor_inertia(catalogue_motor(motor.catalogue))[0] > 0
+    (words,) = [text for text in lw.study(machine).warnings if "no rotor inertia" in text]
+    assert f"is used, {motor.inertia:.3g} kg m²" in words
+    given = lw.loads(ONE_CART)
+    assert not given.drive.motor.inertia_is_estimated
+    assert given.drive.motor.inertia == 0.0442
+
+
+@pytest.mark.parametrize("series", ["4A", "AIR"])
+def test_series_have_motors_with_two_and_eight_poles(series: str) -> None:
+    """Speeds of one power fall with the number of poles, torques rise."""
+    of = {(m.power_rated, m.poles): m for m in INDUCTION if m.series == series and m.power_rated <= 15e3}
+    both = [power for power, poles in of if poles == 2 and (power, 8) in of]
+    assert len(both) >= 6
+    assert all(of[power, 2].torque_rated < 0.3 * of[power, 8].torque_rated for power in both)

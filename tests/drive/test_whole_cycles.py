@@ -5,15 +5,18 @@ four-stroke load after two. The machine counted from another zero of the crank i
 has another phase, its dyads the side on which they are there, its loads over the angle are shifted.
 """
 
+import json
 import math
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from samples.sizes import cases
 
 import linkwright as lw
+from linkwright.app.application import application
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.machine.machine import Machine
 
@@ -247,3 +250,34 @@ def test_a_mass_that_is_zero_in_the_first_row_does_not_decide_the_cycle() -> Non
     alone = lw.steady_state(machine)
     assert rows.turns.tolist() == [1, 2]
     assert rows.speed_max[1] == pytest.approx(alone.speed_max, rel=1e-7)
+
+
+# A nut that moves on from revolution to revolution, against a spring.
+NEVER = """
+format = 1
+name = "nut against a spring"
+mechanism.cranks.A = { radius = 0.1 }
+mechanism.sliders.S = { crank = "A", rod = 0.4 }
+mechanism.points.P = { y = 1.0 }
+mechanism.linear_drivers.N = { per_turn = 0.01 }
+bodies.S = { mass = 2.0 }
+bodies.N = { mass = 1.0 }
+loads.s = { kind = "spring", between = ["N", "P"], stiffness = 300.0, free_length = 0.2 }
+"""
+
+
+def test_masses_and_loads_that_never_repeat_are_told(tmp_path: Path) -> None:
+    """Without a motor numbers are those of the first revolution, and it is said; with one, a finding."""
+    machine = lw.loads(NEVER)
+    words = "Masses and loads do not repeat within 24 revolutions of the crank, and never do"
+    (told,) = [text for text in lw.study(machine).warnings if text.startswith(words)]
+    assert "are those of the first revolution" in told
+    assert "choose the slowest part as the crank" in told
+    assert not lw.study(lw.replace(machine, {"loads.s.stiffness": 0.0})).findings
+    path = tmp_path / "never.toml"
+    path.write_text(NEVER, encoding="utf-8")
+    result = CliRunner().invoke(application(), ["forces", str(path), "--speed", "3 rad/s", "--json"])
+    assert told in json.loads(result.stdout)["warnings"]
+    driven = lw.loads(NEVER + 'drive.motor = { kind = "dc", speed_no_load = 30, torque_stall = 60 }\n')
+    (finding,) = [text for text in lw.study(driven).findings if text.startswith(words)]
+    assert "never do" in finding

@@ -117,7 +117,7 @@ def test_every_type_of_the_catalogue_makes_a_motor() -> None:
 
 def test_the_catalogue_keeps_its_sources() -> None:
     types = [each.type for each in motors()]
-    assert len(types) == len(set(types)) == 36
+    assert len(types) == len(set(types)) == 84
     worked = motor("4A160S6U3 (method 1)")
     assert (worked.speed_synchronous, worked.speed_rated, worked.speed_breakdown) == (104.72, 102.1, 94.95)
     assert (worked.torque_start, worked.torque_rated, worked.torque_breakdown) == (129.24, 107.7, 215.4)

@@ -105,7 +105,7 @@ def test_wrong_links_are_named() -> None:
         balance(animal(FOUR_BAR), ["A"], speed=1.0, radius=-1.0)
     with pytest.raises(MachineError, match="pin of a crank"):
         partial_balance(lw.loads(ENGINE), "T")
-    with pytest.raises(ShapeError, match="a revolution"):
+    with pytest.raises(ShapeError, match="whole revolutions"):
         harmonics(np.array([0.0, 0.1, 0.3]), np.zeros(3))
 
 

@@ -208,3 +208,56 @@ def test_forces_of_nothing_have_no_derivative() -> None:
     machine = lw.read("examples/press_motion/machine.toml")
     with pytest.raises(FindingError, match="zero within rounding error"):
         lw.gradient(machine, ["forces.torque_drive_max"])
+
+
+# The crank feels a wheel at a third of its speed alike in every revolution, the frame after three of them: at
+# 720° its mass adds to the force of the slider, at 0° and 360° it is aside.
+_THIRD = """
+format = 1
+name = "mass on a wheel at a third of the speed"
+drive.motor = { kind = "dc", speed_no_load = 30, torque_stall = 60, inertia = 0.02 }
+drive.flywheel = { inertia = 0.5 }
+mechanism.cranks.A = { radius = 0.1 }
+mechanism.points.P = { x = 1.0 }
+mechanism.gears.G = { pivot = "P", meshes = "A", size = 60.0, size_other = 20.0, phase = "240 deg" }
+mechanism.rigid_points.K = { link = "G", along = 0.2 }
+mechanism.sliders.S = { crank = "A", rod = 0.4 }
+bodies.K = { mass = 1.0 }
+bodies.S = { mass = 3.0, axial = 0.2 }
+loads.oil = { kind = "viscous", on = "S", damping = 20.0 }
+"""
+
+
+def test_forces_that_repeat_after_several_cycles_of_the_speed() -> None:
+    """The largest force and its derivatives are those of the whole cycle, as in `forces`."""
+    machine = lw.loads(_THIRD)
+    assert lw.steady_state(machine).turns == 1
+    shaking = np.hypot(*lw.forces(machine).shaking_force.T)
+    assert shaking[:361].max() < 0.97 * shaking.max()
+    address = "bodies.K.mass"
+    found = lw.gradient(machine, ["forces"], [address])
+    row = found.responses.index("forces.shaking_force_max")
+    assert found.values[row] == pytest.approx(shaking.max(), rel=1e-8)
+
+    def peak(mass: float) -> float:
+        return float(np.hypot(*lw.forces(lw.replace(machine, {address: mass})).shaking_force.T).max())
+
+    assert found.derivatives[row, 0] == pytest.approx((peak(1.001) - peak(0.999)) / 0.002, rel=1e-5)
+
+
+def test_orders_of_a_cycle_of_three_revolutions() -> None:
+    """A mass at a third of the speed is order 1/3, m r (ω/3)², beside the whole orders of the slider."""
+    machine = lw.loads(_THIRD)
+    found, alone = (
+        lw.shaking_orders(each, speed=10.0, highest=4)
+        for each in (machine, lw.replace(machine, {"bodies.K.mass": 1e-12}))
+    )
+    np.testing.assert_array_equal(found.order, np.arange(1, 13) / 3)
+    assert found.force_max[0] == pytest.approx(0.2 * (10.0 / 3) ** 2, rel=1e-9)
+    np.testing.assert_allclose(found.force_max[1:], alone.force_max[1:], atol=1e-9)
+    assert list(found.to_dict()["orders"])[:3] == ["0.333333", "0.666667", "1"]
+    forces = lw.forces(machine, speed=10.0)
+    again = lw.shaking_orders(machine, speed=10.0, highest=30).force
+    angles = again.order[:, None] * forces.crank_angle
+    series = again.cosine.T @ np.cos(angles) + again.sine.T @ np.sin(angles)
+    np.testing.assert_allclose(series.T, forces.contributions["inertia"].shaking_force, atol=1e-7)

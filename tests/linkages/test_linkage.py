@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
+import time
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,8 @@ import pytest
 import linkwright as lw
 from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError
 from linkwright.kernel.numerics.zeros import minima, zeros
-from linkwright.linkages.closure import closure
+from linkwright.linkages.circuits import Branch, _slots
+from linkwright.linkages.closure import closure, limiter_at
 from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.kinematics import kinematics
@@ -524,3 +527,60 @@ def test_a_slotted_lever_has_numbers_of_the_lever_and_of_its_slot() -> None:
     curves = found.curves()
     assert {"shaper.velocity_ratio", "shaper.slot.stroke_ratio"} <= {*curves}
     assert np.ptp(curves["shaper.velocity_ratio"]) > 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_circuits_are_branches_that_meet_at_limits(seed: int) -> None:
+    """Against all pairs of branches: the same limit, the same dyad, and no other dyad differs."""
+    rng = np.random.default_rng(seed)
+    sizes = rng.uniform(0.15, 0.5, 6).tolist()
+    machine = lw.loads(
+        'format = 1\nname = "six-bar"\nmechanism.cranks.A.radius = 0.3\n'
+        "mechanism.points = { D = { x = 0.4 }, E = { x = 0.2, y = 0.4 } }\n"
+        f'mechanism.rockers.R = {{ crank = "A", pivot = "D", coupler = {sizes[0]}, rocker = {sizes[1]} }}\n'
+        f'mechanism.rockers.S = {{ crank = "R", pivot = "E", coupler = {sizes[2]}, rocker = {sizes[3]} }}\n'
+    )
+    found = lw.circuits(machine)
+    branches = [branch for circuit in found for branch in circuit.branches]
+
+    compiled = compile_machine(machine).first()
+    slots = _slots(compiled, machine)
+
+    def limits(branch: Branch) -> list[tuple[float, str]]:
+        q = compiled.parameters.copy()
+        for name, side in branch.assembly.items():
+            q[slots[name]] *= 1 if side == "given" else -1
+        other = dataclasses.replace(compiled, parameters=q)
+        return [(end, limiter_at(other, end)) for end in (branch.low, branch.high) if not branch.turns_fully]
+
+    def meet(first: Branch, second: Branch) -> bool:
+        differ = [name for name in first.assembly if first.assembly[name] != second.assembly[name]]
+        return any(
+            [dyad] == [limiting] == differ and abs((a - b + np.pi) % (2 * np.pi) - np.pi) < 1e-6
+            for a, dyad in limits(first)
+            for b, limiting in limits(second)
+        )
+
+    of = {id(branch): n for n, circuit in enumerate(found) for branch in circuit.branches}
+    for circuit in found:
+        reached = [circuit.branches[0]]
+        for branch in reached:
+            reached += [other for other in branches if meet(branch, other) and other not in reached]
+        assert {of[id(branch)] for branch in reached} == {of[id(circuit.branches[0])]}
+        assert len(reached) == len(circuit.branches)
+    assert all(circuit.complete for circuit in found)
+
+
+def test_circuits_end_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An assembly in which corners coincide has hundreds of ranges; a search that is cut says so."""
+    machine = lw.read("peaucellier_straight_line")
+    began = time.perf_counter()
+    found = lw.circuits(machine)
+    # Comparing all pairs of branches took half a minute.
+    assert time.perf_counter() - began < 8
+    assert len(found) == 6
+    assert max(len(circuit.branches) for circuit in found) > 500
+    monkeypatch.setattr("linkwright.linkages.circuits._BRANCHES_MAX", 10)
+    cut = lw.circuits(machine)
+    assert not cut[0].complete
+    assert sum(len(circuit.branches) for circuit in cut) > 10

@@ -340,7 +340,7 @@ def test_screw_is_closed_as_far_as_it_goes() -> None:
     assert found.turns is None
     # From one end of the arm, 50 mm behind, to the other.
     assert np.array(found.ranges[0]) / (2 * np.pi) == pytest.approx([-0.05 / 0.004, 1.15 / 0.004], rel=1e-9)
-    with pytest.raises(AssemblyError, match="closes only at crank angles"):
+    with pytest.raises(AssemblyError, match="closes only at drive angles"):
         lw.kinematics(lift, [2 * np.pi * 300])
 
 
@@ -370,3 +370,19 @@ def test_circuits_name_the_change_point_that_ties_them() -> None:
     )
     with pytest.raises(InputError, match=r"a change point of R at 0°, 180°.*change a length"):
         lw.circuits(kite)
+
+
+def test_a_redundant_bar_fits_over_the_whole_cycle() -> None:
+    """The nut stands for a revolution and moves in the next, where a bar that fits in the first locks."""
+    text = """
+[mechanism.points]
+P = { x = 0.5, y = 0.2 }
+[mechanism.linear_drivers]
+N = { law = "0.1*(abs(sin(phi/2)) - HOW*sin(phi/2))" }
+[mechanism.bars]
+b = { start = "N", end = "P", length = 0.5385164807134504, redundant = true }
+"""
+    with pytest.raises(AssemblyError, match=r"redundant bar b .* at crank angle 540° .* locked"):
+        lw.closure(machine(text.replace("HOW", "1")))
+    still = text.replace("0.1*", "0*").replace("HOW", "1")
+    assert lw.closure(machine(still)).turns_fully

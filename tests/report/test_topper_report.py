@@ -235,7 +235,7 @@ def test_machine_data_has_the_topper_and_its_motion() -> None:
 
 
 def test_field_is_among_the_data() -> None:
-    spread = '{kind="normal", mean="110 mm", deviation="18 mm", least="50 mm"}'
+    spread = '{kind="normal", mean="110 mm", deviation="18 mm", min="50 mm"}'
     field = f'topper.field={{kind="random", root_diameter={spread}, spacing="0.3 m", roots=500}}'
     limits = "topper.limits.complete_min=0.9"
     machine = read(MACHINES / "topper.toml", [field, limits])

@@ -115,7 +115,7 @@ def test_no_motor_suits_the_ratio() -> None:
     slow = replace(machine_of("two_carts"), {"drive.gearbox.ratio": 50.0})
     choice = choose_motor(slow)
     assert choice.chosen is None
-    assert "9.13 to 14.8" in choice.reason
+    assert "6.98 to 29.5" in choice.reason
 
 
 def test_a_missing_start_torque_is_not_held_against_a_motor_as_a_failure() -> None:

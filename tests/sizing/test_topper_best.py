@@ -21,7 +21,7 @@ FIELD = """
 kind = "random"
 roots = 1000
 rows = 20
-root_diameter = { kind = "normal", mean = "110 mm", deviation = "15 mm", least = "60 mm" }
+root_diameter = { kind = "normal", mean = "110 mm", deviation = "15 mm", min = "60 mm" }
 [topper.limits]
 """
 

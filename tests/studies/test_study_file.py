@@ -155,9 +155,9 @@ def test_overrides_of_machine_and_study(study_file: Files) -> None:
     [
         ('{ kind = "normal", mean = "1 t", deviation = "20 kg" }', 1000, 20),
         ('{ kind = "lognormal", mean = 1000, deviation = 50 }', 1000, 50),
-        ('{ kind = "uniform", least = 900, greatest = 1100 }', 1000, 200 / np.sqrt(12)),
+        ('{ kind = "uniform", min = 900, max = 1100 }', 1000, 200 / np.sqrt(12)),
         # Variance of a triangle: (a² + b² + c² - ab - ac - bc)/18.
-        ('{ kind = "triangular", mean = 1000, least = 900, greatest = 1100 }', 1000, 100 / np.sqrt(6)),
+        ('{ kind = "triangular", mean = 1000, min = 900, max = 1100 }', 1000, 100 / np.sqrt(6)),
     ],
 )
 def test_distributions(text: str, mean: float, deviation: float, study_file: Files) -> None:

@@ -49,7 +49,7 @@ MOMENTS = {
     # Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, 2nd ed. 1994 and 1995.
     "normal": ('{ kind = "normal", mean = 450, deviation = 10 }', 450.0, 10.0),
     "lognormal": ('{ kind = "lognormal", mean = 1000, deviation = 1500 }', 1000.0, 1500.0),
-    "uniform": ('{ kind = "uniform", least = 2, greatest = 3 }', 2.5, 12**-0.5),
+    "uniform": ('{ kind = "uniform", min = 2, max = 3 }', 2.5, 12**-0.5),
 }
 
 
@@ -132,12 +132,12 @@ def test_limits_of_a_tolerance(tmp_path: Path) -> None:
         ('tolerance = "0,8 m ± 0.2 mm"', '"0,8 m ± 0.2 mm"', "write the decimal point as a point"),
         ('range = ["900 mm", "80 cm"]', '"900 mm" to "80 cm"', "a minimum below the maximum"),
         (
-            'distribution = { kind = "uniform", least = "9 mm", greatest = "8 mm" }',
+            'distribution = { kind = "uniform", min = "9 mm", max = "8 mm" }',
             '"8 mm"',
-            'more than `least`, "9 mm"',
+            'more than `min`, "9 mm"',
         ),
         (
-            'distribution = { kind = "triangular", least = "7 mm", mean = "9 mm", greatest = "8 mm" }',
+            'distribution = { kind = "triangular", min = "7 mm", mean = "9 mm", max = "8 mm" }',
             '"9 mm"',
             '"7 mm" to "8 mm"',
         ),
@@ -198,8 +198,8 @@ def test_percent_of_a_size_in_percent_is_refused(size: str) -> None:
         ("mechanism.sliders.cart1.rod", "tolerance", '"± 100 %"'),
         ("mechanism.sliders.cart1.rod", "clearance", '"1.6 m"'),
         ("drive.gearbox.efficiency", "tolerance", '"± 20 %"'),
-        ("drive.gearbox.efficiency", "distribution.greatest", "1.1"),
-        ("bodies.cart1.mass", "distribution.least", '"-1 kg"'),
+        ("drive.gearbox.efficiency", "distribution.max", "1.1"),
+        ("bodies.cart1.mass", "distribution.min", '"-1 kg"'),
     ],
 )
 def test_limits_beyond_the_range_of_an_entry_are_refused(

@@ -9,8 +9,9 @@ import pytest
 
 import linkwright as lw
 from linkwright.drive.tables import numerical_tables
+from linkwright.kernel.files.library import template
 from linkwright.studio.analyses import fast, found, said
-from linkwright.studio.files import Folder
+from linkwright.studio.files import Folder, gallery
 from linkwright.studio.shown import shown
 from linkwright.studio.views import thumbnail, train_view
 
@@ -82,6 +83,19 @@ def test_the_gallery_shows_what_has_no_mechanism(name: str, kind: str) -> None:
     shown = thumbnail(Folder.of(ROOT), "library", name)
     assert shown["scene"] is None
     assert shown["view"]["kind"] == kind
+
+
+def test_every_machine_of_the_gallery_has_a_thumbnail(tmp_path: Path) -> None:
+    """Templates and library: a moving mechanism, a train, a knife or a turning-moment diagram."""
+    folder = Folder.of(tmp_path)
+    for listed in gallery(folder):
+        if listed["place"] == "template" or "flywheel" in listed["name"]:
+            shown = thumbnail(folder, listed["place"], listed["name"])
+            assert shown["scene"] or shown["view"], listed["name"]
+    driver, load = thumbnail(folder, "template", "flywheel")["view"]["curves"]
+    diagram = lw.turning_moment(lw.loads(template("flywheel")))
+    np.testing.assert_array_equal(driver["y"], diagram.torque_driver)
+    np.testing.assert_array_equal(load["y"], diagram.torque_load)
 
 
 def test_a_disturbance_of_which_nothing_is_left_is_zero() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import inspect
 import re
 import shlex
 import tomllib
@@ -16,8 +17,12 @@ from docs_scripts import docs_script
 
 import linkwright as lw
 from linkwright.app.application import application
+from linkwright.app.commands.run import run
+from linkwright.drive import run_up
+from linkwright.drive.commands import transient
 from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads
+from linkwright.torsion.model.train_transient import TrainTransient
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -234,3 +239,20 @@ def test_worked_examples_are_the_code() -> None:
     for place, example in examples:
         source = (ROOT / "python" / "linkwright" / place).read_text(encoding="utf-8")
         assert " ".join(example.split()) in " ".join(source.split()), place
+
+
+def test_accuracies_of_the_page_are_the_defaults() -> None:
+    """The table of docs/choose.md against functions, commands and the file format."""
+    text = (ROOT / "docs" / "choose.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (`[^|]+`) \| (1e-\d+) \|", text, re.MULTILINE)
+    listed = {name: float(value) for names, value in rows for name in re.findall(r"`([^`]+)`", names)}
+    defaults = {
+        name: inspect.signature(getattr(lw, name)).parameters["accuracy"].default
+        for name in ("steady_state", "steady_states", "study", "transient")
+    }
+    defaults["linkwright run"] = inspect.signature(run).parameters["accuracy"].default
+    defaults["linkwright transient"] = inspect.signature(transient).parameters["accuracy"].default
+    defaults["torsion_transient"] = TrainTransient.model_fields["accuracy"].default
+    assert listed == defaults
+    followed = [float(value) for value in re.findall(r"run-(?:up|down) with (1e-\d)", text)]
+    assert followed == [run_up._ACCURACY, run_up._RUN_DOWN_ACCURACY]

@@ -27,6 +27,7 @@ SILENT = {
         "app/application.py",
         "_machine_name",
     ): "the name of the machine belongs to a finding, which is reported",
+    ("app/application.py", "_place"): "the file was read before; without it the message has no place",
     ("app/report/scene.py", "_closes"): "the same, and a mechanism that does not move is not drawn",
     ("linkages/law_jumps.py", "_bodies_moved"): "what a driver moves is not known, so that all bodies count",
     ("cam/scene.py", "_contacts"): "a cam without room for its second follower is reported by the study",

@@ -23,7 +23,7 @@ def scatter(**entries: object) -> Scatter:
     ("least", "greatest"), [(None, None), (0.08, None), (None, 0.1), (0.09, 0.13), (0.155, 0.2)]
 )
 def test_normal_values_are_scipys(least: float | None, greatest: float | None) -> None:
-    found = scatter(kind="normal", mean=0.1, deviation=0.01, least=least, greatest=greatest)
+    found = scatter(kind="normal", mean=0.1, deviation=0.01, min=least, max=greatest)
     low = -math.inf if least is None else (least - 0.1) / 0.01
     high = math.inf if greatest is None else (greatest - 0.1) / 0.01
     expected = stats.truncnorm.ppf(SHARES, low, high, loc=0.1, scale=0.01)
@@ -32,7 +32,7 @@ def test_normal_values_are_scipys(least: float | None, greatest: float | None) -
 
 @pytest.mark.parametrize(("least", "greatest"), [(None, None), (0.02, 0.05)])
 def test_lognormal_values_have_mean_and_deviation(least: float | None, greatest: float | None) -> None:
-    found = scatter(kind="lognormal", mean=0.03, deviation=0.01, least=least, greatest=greatest)
+    found = scatter(kind="lognormal", mean=0.03, deviation=0.01, min=least, max=greatest)
     width = math.sqrt(math.log(1 + 1 / 9))
     whole = stats.lognorm(s=width, scale=0.03 * math.exp(-(width**2) / 2))
     assert (whole.mean(), whole.std()) == pytest.approx((0.03, 0.01), rel=1e-12)
@@ -42,7 +42,7 @@ def test_lognormal_values_have_mean_and_deviation(least: float | None, greatest:
 
 def test_uniform_by_mean_or_ends() -> None:
     by_mean = scatter(kind="uniform", mean=0.1, deviation=0.01)
-    by_ends = scatter(kind="uniform", least=0.1 - 0.01 * math.sqrt(3), greatest=0.1 + 0.01 * math.sqrt(3))
+    by_ends = scatter(kind="uniform", min=0.1 - 0.01 * math.sqrt(3), max=0.1 + 0.01 * math.sqrt(3))
     np.testing.assert_allclose(by_mean.values(SHARES), by_ends.values(SHARES), rtol=1e-12)
     even = by_mean.values((np.arange(10_000) + 0.5) / 10_000)
     assert (even.mean(), even.std()) == pytest.approx((0.1, 0.01), rel=1e-6)
@@ -84,7 +84,7 @@ def test_shares_of_zero_and_one_stay_finite() -> None:
         ({"kind": "uniform", "least": 0.1}, "expected a length"),
         ({"kind": "uniform"}, "expected a length"),
         ({"kind": "uniform", "mean": 0.1, "deviation": 0.1, "least": 0.1}, "expected nothing"),
-        ({"kind": "uniform", "least": 0.2, "greatest": 0.1}, "or more, as least is"),
+        ({"kind": "uniform", "least": 0.2, "greatest": 0.1}, "or more, as min is"),
     ],
 )
 def test_what_cannot_be(entries: dict[str, object], words: str) -> None:

@@ -28,9 +28,9 @@ Floats = NDArray[np.float64]
 RANDOM = '[topper.field]\nkind = "random"\n'
 SCATTER = (
     RANDOM
-    + 'root_diameter = { kind = "normal", mean = "110 mm", deviation = "15 mm", least = "60 mm" }\n'
-    + 'cut_height = { kind = "normal", mean = "30 mm", deviation = "5 mm", least = "10 mm", '
-    + 'greatest = "50 mm" }\n'
+    + 'root_diameter = { kind = "normal", mean = "110 mm", deviation = "15 mm", min = "60 mm" }\n'
+    + 'cut_height = { kind = "normal", mean = "30 mm", deviation = "5 mm", min = "10 mm", '
+    + 'max = "50 mm" }\n'
 )
 
 
@@ -126,9 +126,7 @@ def test_loss_by_moments() -> None:
 
 
 def test_missed_and_lost_heads() -> None:
-    text = (
-        RANDOM + 'cut_height = { kind = "uniform", least = "-30 mm", greatest = "130 mm" }\nroots = 16000\n'
-    )
+    text = RANDOM + 'cut_height = { kind = "uniform", min = "-30 mm", max = "130 mm" }\nroots = 16000\n'
     topped = machine(text, edge_length=1.0)
     found = topper_field(topped)
     # Of 160 mm, 30 lie below 0 and 20 above D = 110 mm; four deviations of a count of 16 000.
@@ -199,10 +197,7 @@ def test_table_of_the_page_is_what_comes_out() -> None:
 
 
 def test_spacing_moves_the_phase_on() -> None:
-    text = (
-        SCATTER
-        + 'spacing = { kind = "uniform", least = "0.2 m", greatest = "0.3 m" }\nrows = 7\nroots = 100\n'
-    )
+    text = SCATTER + 'spacing = { kind = "uniform", min = "0.2 m", max = "0.3 m" }\nrows = 7\nroots = 100\n'
     topped = machine(text)
     assert topped.topper is not None
     roots = draw_roots(topped.topper)

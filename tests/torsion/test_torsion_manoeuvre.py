@@ -316,7 +316,7 @@ events = [{ kind = "speed_course", on = "engine", times = [0, 2], speed = [60, 1
 """
 
     def moved(transient: str, greatest: str) -> tuple[PeakJudgement, ...]:
-        limit = f"stress_permitted = 1e5, stress_transient = {transient}, stress_greatest = {greatest}"
+        limit = f"stress_permitted = 1e5, stress_transient = {transient}, stress_max = {greatest}"
         return torsion_transient(lw.loads(text.replace("LIMIT", limit) + pulse)).judgements
 
     greatest, passing = moved("1e6", "1e6")

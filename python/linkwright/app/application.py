@@ -176,7 +176,7 @@ def _loaded(word: str | None, place: Place) -> click.Command:
     """The command at a place below the package; its errors are messages."""
     module, _, name = place.function.partition(":")
     function = getattr(import_module(f"linkwright.{module}"), name)
-    run = reports_errors(function, _machine_name)
+    run = reports_errors(function, _machine_name, _place)
     return command(run, word, shows_quantities=place.shows_quantities)
 
 
@@ -202,3 +202,22 @@ def _machine_name(
         return read(file, set or (), allow_outside=allow_outside).name
     except LinkwrightError:
         return None
+
+
+def _place(error: Exception, file: Path | None = None, **_: Any) -> str:
+    """File and line of the element that does not close, or of the table that it expands from; else empty."""
+    from linkwright.kernel.errors import AssemblyError, LinkwrightError
+
+    if file is None or not isinstance(error, AssemblyError) or not error.element:
+        return ""
+    from linkwright.kernel.files.lines import key_lines
+    from linkwright.machine.read import text_of_machine
+
+    try:
+        lines = key_lines(text_of_machine(file))
+    except LinkwrightError:
+        return ""
+    own = [line for at, line in lines.items() if at[0] == "mechanism" and at[2:] == (error.element,)]
+    table = "rod_rotator" if error.element.startswith("rotator") else "pumping_unit"
+    line = next(iter(own), lines.get((table,)))
+    return "" if line is None else f"{file}:{line}: "

@@ -5,7 +5,7 @@
 | mechanism | closes over the whole revolution, loads have values there | `require_turn` |
 | mechanism | no law has a corner that moves masses, no part of it is idle | `require_turn`, `idle_parts` |
 | drive | masses and loads repeat, the motor drives, the machine starts | `over_whole_cycle`, `start_of` |
-| pumping unit | the crank rotates fully | `PolishedRod` |
+| pumping unit | the crank rotates fully, ratings are not exceeded | `pumping_unit`, `unit_findings` |
 | rotator | the lever does as its regime asks | `rod_rotator` |
 | cams | undercut, crossed, locked, hollow, no room for a second follower | `cam_profile`, `cam_faults` |
 | cams at a given speed | followers that leave them | `loaded_cam` |
@@ -31,7 +31,7 @@ from linkwright.drive.run_up import start_of
 from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.closure import closure
+from linkwright.linkages.closure import closure, is_screw
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions
 from linkwright.linkages.whole_cycle import over_whole_cycle
@@ -95,10 +95,12 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
     if not machine.has_crank:
         return
     if machine.pumping_unit is not None:
-        from linkwright.pumping.unit import PolishedRod
+        from linkwright.pumping.cautions import unit_findings
+        from linkwright.pumping.unit import pumping_unit
 
-        findings.of(PolishedRod.of, machine, machine.pumping_unit)
-        yield "pumping unit: full rotation of its crank"
+        unit = findings.of(pumping_unit, machine)
+        findings.add(unit_findings(unit) if unit is not None else ())
+        yield "pumping unit: full rotation of its crank, ratings of gearbox and structure"
     if machine.rod_rotator is not None:
         from linkwright.pumping.rod_rotator import rod_rotator
 
@@ -114,12 +116,14 @@ def _mechanism(machine: Machine, findings: Findings) -> Iterator[str]:
             for cam in sound:
                 findings.of(loaded_cam, machine, cam)
             yield "cams at constant speed: loss of contact"
-    compiled = findings.of(require_turn, machine)
+    # The travel of a screw ends; without masses and loads nothing asks for a whole revolution.
+    ends = is_screw(machine) and not (machine.bodies or machine.loads or machine.drive)
+    compiled = (findings.beside_of if ends else findings.of)(require_turn, machine)
     if compiled is not None:
         findings.add(idle_parts(machine))
         findings.warn(law_cautions(machine))
     loads = "; loads are defined everywhere" if machine.loads else ""
-    yield f"mechanism: closes over the full revolution{loads}"
+    yield f"mechanism: closes over the {'travel' if is_screw(machine) else 'full revolution'}{loads}"
     if machine.drive is not None and machine.drive.motor is not None:
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)

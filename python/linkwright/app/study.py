@@ -34,6 +34,7 @@ from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.cautions import linkage_cautions
+from linkwright.linkages.closure import is_screw
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions, shaft_of_laws
@@ -347,7 +348,8 @@ def _losses_in_time(known: Study, findings: Findings) -> None:
 def _turned(machine: Machine, findings: Findings, accuracy: float, step: float | None) -> Study:
     """A linkage by its dimensions alone, or what follows from bodies, loads and drive."""
     if _is_motion_alone(machine):
-        findings.of(require_turn, machine)
+        # The travel of a screw ends, which is no fault of it.
+        (findings.beside_of if is_screw(machine) else findings.of)(require_turn, machine)
         alone = "The machine has no masses, loads or motor: only its motion is computed."
         return Study(machine, warnings=() if machine.pumping_unit else (alone,))
     driven = drive_study(machine, findings, accuracy, step)

@@ -52,6 +52,7 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
     if steady is not None:
         sentences += [*_cycle(steady), *_design_speed(drive, steady), *_overload(drive, steady)]
         sentences += [*_breakdown(drive, steady), *_generator(drive, steady), *_gear_gain(drive, steady)]
+        sentences += _held(drive, steady)
     return tuple(sentences)
 
 
@@ -71,16 +72,18 @@ def _without_rotor(drive: Drive) -> Iterator[str]:
     """A motor without the inertia of its rotor."""
     motor = drive.motor
     assert motor is not None
-    if motor.inertia or "inertia" in motor.model_fields_set or isinstance(motor, ConstantSpeedMotor):
-        return
-    if isinstance(motor, InductionMotor) and motor.torque_rated is not None:
-        estimate = estimated_inertia(float(motor.torque_rated))
-        source = (
-            f"The catalogue gives no rotor inertia for {motor.catalogue}" if motor.catalogue else _NO_ROTOR
-        )
+    if isinstance(motor, InductionMotor) and motor.inertia_is_estimated:
         yield (
-            f"{source}, and zero is used; similarity with {KNOWN} gives an estimate of {estimate:.3g} kg m²: "
-            "give drive.motor.inertia."
+            f"The catalogue gives no rotor inertia for {motor.catalogue}: an estimate by similarity "
+            f"with {KNOWN} is used, {motor.inertia:.3g} kg m²: give drive.motor.inertia."
+        )
+    elif motor.inertia or "inertia" in motor.model_fields_set or isinstance(motor, ConstantSpeedMotor):
+        return
+    elif isinstance(motor, InductionMotor) and motor.torque_rated is not None:
+        estimate = estimated_inertia(float(motor.torque_rated))
+        yield (
+            f"{_NO_ROTOR}, and zero is used; similarity with {KNOWN} gives an estimate of {estimate:.3g} "
+            "kg m²: give drive.motor.inertia."
         )
     elif motor.torque_rated is not None:
         yield f"{_NO_ROTOR}, and zero is used: give drive.motor.inertia."
@@ -307,6 +310,19 @@ def _beyond(drive: Drive, steady: SteadyState) -> str:
         case _:
             return ""
     return f", up to {fastest:.4g} rad/s, beyond its {word} speed of {limit:.4g} rad/s"
+
+
+def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
+    """The part of the revolution in which a self-locking gearbox holds the load."""
+    least = float(steady.torque_drive.min())
+    if not drive.gearbox.locks or least >= -_SMALL * float(np.abs(steady.torque_drive).max()):
+        return
+    time = np.interp(np.linspace(0, steady.period, 1000), steady.time, steady.torque_drive)
+    yield (
+        f"The load drives the gearbox during {100 * float(np.mean(time < 0)):.3g} % of the time: it is "
+        f"self-locking (drive.gearbox.reverse = 0) and holds up to {-least:.4g} N m at the crank, while the "
+        "motor runs without torque."
+    )
 
 
 def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:

@@ -24,7 +24,11 @@ class CrankSpeed(NamedTuple):
 
     def __str__(self) -> str:
         """In both units that people think in."""
-        return f"crank speed {_both(self.value)} ({self.source})"
+        return self.words("crank")
+
+    def words(self, driver: str) -> str:
+        """The same of what rotates."""
+        return f"{driver} speed {_both(self.value)} ({self.source})"
 
 
 def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:

@@ -22,6 +22,7 @@ from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Record
+from linkwright.linkages.closure import driver_word
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.motion import Motion, motion_along
 from linkwright.linkages.whole_cycle import over_whole_cycle, over_whole_motion
@@ -84,6 +85,7 @@ class CycleMotion(Motion):
     is_steady: Annotated[bool, About("Whether the crank moves as in steady motion, not at constant speed.")]
     speed_source: Annotated[str, About("Source of the crank speed.")]
     extremes: Annotated[dict[str, Extremes], About("By name of the curve; without what is at rest.")]
+    driver: Annotated[str, About('``"crank"``, or ``"drive"`` where only screws move the machine.')]
     coupler_points: Annotated[
         tuple[str, ...], About("Points of links, without those whose paths are circles about fixed points.")
     ]
@@ -185,6 +187,7 @@ def cycle_motion_of(
         is_steady=steady is not None,
         speed_source=source,
         extremes={},
+        driver=driver_word(machine),
         coupler_points=_coupler_points(machine),
         followers=_followers(machine),
     )
@@ -321,7 +324,13 @@ class _Search:
         """All columns at crank angles, (k, n)."""
         motion = _along(self.machine, self.crank, phi)
         curves = CycleMotion(
-            **vars(motion), is_steady=False, speed_source="", extremes={}, coupler_points=(), followers=()
+            **vars(motion),
+            is_steady=False,
+            speed_source="",
+            extremes={},
+            driver="",
+            coupler_points=(),
+            followers=(),
         ).curves()
         return np.array([curves[name] for name in self.names]).reshape(len(self.names), len(phi))
 

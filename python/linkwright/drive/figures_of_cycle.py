@@ -118,7 +118,8 @@ def _words(motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple
         if extremes is None:
             continue
         if extremes.minimum is None or extremes.maximum is None:
-            parts.append(f"the {word} of {name} becomes infinite at the limits of crank rotation")
+            limits = "crank rotation" if motion.driver == "crank" else "travel"
+            parts.append(f"the {word} of {name} becomes infinite at the limits of {limits}")
             continue
         peak, at = max(
             (abs(extremes.minimum), extremes.minimum_angle), (abs(extremes.maximum), extremes.maximum_angle)

@@ -76,7 +76,7 @@ def drive_study(machine: Machine, findings: Findings, accuracy: float, step: flo
         return DriveStudy(machine, reduced, limit, warnings=cautions(machine, reduced, None))
     steady = findings.of(steady_state, machine, accuracy=accuracy, n=INTERVALS)
     started, attempt = _run_up(machine, steady, findings)
-    stopped = findings.of(run_down, machine, steady=steady) if steady and _has_brake(machine) else None
+    stopped = _run_down(machine, steady, findings) if steady and _has_brake(machine) else None
     stepped = findings.of(step_method, machine, step=step) if step is not None else None
     return DriveStudy(
         machine,
@@ -89,6 +89,12 @@ def drive_study(machine: Machine, findings: Findings, accuracy: float, step: flo
         attempt,
         warnings=cautions(machine, reduced, steady),
     )
+
+
+def _run_down(machine: Machine, steady: SteadyState, findings: Findings) -> RunDown | None:
+    """The run-down; what a self-locking gearbox does with the motor off is no fault of the machine."""
+    locks = machine.drive is not None and machine.drive.gearbox.locks
+    return (findings.beside_of if locks else findings.of)(run_down, machine, steady=steady)
 
 
 def _run_up(

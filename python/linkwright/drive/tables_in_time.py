@@ -17,6 +17,9 @@ from linkwright.linkages.motion import Motion
 # What rounding leaves of zero, over the largest value of a column.
 _ROUNDING = 1e-12
 
+# Events that a table has: the first and the last ones of a motion with more.
+_EVENTS = 24
+
 _SPEED, _ACCELERATION, _TORQUE = "rad/s", "rad/s²", "N m"
 
 _TORQUES = "at φ = {angle} the drive gives {drive} N m at the crank and the loads"
@@ -93,10 +96,15 @@ def _extremes(extremes: Sequence[MotionExtreme], zero: Zero) -> Table:
 
 
 def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
+    """What happens, without kinks at which nothing jumps: a long motion passes hundreds of these."""
+    shown = [event for event in events if event.kind != "kink"]
+    if len(shown) > _EVENTS:
+        shown = [*shown[: _EVENTS // 2], *shown[-_EVENTS // 2 :]]
+    title = "Events" if len(shown) == len(events) else f"Events, {len(shown)} of {len(events)}"
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
     rates = (
         acceleration
-        for event in events
+        for event in shown
         for acceleration in (event.acceleration_before, event.acceleration_after)
     )
     most = max((abs(rate) for rate in rates if rate is not None), default=0.0)
@@ -110,9 +118,9 @@ def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
             _value(event.acceleration_before, _ACCELERATION, most),
             _value(event.acceleration_after, _ACCELERATION, most),
         )
-        for event in events
+        for event in shown
     ]
-    return Table("events", "Events", heads, rows)
+    return Table("events", title, heads, rows)
 
 
 def _course(course: Motion, zero: Zero) -> Table:

@@ -42,7 +42,7 @@ def speed_words(motion: CycleMotion) -> str:
     """How the crank moves."""
     if motion.is_steady:
         return "in steady motion"
-    return measured(float(motion.speed[0]), "rad/s", before="at ") + " of the crank"
+    return measured(float(motion.speed[0]), "rad/s", before="at ") + f" of the {motion.driver}"
 
 
 def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[tuple[str, str, str], ...]]]:

@@ -16,7 +16,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.sound_loads import require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
+from linkwright.kernel.errors import ConvergenceError, InputError, StartError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, number
 from linkwright.kernel.public.in_range import in_range
@@ -281,8 +281,11 @@ def transient(
     require_half_turns(compiled, machine)
     require_finite_accelerations(machine)
     turning = _turning(machine, speed, clockwise)
+    locks = machine.drive is not None and machine.drive.gearbox.locks
+    if locks and not motor and speed == 0:
+        raise StartError(f"does not start: the motor is off, and {_LOCKS}, so that no load moves the crank")
     motion = compiled.transient((angle, abs(speed)), turning, duration, turns, accuracy)
-    end = End[motion.end]
+    end = _HELD.get(End[motion.end], End[motion.end]) if locks else End[motion.end]
     if end == End.DOES_NOT_CLOSE:
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
@@ -290,6 +293,8 @@ def transient(
     if not math.isfinite(motion.torque_drive_end + motion.torque_load_end):
         require_sound_loads(compiled, machine)
     last = float(motion.crank_angle[-1]), float(motion.speed[-1])
+    if locks and not motor:
+        _require_no_driving_load(motion.crank_angle, turning[0] * motion.acceleration)
     if end == End.SLIDES:
         raise sliding(machine, *last)
     if end == End.INACCURATE:
@@ -311,6 +316,23 @@ def transient(
         between=StepPolynomials(motion.factors),
         implicit=motion.implicit,
     )
+
+
+# What a self-locking gearbox holds would turn backwards.
+_HELD = {End.STARTS_BACKWARDS: End.DOES_NOT_START, End.REVERSAL: End.STALL}
+
+_LOCKS = "the gearbox is self-locking (drive.gearbox.reverse = 0)"
+
+
+def _require_no_driving_load(crank_angle: Floats, gained: Floats) -> None:
+    """Raise if the load accelerates a machine whose motor is off, which a self-locking gearbox prevents."""
+    at = int(np.argmax(gained))
+    if gained[at] > _ROUNDING * np.abs(gained).max():
+        raise SteadyStateError(
+            f"the motion with the motor off is not computed: {_LOCKS}, and at a crank angle of "
+            f"{np.degrees(crank_angle[at] % (2 * np.pi)):.1f}° the load or the changing inertia would "
+            "drive the motor; give drive.gearbox.reverse the factor of a gearbox that is not self-locking"
+        )
 
 
 def _turning(machine: Machine, speed: float, clockwise: bool) -> tuple[int, int]:

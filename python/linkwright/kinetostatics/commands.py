@@ -220,16 +220,21 @@ def _head(speeds: dict[str, dict[str, Any]]) -> str:
 
 
 def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
-    """Orders of the shaking force and couple of a whole revolution, if bodies have places along it."""
+    """Orders of the shaking force and couple of a whole cycle, if bodies have places along the crankshaft."""
     from math import pi
 
     from linkwright.kinetostatics.couple import has_axial
     from linkwright.kinetostatics.shaking_orders import shaking_orders
+    from linkwright.linkages.whole_cycle import over_whole_motion
+    from linkwright.machine.program.compiled import compile_machine
 
     (first, *more) = cases.values()
     motion = first.motion
     turn = float(motion.crank_angle[-1] - motion.crank_angle[0])
-    if more or not has_axial(machine) or abs(turn - 2 * pi) > _WHOLE_TURN or not motion.speed.all():
+    if more or not has_axial(machine) or not motion.speed.all():
+        return None
+    repeating = over_whole_motion(compile_machine(machine))
+    if repeating is None or abs(turn - 2 * pi * repeating.turns) > _WHOLE_TURN:
         return None
     return shaking_orders(machine, speed=turn / float(motion.time[-1] - motion.time[0]))
 

@@ -1,6 +1,7 @@
 r"""Peaks, root mean squares, means and harmonics of forces, and load cases side by side.
 
-Harmonics are those of Fourier's series over the revolution.
+Harmonics are those of Fourier's series over the cycle, with orders k = 1, 2, … of a revolution, and of
+fractions k = 1/T, 2/T, … where the cycle takes T revolutions.
 
 .. math:: F(\varphi) = a_0 + \sum_k a_k \cos k\varphi + b_k \sin k\varphi
 """
@@ -138,13 +139,15 @@ _EVEN = 1e-6
 class Harmonics(Record):
     """Coefficients of a series."""
 
-    cosine: Annotated[
-        Floats, About("a_k in the unit of the quantity; the mean is a₀.", "(order + 1, components)")
+    cosine: Annotated[Floats, About("a_k in the unit of the quantity; the mean is a₀.", "(n, components)")]
+    sine: Annotated[Floats, About("b_k, likewise.", "(n, components)")]
+    order: Annotated[
+        Floats,
+        About("Orders k, cycles per revolution: 0, 1, …; 0, 1/2, 1, … of a cycle of two.", "(n,)"),
     ]
-    sine: Annotated[Floats, About("b_k, likewise.", "(order + 1, components)")]
 
     @property
-    def amplitude(self) -> Annotated[Floats, About("Amplitudes.", "(order + 1, components)")]:
+    def amplitude(self) -> Annotated[Floats, About("Amplitudes.", "(n, components)")]:
         """√(a_k² + b_k²) of each component."""
         amplitude: Floats = np.hypot(self.cosine, self.sine)
         return amplitude
@@ -152,26 +155,26 @@ class Harmonics(Record):
 
 @public
 def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmonics:
-    """Fourier series of a quantity over one revolution.
+    """Fourier series of a quantity over a cycle of one or more revolutions.
 
     Parameters
     ----------
     crank_angle : ndarray, shape (n,)
-        Angles of one revolution in even steps, its end included [rad].
+        Angles of whole revolutions in even steps, their end included [rad].
     values : ndarray, shape (n,) or (n, components)
         The quantity.
     order : int
-        Highest order; at most half of the steps.
+        Highest order; at most half of the steps of a revolution.
 
     Returns
     -------
     Harmonics
-        Orders 0 to ``order``.
+        Orders 0 to ``order``, in steps of one over the number of revolutions.
 
     Raises
     ------
     ShapeError
-        The angles are not one revolution in even steps, a value is missing, or the order is too high.
+        The angles are not whole revolutions in even steps, a value is missing, or the order is too high.
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
     table = np.atleast_1d(np.asarray(values, dtype=np.float64))
@@ -179,15 +182,20 @@ def harmonics(crank_angle: Floats, values: ArrayLike, order: int = 8) -> Harmoni
         raise ShapeError(f"values: found {len(table)} rows, expected one for each of {len(phi)} crank angles")
     table = table.reshape(len(phi), -1)[:-1]
     steps = len(table)
-    even = steps > 1 and np.allclose(np.diff(phi), 2 * np.pi / steps, rtol=0, atol=_EVEN * 2 * np.pi / steps)
-    if not even:
-        raise ShapeError("harmonics need a revolution of the crank in even steps; give forces n, not angles")
-    if not np.isfinite(table).all() or not 0 <= order < steps / 2:
+    turns = round(float(phi[-1] - phi[0]) / (2 * np.pi)) if steps > 1 else 0
+    step = 2 * np.pi * turns / max(steps, 1)
+    if turns < 1 or not np.allclose(np.diff(phi), step, rtol=0, atol=_EVEN * step):
         raise ShapeError(
-            f"harmonics of order {order} need finite values at more than {2 * order} steps, found {steps}"
+            "harmonics need whole revolutions of the crank in even steps; give forces n, not angles"
         )
-    c = np.fft.rfft(table, axis=0)[: order + 1] / steps
+    if not np.isfinite(table).all() or not 0 <= order * turns < steps / 2:
+        raise ShapeError(
+            f"harmonics of order {order} need finite values at more than {2 * order * turns} steps, "
+            f"found {steps}"
+        )
+    c = np.fft.rfft(table, axis=0)[: order * turns + 1] / steps
     c[1:] *= 2
-    # A revolution that does not begin at zero has its phase in the coefficients.
-    c = c * np.exp(-1j * np.arange(order + 1) * phi[0])[:, None]
-    return Harmonics(c.real.copy(), -c.imag)
+    orders = np.arange(len(c)) / turns
+    # A cycle that does not begin at zero has its phase in the coefficients.
+    c = c * np.exp(-1j * orders * phi[0])[:, None]
+    return Harmonics(c.real.copy(), -c.imag, orders)

@@ -27,13 +27,13 @@ from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.forces import acting, solved
-from linkwright.kinetostatics.motion import Motion, motion_at
+from linkwright.kinetostatics.motion import Motion, motion_at, over_turns
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.closure import closure_of
 from linkwright.linkages.kinematics import kinematics_along
 from linkwright.linkages.model.structure import Structure, structure
-from linkwright.linkages.whole_cycle import force_turns
+from linkwright.linkages.whole_cycle import cycle_of, force_turns
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import SteadySolution
@@ -127,7 +127,7 @@ def drive_forces_along(
     entries = _entries(machine, variables)
     program = entries.program
     solution = _solution(machine, program)
-    motion = motion_at(machine, None, angles=angles) if solution is None else _read(solution, angles)
+    motion = motion_at(machine, None, angles=angles) if solution is None else _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
     drives = _collected(_SceneAlong(machine, along, entries)).drives()
     return program, drives, lost, Kinks(machine, program, solution)
@@ -176,7 +176,10 @@ def _motion_and_sides(machine: Machine, kinks: Kinks) -> tuple[Motion, Bools]:
     """The motion of `forces`, and both sides of the kinks that lie on its angles; which angles are sides."""
     has_motor = machine.drive is not None and machine.drive.motor is not None
     state, solution = solved_state(machine, _ACCURACY, _N) if has_motor else (None, None)
-    motion = motion_at(machine, state)
+    if state is None:
+        motion = motion_at(machine, None)
+    else:
+        motion = over_turns(state, force_turns(compile_machine(machine)))
     beside = kinks.beside(motion.crank_angle)
     if not len(beside):
         return motion, np.zeros(len(motion.crank_angle), dtype=bool)
@@ -199,13 +202,20 @@ def _there(machine: Machine, solution: SteadySolution | None, motion: Motion, an
     """A motion that is solved, or at the speed of another one, at some crank angles."""
     if solution is None:
         return motion_at(machine, None, speed=float(motion.speed[0]), angles=angles)
-    return _read(solution, angles)
+    return _read(machine, solution, angles)
 
 
-def _read(solution: SteadySolution, angles: Floats) -> Motion:
+def _read(machine: Machine, solution: SteadySolution, angles: Floats) -> Motion:
     """The motion that derivatives are of: what is left of large torques needs both from one mesh."""
-    read = solution.curves(angles)
+    read = solution.curves(_of_speed(machine, angles))
     return Motion(angles, read.speed, read.acceleration, read.time)
+
+
+def _of_speed(machine: Machine, angles: Floats) -> Floats:
+    """Crank angles within the cycle of the speed; that of forces may be several of these."""
+    cycle = cycle_of(machine)
+    rest = np.mod(angles, cycle)
+    return np.where((rest == 0.0) & (angles > 0.0), cycle, rest)
 
 
 def _rounding(scene: Scene, peaks: Mapping[str, float]) -> dict[str, float]:
@@ -289,7 +299,7 @@ def _motion_along(
     n = len(program.variables)
     if solution is not None:
         gradient = gradient_along(machine, solution, program)
-        curves = gradient.curves(phi)
+        curves = gradient.curves(_of_speed(machine, phi))
         followed: dict[str, Any] = {
             name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }

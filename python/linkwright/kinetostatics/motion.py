@@ -88,7 +88,7 @@ def motion_at(
     if speed is None:
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:
-            return _over_turns(steady_state(machine, n=n), force_turns(compile_machine(machine)))
+            return over_turns(steady_state(machine, n=n), force_turns(compile_machine(machine)))
         speed = None if drive is None else drive.speed
     if speed is None:
         raise InputError(
@@ -101,7 +101,7 @@ def motion_at(
     return _at_speed(speed, acceleration, angles)
 
 
-def _over_turns(steady: SteadyState, turns: int) -> Motion:
+def over_turns(steady: SteadyState, turns: int) -> Motion:
     """Steady motion over so many revolutions: forces may take several cycles of the speed to repeat."""
     cycles = math.lcm(turns, steady.turns) // steady.turns
     ends, one = steady.crank_angle[-1], len(steady.crank_angle) - 1

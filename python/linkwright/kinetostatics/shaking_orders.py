@@ -5,7 +5,8 @@ Both are series in the crank angle,
 .. math:: \mathbf F = \sum_k \mathbf a_k \cos k\varphi + \mathbf b_k \sin k\varphi
 
 whose orders k = 1 and 2 are the primary and secondary forces and couples of engines; each order draws an
-ellipse, of which the longer semi-axis is its maximum.
+ellipse, of which the longer semi-axis is its maximum. A mechanism that repeats after T revolutions has orders
+of 1/T, 2/T, … too.
 
 References
 ----------
@@ -21,6 +22,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.public import public
@@ -31,7 +33,7 @@ from linkwright.kinetostatics.envelope import Harmonics, harmonics
 from linkwright.kinetostatics.motion import motion_at
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import masses
-from linkwright.linkages.period import turns_to_repeat
+from linkwright.linkages.whole_cycle import over_whole_motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
@@ -90,19 +92,21 @@ def shaking_orders(machine: Machine, *, speed: float | None = None, highest: int
     Returns
     -------
     ShakingOrders
-        From the first order, of primary forces and couples, on.
+        From the first order, of primary forces and couples, on; of a cycle of T revolutions from 1/T on.
 
     Raises
     ------
     InputError
-        The motion does not repeat after one revolution, or the order makes no sense.
+        The motion does not repeat within 24 revolutions, or the order makes no sense.
     AssemblyError
         The crank does not rotate fully.
     """
     if not 1 <= highest <= _HIGHEST:
         raise InputError(f"highest: found {highest}, expected an order from 1 to {_HIGHEST}")
-    if turns_to_repeat(compile_machine(machine)) != 1:
-        raise InputError("shaking orders: found a motion that does not repeat after one revolution")
+    if over_whole_motion(compile_machine(machine)) is None:
+        raise InputError(
+            f"shaking orders: found a motion that does not repeat within {TURNS_MAX} revolutions of the crank"
+        )
     if speed is None:
         motion = motion_at(machine, None)
         speed = float((motion.crank_angle[-1] - motion.crank_angle[0]) / (motion.time[-1] - motion.time[0]))
@@ -115,7 +119,7 @@ def shaking_orders(machine: Machine, *, speed: float | None = None, highest: int
         np.where(axis > NOISE * size, axis, 0.0)
         for axis, size in zip((_longer_axis(part)[1:] for part in parts), _sizes(scene), strict=True)
     )
-    return ShakingOrders(speed, np.arange(1.0, highest + 1), forces, couples, force, couple)
+    return ShakingOrders(speed, force.order[1:], forces, couples, force, couple)
 
 
 def _sizes(scene: Scene) -> tuple[float, float]:

@@ -75,10 +75,11 @@ def orders_table(orders: ShakingOrders) -> Table:
     """Primary, secondary and higher shaking forces and couples at a constant speed."""
     scales = [float(values.max()) for values in (orders.force_max, orders.couple_max)]
     rows: list[Row] = [
-        (f"order {order:g}", "", measured(force, "N", scales[0]), measured(couple, "N m", scales[1]))
-        for order, force, couple in list(
-            zip(orders.order.tolist(), orders.force_max.tolist(), orders.couple_max.tolist(), strict=True)
-        )[:_ORDERS]
+        (f"order {order:.4g}", "", measured(force, "N", scales[0]), measured(couple, "N m", scales[1]))
+        for order, force, couple in zip(
+            orders.order.tolist(), orders.force_max.tolist(), orders.couple_max.tolist(), strict=True
+        )
+        if order <= _ORDERS
     ]
     title = f"Shaking force and couple of inertia at {quantity(orders.speed, 'rad/s')}"
     return Table("shaking_orders", title, ("", "", "maximum force", "maximum couple"), rows)

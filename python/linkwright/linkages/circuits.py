@@ -10,7 +10,7 @@ and Mirth, *Circuits and branches of single-degree-of-freedom planar linkages*, 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import pairwise, product
 from typing import Annotated
 
 import numpy as np
@@ -19,7 +19,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.linkages.closure import closure_of, limiter_at
+from linkwright.linkages.closure import closure_of, limiters_at
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -33,6 +33,10 @@ _SIGNED = Element.SliderRod | Element.Rocker | Element.GuidedRod | Element.Slott
 
 # Difference of crank angles at which two branches end that is rounding: limits are roots.
 _MEET = 1e-6
+_TURN = 2 * np.pi
+
+# Revolutions and branches, over all assemblies, after which no further assembly is looked at.
+_TURNS_MAX, _BRANCHES_MAX = 1024, 4096
 
 
 _BRANCH_ASSEMBLY = '``"given"`` or ``"other"`` by dyad: as in the machine\'s description, or mirrored.'
@@ -55,6 +59,10 @@ class Circuit(Record):
     branches: Annotated[
         tuple[Branch, ...], About("Those with as many dyads as possible in the given assembly first.")
     ]
+    complete: Annotated[
+        bool,
+        About("Whether all assemblies were looked at; a search ends at 4096 branches or 1024 revolutions."),
+    ] = True
 
     @property
     def turns_fully(self) -> bool:
@@ -84,12 +92,16 @@ def circuits(machine: Machine) -> tuple[Circuit, ...]:
     """
     compiled = compile_machine(machine).first()
     slots = _slots(compiled, machine)
-    branches = [
-        branch
-        for signs in product((1.0, -1.0), repeat=len(slots))
-        for branch in _branches(compiled, slots, signs)
-    ]
-    return tuple(Circuit(tuple(sign for sign, _ in group)) for group in _joined(branches))
+    branches: list[Ended] = []
+    turns, complete = 0, True
+    for signs in product((1.0, -1.0), repeat=len(slots)):
+        if turns > _TURNS_MAX or len(branches) > _BRANCHES_MAX:
+            complete = False
+            break
+        more, revolutions = _branches(compiled, slots, signs)
+        branches += more
+        turns += revolutions
+    return tuple(Circuit(tuple(one for one, _ in group), complete) for group in _joined(branches))
 
 
 def _slots(compiled: CompiledMachine, machine: Machine) -> dict[str, int]:
@@ -130,47 +142,51 @@ def _tied(compiled: CompiledMachine) -> str:
 Ended = tuple[Branch, list[tuple[float, str]]]
 
 
-def _branches(compiled: CompiledMachine, slots: dict[str, int], signs: tuple[float, ...]) -> list[Ended]:
-    """The branches of one choice of assemblies."""
+def _branches(
+    compiled: CompiledMachine, slots: dict[str, int], signs: tuple[float, ...]
+) -> tuple[list[Ended], int]:
+    """The branches of one choice of assemblies, and the revolutions that were looked at."""
     q = compiled.parameters.copy()
     q[list(slots.values())] *= signs
     other = replace(compiled, parameters=q)
     where = closure_of(other)
     words = dict(zip(slots, ("given" if sign > 0 else "other" for sign in signs), strict=True))
-    is_full = where.turns_fully
-    return [
-        (
-            Branch(words, low, high, is_full),
-            [] if is_full else [(end, limiter_at(other, end)) for end in (low, high)],
-        )
+    limits = iter(
+        () if where.turns_fully else limiters_at(other, [end for pair in where.ranges for end in pair])
+    )
+    branches = [
+        (Branch(words, low, high, where.turns_fully), list(zip((low, high), limits, strict=False)))
         for low, high in where.ranges
     ]
+    return branches, where.turns or 1
 
 
 def _joined(branches: list[Ended]) -> list[list[Ended]]:
-    """Branches in groups that meet at limits."""
-    groups: list[list[Ended]] = []
-    for branch in branches:
-        meeting = [group for group in groups if any(_meet(branch, member) for member in group)]
-        groups = [group for group in groups if group not in meeting]
-        groups.append([member for group in meeting for member in group] + [branch])
-    # The given assembly is the first branch.
-    return sorted(groups, key=lambda group: min(branches.index(member) for member in group))
+    """Branches in groups that meet at limits; the first group has the given assembly, the first branch."""
+    # Two meet if they end at the same angle, by the same dyad, and differ in that dyad alone.
+    first = list(range(len(branches)))
 
+    def root(n: int) -> int:
+        while first[n] != n:
+            first[n] = n = first[first[n]]
+        return n
 
-def _meet(first: Ended, second: Ended) -> bool:
-    """Whether two branches end at the same angle, by the same dyad, and differ in that dyad alone."""
-    return any(
-        _apart(a, b) < _MEET and dyad == limiting and _mirrored(first[0], second[0], dyad)
-        for a, dyad in first[1]
-        for b, limiting in second[1]
-    )
-
-
-def _mirrored(first: Branch, second: Branch, dyad: str) -> bool:
-    """Whether two assemblies differ in one dyad, and in no other."""
-    return [name for name in first.assembly if first.assembly[name] != second.assembly[name]] == [dyad]
-
-
-def _apart(a: float, b: float) -> float:
-    return float(abs((a - b + np.pi) % (2 * np.pi) - np.pi))
+    ends: dict[tuple[str, tuple[str, ...]], list[tuple[float, str, int]]] = {}
+    for n, (branch, limits) in enumerate(branches):
+        for angle, dyad in limits:
+            others = tuple(side for name, side in branch.assembly.items() if name != dyad)
+            ends.setdefault((dyad, others), []).append((angle % _TURN, branch.assembly[dyad], n))
+    for met in ends.values():
+        met.sort()
+        # Ends at one angle, across a whole revolution too, from the first gap between two on.
+        gaps = [n for n in range(len(met)) if met[n][0] - met[n - 1][0] + (0 if n else _TURN) > _MEET] or [0]
+        for low, high in pairwise([*gaps, gaps[0] + len(met)]):
+            there = [met[n % len(met)] for n in range(low, high)]
+            if len({side for _, side, _ in there}) > 1:
+                least = min(root(n) for *_, n in there)
+                for *_, n in there:
+                    first[root(n)] = least
+    groups: dict[int, list[Ended]] = {}
+    for n, branch in enumerate(branches):
+        groups.setdefault(root(n), []).append(branch)
+    return list(groups.values())

@@ -185,7 +185,13 @@ def _over(turns: int, per_turn: int) -> Floats:
 
 def limiter_at(compiled: CompiledMachine, angle: float) -> str:
     """Name of the dyad that limits the motion at an end of a range."""
-    return _Search(compiled, 1).limiter(angle)
+    return limiters_at(compiled, [angle])[0]
+
+
+def limiters_at(compiled: CompiledMachine, angles: Iterable[float]) -> list[str]:
+    """Names of the dyads that limit the motion at ends of ranges."""
+    search = _Search(compiled, 1)
+    return [search.limiter(angle) for angle in angles]
 
 
 class _Search:
@@ -457,6 +463,18 @@ def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
     return AssemblyError(_sentence(closed, machine), element=closed.element, crank_angle=at)
 
 
+def is_screw(machine: Machine) -> bool:
+    """Whether only screws and the like drive the machine, whose travel ends: no crank that rotates on."""
+    own = machine.mechanism
+    screws = [driver.per_turn for driver in own.linear_drivers.values()]
+    return bool(screws) and all(screws) and not (own.cranks or own.cams or machine.pumping_unit)
+
+
+def driver_word(machine: Machine) -> str:
+    """What rotates at the angle φ: the crank, or the drive of a screw."""
+    return "drive" if is_screw(machine) else "crank"
+
+
 def _sentence(closed: Closure, machine: Machine) -> str:
     """What does not close, where, and the remedy."""
     gap = compile_machine(machine).law_gap
@@ -471,6 +489,10 @@ def _sentence(closed: Closure, machine: Machine) -> str:
     if not closed.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"
     where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)
+    if is_screw(machine):
+        return (
+            f"the mechanism closes only at drive angles {where}: beyond, {what}; keep the drive within them"
+        )
     return f"the mechanism closes only at crank angles {where}: beyond, {what}; {remedy}"
 
 

@@ -242,6 +242,7 @@ def _zero_data(zero: Zero) -> dict[str, Any]:
 def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
     from linkwright.kernel.units import TIME
+    from linkwright.linkages.closure import driver_word
     from linkwright.linkages.law import constant_speed
 
     if speed.value * TIME.most < 2 * pi:
@@ -252,7 +253,8 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
         raise InputError(f"{speed.source}: found {speed.value:g} rad/s, expected {expected}")
     times = (0.0, 2 * pi / speed.value)
     results = {"crank_speed": speed.value, "speed_source": speed.source} | _zero_data(zero)
-    head = f"one revolution of the crank{_from(zero)} in {times[1]:.6g} s, {speed}"
+    driver = driver_word(machine)
+    head = f"one revolution of the {driver}{_from(zero)} in {times[1]:.6g} s, {speed.words(driver)}"
     law = constant_speed(speed.value, zero.angle)
     return _followed(machine, law, times, steps, head, results, zero, json=json, csv=csv)
 

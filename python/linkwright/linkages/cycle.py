@@ -39,7 +39,7 @@ from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 if TYPE_CHECKING:
     from linkwright.linkages.sweep import LinkageSweep
 
-LIMIT = "limit of crank rotation"
+LIMIT, END = "limit of crank rotation", "end of travel"
 PASSED = "change point passed"
 NOT_PASSED = "change point not passed"
 REVERSAL = "dead centre of the output"
@@ -55,8 +55,9 @@ class DeadPoint(NamedTuple):
     element : str
         Name of the dyad, or of the link or slide that turns back.
     kind : str
-        ``"limit of crank rotation"``, ``"change point passed"``, ``"change point not passed"`` (both links in
-        line, their rates not determined) or ``"dead centre of the output"``.
+        ``"limit of crank rotation"``, ``"end of travel"`` of a motion that never repeats,
+        ``"change point passed"``, ``"change point not passed"`` (both links in line, their rates not
+        determined) or ``"dead centre of the output"``.
     multiplicity : int
         Of the zero: 1 where a sign changes, 2 where a radicand touches zero.
     turns_back : str
@@ -84,7 +85,8 @@ def _of_closure(compiled: CompiledMachine, where: Closure) -> Iterator[DeadPoint
     elif not where.turns_fully:
         for end in (end for limits in where.ranges for end in limits):
             at = end if where.turns is None else end % (2 * np.pi * where.turns)
-            yield DeadPoint(at, limiter_at(compiled, end), LIMIT, 1)
+            kind = END if where.turns is None else LIMIT
+            yield DeadPoint(at, limiter_at(compiled, end), kind, 1)
 
 
 def _passed(compiled: CompiledMachine, swept: LinkageSweep) -> Iterator[DeadPoint]:

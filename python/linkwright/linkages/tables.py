@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, measured, number, parted, quantity
 from linkwright.kernel.page.table import Row, Table
-from linkwright.linkages.cycle import DeadPoint, ElementMotion, Linkage
+from linkwright.linkages.cycle import END, DeadPoint, ElementMotion, Linkage
 
 # More dead points than this are the regular ones of many outputs, and tell nothing.
 _DEAD_POINTS_MAX = 24
@@ -109,7 +109,10 @@ def _dead(linkage: Linkage) -> Table:
         (f"{_turning(point, names)}: {point.kind}", "φ", crank_angle(point.angle, cycle=cycle))
         for point in points
     ]
-    return Table("dead_points", "Dead points", ("element", "", "crank angle"), rows)
+    is_crank = all(point.kind != END for point in points)
+    return Table(
+        "dead_points", "Dead points", ("element", "", "crank angle" if is_crank else "drive angle"), rows
+    )
 
 
 def _turning(point: DeadPoint, names: list[str]) -> str:

@@ -16,7 +16,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.description.base import Description, suggestion
-from linkwright.kernel.description.place import field_names, join, keys, look, split
+from linkwright.kernel.description.place import current_key, field_names, join, keys, look, split
 from linkwright.kernel.description.problems import problems
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of, words_of
 from linkwright.kernel.errors import InputError, MachineError, Problem
@@ -168,7 +168,7 @@ def resolve(node: object, address: str) -> tuple[str, ...]:
         # Keys with points are names, which only tables have.
         known = node if isinstance(node, Mapping) else ()
         n = next((n for n in range(len(parts), 1, -1) if ".".join(parts[:n]) in known), 1)
-        key = ".".join(parts[:n])
+        key = current_key(node, ".".join(parts[:n]))
         addresses.append(key)
         node, parts = look(node, key), parts[n:]
     return tuple(addresses)

@@ -7,11 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic import BaseModel
+
 from linkwright.kernel.description.place import keys, split
+from linkwright.kernel.description.schema_walk import key_as_written
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.text_file import deep_line
 from linkwright.kernel.units import show
 from linkwright.machine.address import resolve
+from linkwright.machine.machine import Machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,14 +65,14 @@ def parse(text: str) -> Override:
     return _of(address.strip(), _value(value.strip()), text)
 
 
-def apply(tables: dict[str, Any], change: Override) -> tuple[str, ...]:
+def apply(tables: dict[str, Any], change: Override, model: type[BaseModel] = Machine) -> tuple[str, ...]:
     """Write one override into the tables of a file.
 
-    `tables`: tables of the file; changed in place. Returns: keys from the top down to what is new: the entry,
-    or the first table that was made for it. Raises InputError: the way to the entry leads through something
-    that is no table.
+    `tables`: tables of the file, which `model` describes; changed in place. Returns: keys from the top down
+    to what is new: the entry, or the first table that was made for it. Raises InputError: the way to the
+    entry leads through something that is no table.
     """
-    place = resolve(tables, change.address)
+    place = key_as_written(resolve(tables, change.address), tables, model)
     new = place
     node: Any = tables
     for n, key in enumerate(place[:-1], start=1):

@@ -69,6 +69,11 @@ def read(path: str | os.PathLike[str], overrides: Overrides = (), *, allow_outsi
     return read_as(Machine, _of_library(Path(path)), overrides, allow_outside=allow_outside)
 
 
+def text_of_machine(path: Path) -> str:
+    """The text of a machine file, or of a machine of the library; a `MachineFileError` if there is none."""
+    return _text(_of_library(path), "a machine file")
+
+
 def _of_library(path: Path) -> Path:
     """The file of a machine of the library that is named; the path itself if a file is meant."""
     is_known = _is_bare_name(path) and path.name in library()
@@ -144,7 +149,7 @@ def loads_as(
     """
     tables = tables_of(text, path)
     _check_format(tables, path, text)
-    places = [(apply(tables, change), change) for change in parse_all(overrides)]
+    places = [(apply(tables, change, model), change) for change in parse_all(overrides)]
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     given = deepcopy(tables)

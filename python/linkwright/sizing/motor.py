@@ -40,6 +40,10 @@ ESTIMATE = f"estimated from {KNOWN} by similarity, J as M_rated^(5/3)"
 # not as M^(5/3); over a range of torques of one to three that is a factor of two.
 _DOUBT = 2.0
 
+# Of motors of the same power the usual ones have four or six poles, one more or less than this; two poles
+# need larger ratios, eight larger motors.
+_USUAL_POLES = 5
+
 
 @dataclass(frozen=True)
 class Candidate(Record):
@@ -329,9 +333,10 @@ def _has_ratio(machine: Machine) -> bool:
     return machine.drive is not None and "ratio" in machine.drive.gearbox.model_fields_set
 
 
-def _rank(candidate: Candidate) -> tuple[bool, float, str]:
-    """Those that pass first, then the smaller ones."""
-    return not candidate.passes, candidate.known.power_rated, candidate.type
+def _rank(candidate: Candidate) -> tuple[bool, float, bool, str]:
+    """Those that pass first, then the smaller ones, of these the ones with four or six poles."""
+    known = candidate.known
+    return not candidate.passes, known.power_rated, abs(known.poles - _USUAL_POLES) > 1, candidate.type
 
 
 def _least_torques(known: CatalogueMotor) -> Iterator[str]:

@@ -200,7 +200,7 @@ def _made(machine: Machine, named: Axis, variable: Variable, kind: Kind) -> Axis
 
 def _require_possible_truncation(machine: Machine, cut: Axis, given: Distribution, kind: Kind) -> None:
     """Refuse ends of a distribution beyond those of an entry, which it may approach."""
-    for key, near in (("least", cut.low + kind.least), ("greatest", cut.high - kind.least)):
+    for key, near in (("min", cut.low + kind.least), ("max", cut.high - kind.least)):
         end = getattr(given, key)
         expected = "" if end is None else _impossible(machine, cut, [near])
         if expected:
@@ -295,23 +295,21 @@ def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, flo
     """Kind, mean, deviation; and the ends of a distribution."""
     read = {
         key: parsed(name, f"distribution.{key}", value, kind)
-        for key in ("mean", "deviation", "least", "greatest")
+        for key in ("mean", "deviation", "min", "max")
         if (value := getattr(given, key)) is not None
     }
     lowest = 0.0 if given.kind == "lognormal" else -math.inf
-    low, high = read.get("least", lowest), read.get("greatest", math.inf)
+    low, high = read.get("min", lowest), read.get("max", math.inf)
     mean, deviation = read.get("mean", math.nan), read.get("deviation", math.nan)
     if not low < high:
-        least = lowest if given.least is None else given.least
-        raise problem(
-            name, "distribution.greatest", show(given.greatest), f"more than `least`, {show(least)}"
-        )
+        least = lowest if given.min is None else given.min
+        raise problem(name, "distribution.max", show(given.max), f"more than `min`, {show(least)}")
     if given.kind in ("normal", "lognormal") and not deviation > 0:
         raise problem(name, "distribution.deviation", show(given.deviation), "more than 0")
     if given.kind == "lognormal" and not mean > 0:
         raise problem(name, "distribution.mean", show(given.mean), "more than 0")
     if given.kind == "triangular" and not low <= mean <= high:
-        ends = f"{show(given.least)} to {show(given.greatest)}"
+        ends = f"{show(given.min)} to {show(given.max)}"
         raise problem(name, "distribution.mean", show(given.mean), ends)
     start, end = normal_shares(given.kind, mean, deviation, low, high)
     if given.kind in ("normal", "lognormal") and end - start < 1e-9:

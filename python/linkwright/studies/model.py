@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault, formerly
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import SWEEP_ROWS
 from linkwright.kernel.units import Angle, Speed
@@ -37,12 +37,16 @@ class Distribution(CheckedDescription):
     kind: Literal["normal", "lognormal", "uniform", "triangular"]
     mean: Value | None = Field(None, description="Mean; of a triangular distribution, the mode.")
     deviation: Value | None = Field(None, description="Standard deviation of the whole distribution.")
-    least: Value | None = Field(None, description="Lower truncation.")
-    greatest: Value | None = Field(None, description="Upper truncation.")
+    min: Value | None = Field(
+        None, validation_alias=formerly("least", "min"), description="Lower truncation."
+    )
+    max: Value | None = Field(
+        None, validation_alias=formerly("greatest", "max"), description="Upper truncation."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         bell = ("mean", "deviation")
-        wanted = {"uniform": ("least", "greatest"), "triangular": ("mean", "least", "greatest")}
+        wanted = {"uniform": ("min", "max"), "triangular": ("mean", "min", "max")}
         for key in wanted.get(self.kind, bell):
             if getattr(self, key) is None:
                 yield fault(key, expected=f"a value: a {self.kind} distribution needs it")

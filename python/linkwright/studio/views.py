@@ -163,4 +163,19 @@ def _view(machine: Machine) -> View | None:
         from linkwright.app.study import study
 
         return knife_view(study(machine))
+    if machine.turning_moment is not None:
+        return diagram_view(machine)
     return None
+
+
+def diagram_view(machine: Machine) -> View:
+    """A turning-moment diagram: ``curves``, each ``x`` and ``y``: driver and load, or the excess energy."""
+    from linkwright.turning.diagram import turning_moment
+
+    diagram = turning_moment(machine)
+    curves = [(diagram.crank_angle, torque) for torque in (diagram.torque_driver, diagram.torque_load)]
+    if not len(diagram.crank_angle):
+        # Areas alone: the energy at their ends.
+        energies = [0.0, *(area["energy_after"] for area in diagram.areas)]
+        curves = [(np.arange(len(energies)), np.array(energies))]
+    return {"kind": "turning", "curves": [{"x": x, "y": y} for x, y in curves]}

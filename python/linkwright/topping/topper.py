@@ -73,7 +73,13 @@ class TopperStudy(Result):
         float, Label("time of the travel along the row", "t_x", "s", "Of the paper, with Δ.")
     ]
     time_across: Annotated[
-        float, Label("time of the travel across the row", "t_y", "s", "Of the paper, with Δ.")
+        float,
+        Label(
+            "time of the travel across the row",
+            "t_y",
+            "s",
+            "Of the paper, with Δ; infinite for a knife at rest.",
+        ),
     ]
     condition_holds: Annotated[bool, About("Whether t_y ≥ t_x, the paper's (1).")]
     length_published: Annotated[float, Label("minimum length by the paper's (10)", "", "m")]

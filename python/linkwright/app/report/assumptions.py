@@ -19,6 +19,7 @@ from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import DryFriction, FormulaLoad, Gravity, ViscousFriction
 from linkwright.kinetostatics.model.loads.table import ForcePosition, TorqueAngle, TorqueSpeed, TorqueSwing
+from linkwright.linkages.closure import is_screw
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia, reverse_factor
 
@@ -55,7 +56,7 @@ def assumed_of(machine: Machine) -> list[str]:
     cut = [*_diagram(machine), *_topper(machine)]
     if machine.is_topper_alone or machine.is_diagram_alone:
         return cut
-    sentences = [*cut, *_mechanism(), *_bodies(machine), *_loads(machine)]
+    sentences = [*cut, *_mechanism(machine), *_bodies(machine), *_loads(machine)]
     if machine.drive is not None:
         sentences += [*_drive(machine.drive), *_motor(machine.drive)]
     return sentences
@@ -77,11 +78,13 @@ def _topper(machine: Machine) -> list[str]:
     return list(topper_assumptions(machine.topper))
 
 
-def _mechanism() -> Iterator[str]:
+def _mechanism(machine: Machine) -> Iterator[str]:
+    angle = "crank angle φ, which counts counter-clockwise from the x axis and"
+    if is_screw(machine):
+        angle = "angle φ of the drive, which"
     yield (
-        "The machine has one degree of freedom, the crank angle φ, which counts counter-clockwise from the x "
-        "axis and increases in time. Links and shafts are rigid. Joints have no clearance, and no friction "
-        "except the given loads."
+        f"The machine has one degree of freedom, the {angle} increases in time. Links and shafts are rigid. "
+        "Joints have no clearance, and no friction except the given loads."
     )
     yield "Load torque M_r is positive where it opposes forward rotation."
 
@@ -120,11 +123,20 @@ def _drive(drive: Drive) -> Iterator[str]:
     if drive.motor is None:
         return
     gearbox = drive.gearbox
+    forward = (
+        f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
+        f"η = {number(gearbox.efficiency)}; "
+    )
+    if gearbox.locks:
+        yield (
+            f"{forward}it is self-locking: it holds any load that drives the crank, and none reaches the "
+            "motor."
+        )
+        return
     back = number(float(reverse_factor(drive)))
     usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as given"
     yield (
-        f"Gearbox: M_d = M i η while the motor drives, with i = {number(gearbox.ratio)} and "
-        f"η = {number(gearbox.efficiency)}; while the load drives the motor, η is replaced by "
+        f"{forward}while the load drives the motor, η is replaced by "
         f"{back}{usual if gearbox.efficiency != 1 or gearbox.reverse is not None else ''}."
     )
 

@@ -7,6 +7,7 @@ torque is the printed one, or rated power over rated speed where none is printed
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, fields
 from functools import cache
 from typing import Any
@@ -167,9 +168,29 @@ def motor(type: str) -> CatalogueMotor:
     """
     known = _by_type().get(type)
     if known is None:
-        expected, remedy = "a type of the catalogue of motors", suggestion(type, _by_type())
+        expected, remedy = "a type of the catalogue of motors", _like(type)
         raise MachineError([Problem(found=show(type), expected=expected, remedy=remedy)])
     return known
+
+
+def _like(type: str) -> str:
+    """Types that a name may stand for: of the number of poles that it gives, if it gives one."""
+    known = _by_type()
+    named = re.search(r"(\d+)[- ]?pole|^4A\d+[A-Z]+(\d+)", type)
+    if named is None:
+        return suggestion(type, known)
+    poles = int(named[1] or named[2])
+    alike = [name for name, one in known.items() if one.poles == poles]
+    if not alike:
+        numbers = ", ".join(str(n) for n in sorted({one.poles for one in known.values()}))
+        return f"the catalogue has motors with {numbers} poles"
+    power = re.search(r"(\d+(?:[.,]\d+)?) ?kW", type)
+    wanted = float(power[1].replace(",", ".")) * 1e3 if power else None
+    if wanted is not None and not any(known[name].power_rated == wanted for name in alike):
+        near = sorted(alike, key=lambda name: (abs(known[name].power_rated - wanted), name))[:3]
+        return "near are " + ", ".join(f'"{name}"' for name in near)
+    same = [name for name in alike if wanted is None or known[name].power_rated == wanted]
+    return suggestion(type, same) or "there is " + ", ".join(f'"{name}"' for name in same[:12])
 
 
 def estimated_inertia(torque_rated: float) -> float:
@@ -201,7 +222,8 @@ def checked_name(type: str) -> str:
 def entries(type: str) -> dict[str, Any]:
     """What the catalogue gives for the entries of a motor in a machine file. Returns: entry → value in SI.
     The rated torque is left out where it is only power over speed; a breakdown torque that the source does
-    not give is the minimum of IEC 60034-1, a starting torque that of IEC 60034-12 for design N.
+    not give is the minimum of IEC 60034-1, a starting torque that of IEC 60034-12 for design N,
+    the inertia of a rotor by similarity.
     """
     known = _given(_row(type))
     names = (
@@ -217,6 +239,7 @@ def entries(type: str) -> dict[str, Any]:
     values = {name: known[name] for name in names if name in known}
     if motor(type).breakdown is not None:
         values["torque_breakdown"] = motor(type).breakdown
+    values.setdefault("inertia", estimated_inertia(motor(type).torque_rated))
     return values | motor(type).start
 
 

@@ -38,17 +38,17 @@ else:
 Shaft = Literal["motor", "crank"]
 End = Literal["motor", "gearbox", "crank"]
 
-_REVERSE = '"same", or a number greater than 0'
+_REVERSE = '"same", a number greater than 0, or 0 for a self-locking gearbox'
 
 
 def _reverse(value: object) -> object:
     """The torque factor of the gearbox when the load drives the motor."""
-    if value is None or value == "same" or (is_number(value) and 0 < float(value) < float("inf")):
+    if value is None or value == "same" or (is_number(value) and 0 <= float(value) < float("inf")):
         return value
     raise wrong(show(value), _REVERSE)
 
 
-_REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "exclusiveMinimum": 0}]}
+_REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "minimum": 0}]}
 
 
 class Gearbox(Description):
@@ -62,8 +62,9 @@ class Gearbox(Description):
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
     ] = Field(
         None,
-        description='The same factor while the load drives the motor: a number, or "same" for the value '
-        "of `efficiency`. Default: 1/efficiency.",
+        description="The same factor while the load drives the motor: a number, "
+        '"same" for the value of `efficiency`, or 0 for a self-locking gearbox, which holds any load that '
+        "drives (worm, screw). Default: 1/efficiency.",
     )
     inertia: Annotated[float, not_negative(INERTIA)] = Field(
         0.0, description="Moment of inertia, referred to the motor shaft."
@@ -78,6 +79,11 @@ class Gearbox(Description):
         description="Stiffness of teeth or belt, referred to the motor shaft: torque per angle. Default: "
         "rigid.",
     )
+
+    @property
+    def locks(self) -> bool:
+        """Whether it is self-locking: no load drives the motor through it."""
+        return is_number(self.reverse) and float(self.reverse) == 0
 
 
 class Coupling(Description):

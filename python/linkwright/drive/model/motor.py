@@ -171,7 +171,9 @@ class InductionMotor(Motor):
 
     kind: Literal["induction"]
     catalogue: CatalogueName | None = Field(
-        None, description="Type in the catalogue of motors; its data supply missing entries."
+        None,
+        description="Type in the catalogue of motors; its data supply missing entries. A missing "
+        "rotor inertia is estimated by similarity.",
     )
     file: str | None = Field(
         None,
@@ -201,6 +203,14 @@ class InductionMotor(Motor):
 
         given = self.catalogue is None or "torque_breakdown" in self.model_fields_set
         return not given and catalogue.motor(str(self.catalogue)).breakdown_is_minimum
+
+    @property
+    def inertia_is_estimated(self) -> bool:
+        """Whether the rotor's inertia is estimated, as neither file nor catalogue has it."""
+        from linkwright.drive.model import catalogue
+
+        given = self.catalogue is None or "inertia" in self.model_fields_set
+        return not given and catalogue.motor(str(self.catalogue)).inertia is None
 
     @property
     def start_is_minimum(self) -> bool:

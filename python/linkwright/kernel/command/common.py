@@ -67,13 +67,16 @@ ZeroAt = Annotated[
 
 
 def reports_errors(
-    command: Callable[P, R], machine_name: Callable[..., str | None] = lambda **_: None
+    command: Callable[P, R],
+    machine_name: Callable[..., str | None] = lambda **_: None,
+    place: Callable[..., str] = lambda *_, **__: "",
 ) -> Callable[P, R | None]:
     """Let a command end with a message on standard error and its exit code, without a traceback.
 
     A finding that ends a command is its answer all the same, and with ``--json`` it is reported as any other.
     Errors that this package does not raise on purpose pass through. `machine_name`: arguments of the command
-    → name of its machine, None where there is none.
+    → name of its machine, None where there is none; `place`: error and arguments → file and line of what it
+    is about, empty where these are in its message or unknown.
     """
 
     @wraps(command)
@@ -88,7 +91,7 @@ def reports_errors(
                     return None
                 if kwargs.get("json"):
                     click.echo(json_text(stopped), nl=False)
-            click.echo(printable(_by_options(error)), err=True)
+            click.echo(printable(place(error, **kwargs) + _by_options(error)), err=True)
             raise click.exceptions.Exit(error.exit_code) from None
         except OSError as error:
             if system.is_unread(error):

@@ -3,7 +3,15 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, ClassVar, NoReturn, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    AliasChoices,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    ValidationError,
+    model_validator,
+)
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from linkwright.kernel.errors import InputError
@@ -71,6 +79,11 @@ def _whole(value: object) -> object:
     if isinstance(value, bool | str):
         raise wrong(show(value), "a whole number")
     return value
+
+
+def formerly(old: str, new: str) -> AliasChoices:
+    """The keys of an entry, as `validation_alias`: its own, and that of older files, which mean the same."""
+    return AliasChoices(new, old)
 
 
 Whole = Annotated[int, BeforeValidator(_whole)]

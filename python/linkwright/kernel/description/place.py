@@ -14,7 +14,7 @@ from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel
+from pydantic import AliasChoices, BaseModel
 
 from linkwright.kernel.errors import InputError
 
@@ -56,6 +56,23 @@ def _quoted(part: str) -> str:
 def field_names(model: type[BaseModel]) -> dict[str, str]:
     """Key in a file → name of the field; they differ where a key is a word of Python. Shared: read only."""
     return {field.alias or name: name for name, field in model.model_fields.items()}
+
+
+@cache
+def former_keys(model: type[BaseModel]) -> dict[str, str]:
+    """Key that older files have → the key that stands for it now. Shared: read only."""
+    return {
+        str(old): name
+        for name, field in model.model_fields.items()
+        if isinstance(field.validation_alias, AliasChoices)
+        for old in field.validation_alias.choices[1:]
+    }
+
+
+def current_key(node: object, key: str) -> str:
+    """The key of a model that a key of an older file means; any other key as it is."""
+    kind: Any = type(node)
+    return key if _names_of(kind) is None else former_keys(kind).get(key, key)
 
 
 @cache

@@ -10,7 +10,13 @@ from pydantic_core import ErrorDetails
 
 from linkwright.kernel.description.base import Description, close_match
 from linkwright.kernel.description.place import field_names, join, look
-from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, model_of, words_of
+from linkwright.kernel.description.schema_walk import (
+    annotation_at,
+    key_as_written,
+    kinds_at,
+    model_of,
+    words_of,
+)
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.units import show
 
@@ -30,7 +36,7 @@ def problems(
 
 def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:
     """One problem in words."""
-    place = _place(error["loc"], model, data)
+    place = key_as_written(_place(error["loc"], model, data), data, model)
     context: dict[str, Any] = error.get("ctx") or {}
     match error["type"]:
         case "problem":

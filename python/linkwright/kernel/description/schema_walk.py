@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import types
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
 from linkwright.kernel.description.deferred_model import DeferredModel
-from linkwright.kernel.description.place import field_names, look
+from linkwright.kernel.description.place import field_names, former_keys, look
 from linkwright.kernel.units import Quantity, QuantityList
 
 Mark = Quantity | QuantityList
@@ -114,10 +114,24 @@ def _below(annotation: Any, key: str, data: object) -> Any:
         if get_origin(branch) in (dict, tuple):
             return get_args(branch)[0 if get_origin(branch) is tuple else 1]
     model = model_of(annotation, data)
-    name = field_names(model).get(key) if model else None
+    name = field_names(model).get(former_keys(model).get(key, key)) if model else None
     if model is None or name is None:
         return None
     return _of_field(model, name)
+
+
+def key_as_written(place: tuple[str, ...], data: object, model: type[BaseModel]) -> tuple[str, ...]:
+    """The place of an entry in tables that `model` describes, by the key that they have, also a former."""
+    *above, key = place or ("",)
+    table = data
+    for part in above:
+        table = look(table, part)
+    if not isinstance(table, Mapping) or key in table:
+        return place
+    owner = model_of(annotation_at(model, above, data), table)
+    same = former_keys(owner).items() if owner else ()
+    other = next((b for pair in same for a, b in (pair, pair[::-1]) if a == key and b in table), None)
+    return place if other is None else (*above, other)
 
 
 @cache

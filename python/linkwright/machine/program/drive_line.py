@@ -24,6 +24,10 @@ from linkwright.machine.program.mechanism import MechanismProgram
 # Crank speed from which steady motion is sought when nothing in the machine suggests one [rad/s].
 _SPEED_UNKNOWN = 10.0
 
+# Factor of a self-locking gearbox: of the torque with which the load drives, a hundred-thousandth reaches the
+# motor. The speed then exceeds that of zero motor torque by as small a share of the motor's slip.
+_LOCKED = 1e5
+
 
 def drive_of(machine: Machine, program: MechanismProgram, *, motor: bool) -> _core.Drive:
     """The driveline.
@@ -106,7 +110,11 @@ def reverse_factor(drive: Drive) -> Any:
     gearbox = drive.gearbox
     if gearbox.reverse is None:
         return 1.0 / gearbox.efficiency
-    return gearbox.efficiency if isinstance(gearbox.reverse, str) else gearbox.reverse
+    if isinstance(gearbox.reverse, str):
+        return gearbox.efficiency
+    if np.ndim(gearbox.reverse):
+        return np.where(gearbox.reverse == 0, _LOCKED, gearbox.reverse)
+    return _LOCKED if gearbox.locks else gearbox.reverse
 
 
 def drive_inertia(drive: Drive) -> Any:

@@ -382,7 +382,9 @@ class InitialAssembly:
                 self._check_fit(name, *ends, _first(bar.length))
 
     def _check_fit(self, name: str, start: int, end: int, length: float) -> None:
-        angles = np.linspace(0.0, 2 * np.pi, LOOK + 1)
+        looks = (2 * np.pi * np.arange(_CYCLE_MAX + 1)[:, None] + _UNEVEN).ravel()
+        cycle = _cycle((self._place(end, looks) - self._place(start, looks)) / length)
+        angles = np.linspace(0.0, 2 * np.pi * cycle, LOOK * cycle + 1)
         u = self._place(end, angles) - self._place(start, angles)
         off = np.abs(np.hypot(*u) - length)
         off = np.where(np.isfinite(off), off, 0.0)
@@ -398,7 +400,7 @@ class InitialAssembly:
 
 
 def _cycle(directions: Floats) -> int:
-    """Revolutions after which a link has its directions (2, n) at `_UNEVEN` angles again; 1 if none do."""
+    """Revolutions after which directions (2, n) are the same at `_UNEVEN` angles again; 1 if none are."""
     turns = np.nan_to_num(directions).reshape(2, _CYCLE_MAX + 1, -1)
     same = np.flatnonzero(np.abs(turns[:, 1:] - turns[:, :1]).max(axis=(0, 2)) <= _REPEATS)
     return int(same[0]) + 1 if len(same) else 1

@@ -3,6 +3,7 @@ import { html } from "./html.js";
 import { useEffect, useRef, useState } from "./vendor/hooks.mjs";
 import { list, open, start, thumbnail } from "./actions.js";
 import { blank, fit } from "./frame.js";
+import { line, stroke } from "./ink.js";
 import { paintKnife } from "./knife.js";
 import { said } from "./language.js";
 import { paintMoving, paintStill } from "./painter.js";
@@ -15,6 +16,9 @@ const PLACES = /** @type {Record<string, string>} */ ({ folder: "Files of this f
 
 /** Seconds of one period of a train. */
 const PERIOD = 2.4;
+
+/** Room about curves. */
+const MARGIN = 14;
 
 /** One request at a time, in the order in which cards are seen. */
 let queue = Promise.resolve();
@@ -57,7 +61,8 @@ function moving(canvas, scene) {
   /** A train in its lowest mode, or a knife on its way. @param {CanvasRenderingContext2D} ctx @param {number} width @param {number} height @param {any} ink */
   function beside(ctx, width, height, ink) {
     const paper = { ctx, width, height, passed: 0, ink, series: ink.series };
-    if (scene.kind === "topper") paintKnife(paper, scene, scene.span[0] + (still ? 0.5 : time / scene.seconds) * (scene.span[1] - scene.span[0]), false);
+    if (scene.kind === "turning") paintCurves(paper, scene.curves);
+    else if (scene.kind === "topper") paintKnife(paper, scene, scene.span[0] + (still ? 0.5 : time / scene.seconds) * (scene.span[1] - scene.span[0]), false);
     else if (scene.frequencies.length) paintTrain(paper, scene, 0, Math.cos((2 * Math.PI * time) / PERIOD), false);
   }
   handle = requestAnimationFrame(step);
@@ -65,6 +70,19 @@ function moving(canvas, scene) {
     cancelAnimationFrame(handle);
     watch.disconnect();
   };
+}
+
+/** Curves over one axis, about zero. @param {Paper} paper @param {{ x: number[], y: number[] }[]} curves */
+function paintCurves({ ctx, width, height, ink, series }, curves) {
+  const [xs, ys] = [curves.flatMap(({ x }) => x), [0, ...curves.flatMap(({ y }) => y)]];
+  const along = (/** @type {number} */ value, /** @type {number[]} */ all) => (value - Math.min(...all)) / (Math.max(...all) - Math.min(...all) || 1);
+  const place = (/** @type {number} */ x, /** @type {number} */ y) => [MARGIN + along(x, xs) * (width - 2 * MARGIN), height - MARGIN - along(y, ys) * (height - 2 * MARGIN)];
+  line(ctx, [place(xs[0], 0), place(xs[xs.length - 1], 0)]);
+  stroke(ctx, ink.soft, 1);
+  curves.forEach(({ x, y }, n) => {
+    line(ctx, x.map((at, k) => place(at, y[k])));
+    stroke(ctx, series[n], 1.5);
+  });
 }
 
 /** @param {{ listed: Listed }} props */

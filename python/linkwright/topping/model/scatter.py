@@ -1,6 +1,6 @@
 r"""Lengths that scatter from one piece to the next: a constant, or a distribution cut off at its ends.
 
-`mean` and `deviation` are those of the whole distribution. What lies below `least` or above `greatest` is cut
+`mean` and `deviation` are those of the whole distribution. What lies below `min` or above `max` is cut
 off, so that of the distribution function F there remains
 
 .. math:: F_t(x) = \frac{F(x) - F(a)}{F(b) - F(a)}, \qquad a \le x \le b,
@@ -29,7 +29,7 @@ from pydantic import BeforeValidator, Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.base import CheckedDescription, fault, formerly
 from linkwright.kernel.units import LENGTH, Length, Quantity, is_number, not_negative
 from linkwright.linkages.model.element import PositiveLength
 
@@ -40,7 +40,7 @@ Deviation = Annotated[float, not_negative(LENGTH)]
 
 _PLAIN = Quantity(LENGTH)
 
-_BOTH = "an even scatter is given by least and greatest, or by mean and deviation"
+_BOTH = "an even scatter is given by min and max, or by mean and deviation"
 
 # Share of a distribution that must be left between its ends: below it the rounding of F counts.
 _LEFT = 1e-9
@@ -93,14 +93,16 @@ class UniformScatter(Scatter):
     deviation: Deviation | None = Field(
         None, description="Standard deviation, with the mean: half the width over √3."
     )
-    least: Length | None = Field(None, description="Minimum value.")
-    greatest: Length | None = Field(None, description="Maximum value.")
+    min: Length | None = Field(None, validation_alias=formerly("least", "min"), description="Minimum value.")
+    max: Length | None = Field(
+        None, validation_alias=formerly("greatest", "max"), description="Maximum value."
+    )
 
     @property
     def ends(self) -> tuple[float, float]:
         """Minimum and maximum value [m]."""
-        if self.least is not None and self.greatest is not None:
-            return self.least, self.greatest
+        if self.min is not None and self.max is not None:
+            return self.min, self.max
         middle, half = self.mean or 0.0, math.sqrt(3.0) * (self.deviation or 0.0)
         return middle - half, middle + half
 
@@ -109,7 +111,7 @@ class UniformScatter(Scatter):
         return np.asarray(least + (greatest - least) * np.asarray(shares, dtype=float))
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        by_ends = {"least": self.least, "greatest": self.greatest}
+        by_ends = {"min": self.min, "max": self.max}
         by_mean = {"mean": self.mean, "deviation": self.deviation}
         wanted, others = (by_mean, by_ends) if self.mean is not None else (by_ends, by_mean)
         for key, value in wanted.items():
@@ -118,8 +120,8 @@ class UniformScatter(Scatter):
         for key, value in others.items():
             if value is not None:
                 yield fault(key, found=value, expected="nothing", remedy=_BOTH)
-        if self.least is not None and self.greatest is not None:
-            yield from _order_faults(self.least, self.greatest)
+        if self.min is not None and self.max is not None:
+            yield from _order_faults(self.min, self.max)
 
 
 class BellScatter(Scatter):
@@ -127,15 +129,19 @@ class BellScatter(Scatter):
 
     mean: Length = Field(description="Mean of the whole distribution.")
     deviation: Deviation = Field(description="Standard deviation; 0 for a constant.")
-    least: Length | None = Field(None, description="Lower truncation.")
-    greatest: Length | None = Field(None, description="Upper truncation.")
+    min: Length | None = Field(
+        None, validation_alias=formerly("least", "min"), description="Lower truncation."
+    )
+    max: Length | None = Field(
+        None, validation_alias=formerly("greatest", "max"), description="Upper truncation."
+    )
 
     @property
     def ends(self) -> tuple[float, float]:
         """Minimum and maximum value [m]; infinite without such."""
         if not self.deviation:
             return self.mean, self.mean
-        return self._lowest if self.least is None else self.least, _or(self.greatest, math.inf)
+        return self._lowest if self.min is None else self.min, _or(self.max, math.inf)
 
     @property
     def _lowest(self) -> float:
@@ -168,20 +174,20 @@ class BellScatter(Scatter):
         return np.asarray(self.mean + self.deviation * score)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        least, greatest = self.least, self.greatest
+        least, greatest = self.min, self.max
         if least is not None and greatest is not None and least > greatest:
             yield from _order_faults(least, greatest)
         elif not self.deviation:
             yield from self._constant_faults()
         elif self._left() < _LEFT:
-            key = "least" if least is not None and self._score(least) > 0 else "greatest"
-            found = f"{least if key == 'least' else greatest:.6g} m, which leaves nothing of the distribution"
+            key = "min" if least is not None and self._score(least) > 0 else "max"
+            found = f"{least if key == 'min' else greatest:.6g} m, which leaves nothing of the distribution"
             expected = f"an end within 6 deviations of {self.deviation:.6g} m from {self.mean:.6g} m"
             yield fault(key, found=found, expected=expected)
 
     def _constant_faults(self) -> Iterator[InitErrorDetails]:
         """A mean beyond the ends, where nothing scatters."""
-        for key, end, sign in (("least", self.least, 1), ("greatest", self.greatest, -1)):
+        for key, end, sign in (("min", self.min, 1), ("max", self.max, -1)):
             if end is not None and sign * (end - self.mean) > 0:
                 side = "most" if sign > 0 else "least"
                 expected = f"at {side} the mean, {self.mean:.6g} m, as nothing scatters"
@@ -237,7 +243,7 @@ def _normal() -> NormalDist:
 
 def _order_faults(least: float, greatest: float) -> Iterator[InitErrorDetails]:
     if least > greatest:
-        yield fault("greatest", found=greatest, expected=f"{least:.6g} m or more, as least is")
+        yield fault("max", found=greatest, expected=f"{least:.6g} m or more, as min is")
 
 
 def _or(value: float | None, other: float) -> float:

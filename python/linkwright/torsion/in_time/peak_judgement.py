@@ -3,7 +3,7 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 | limit | against |
 | --- | --- |
 | `torque_permitted` | largest torque either way, of shafts, couplings and gear stages |
-| `stress_greatest` | its stress |
+| `stress_max` | its stress |
 | vibratory stress in transient passage | half the peak-to-peak stress within two revolutions of disc 1 |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
@@ -136,9 +136,9 @@ def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgeme
             continue
         factor = limit.concentration / section.section_modulus
         torque, time = _largest(moved, name)
-        if limit.stress_greatest is not None:
+        if limit.stress_max is not None:
             size = factor * torque
-            yield PeakJudgement(name, "maximum stress", PRESSURE, size, limit.stress_greatest, time)
+            yield PeakJudgement(name, "maximum stress", PRESSURE, size, limit.stress_max, time)
         times, speeds, swings = _swings(moved, name)
         service = service_speed(machine, np.abs(moved.speed[0]))
         permitted = limit.permitted_stress(speeds / service, section.diameter)[1]

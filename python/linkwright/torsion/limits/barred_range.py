@@ -48,7 +48,10 @@ _NOT_PASSABLE = (
 
 @dataclass(frozen=True)
 class BarredRange(Result):
-    """Speeds at which a shaft is stressed more than is permitted in continuous operation."""
+    """Speeds at which a shaft is stressed more than is permitted in continuous operation.
+
+    Stresses are infinite at a resonance without any damping; what nothing is said of is NaN.
+    """
 
     shaft: Annotated[str, About("The shaft.")]
     speed_min: Annotated[

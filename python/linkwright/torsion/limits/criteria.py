@@ -84,8 +84,8 @@ def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criteri
         if limit.kind != "given" or limit.stress_permitted is not None:
             yield Criterion(name, VIBRATORY_STRESS, PRESSURE, vibratory, stress.continuous[row])
             yield Criterion(name, PASSING_STRESS, PRESSURE, vibratory, stress.transient[row])
-        if limit.stress_greatest is not None:
-            permitted = np.full(len(stress.speeds), limit.stress_greatest)
+        if limit.stress_max is not None:
+            permitted = np.full(len(stress.speeds), limit.stress_max)
             yield Criterion(name, "maximum stress", PRESSURE, stress.greatest[row], permitted)
 
 

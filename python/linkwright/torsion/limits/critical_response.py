@@ -81,7 +81,9 @@ class CriticalResponse(Result):
     single: Annotated[
         float, About("Amplitude of the order alone; infinite at a resonance that nothing damps [SI].")
     ]
-    total: Annotated[float, About("Half the peak-to-peak value, orders summed in phase [SI].")]
+    total: Annotated[
+        float, About("Half the peak-to-peak value, orders summed in phase; infinite likewise [SI].")
+    ]
     permitted: Annotated[
         float | None,
         Label("stress permitted there in continuous operation", "", "Pa", "None without a limit."),

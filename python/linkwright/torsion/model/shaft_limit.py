@@ -20,7 +20,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.base import CheckedDescription, fault, formerly
 from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model import permitted_stress
@@ -55,7 +55,7 @@ _KINDS: dict[str, tuple[Kind, ...]] = {
     "design_factor": ("iacs_m68",),
     "firing": ("kr_crankshaft",),
 }
-_STRESSES = ("stress_permitted", "stress_transient", "stress_greatest")
+_STRESSES = ("stress_permitted", "stress_transient", "stress_max")
 
 
 class StressedSection(NamedTuple):
@@ -91,7 +91,11 @@ class ShaftLimit(CheckedDescription):
     stress_transient: Stress | None = Field(
         None, description="Amplitude of the shear stress in transient passage of barred speed ranges."
     )
-    stress_greatest: Stress | None = Field(None, description="Maximum shear stress, mean and vibratory.")
+    stress_max: Stress | None = Field(
+        None,
+        validation_alias=formerly("stress_greatest", "stress_max"),
+        description="Maximum shear stress, mean and vibratory.",
+    )
     torque_permitted: PositiveTorque | None = Field(
         None, description="Permitted sum of mean and vibratory torque."
     )

@@ -235,7 +235,10 @@ def _twist_squared(flow: Complexes, stiffness: Complexes) -> Floats:
 
 @dataclass(frozen=True)
 class ForcedVibration(TorsionResponse):
-    """Forced vibration of a train over its speeds, with all that its shafts carry."""
+    """Forced vibration of a train over its speeds, with all that its shafts carry.
+
+    Not finite at a resonance without any damping.
+    """
 
     unevenness: Annotated[
         Floats, Label("coefficient of speed fluctuation of each disc", "δ", "", shape="(discs, speeds)")

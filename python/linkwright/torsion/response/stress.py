@@ -44,7 +44,10 @@ from linkwright.torsion.response.forced import TorsionResponse, torsion_response
 
 @dataclass(frozen=True)
 class ShaftStress(Result):
-    """Stresses in those shafts of which a section is known."""
+    """Stresses in those shafts of which a section is known.
+
+    Not finite at a resonance without any damping.
+    """
 
     speeds: Annotated[Floats, Label("speed of the first disc", "ω", "rad/s", shape="(speeds,)")]
     shafts: Annotated[tuple[str, ...], About("Shafts with sections, or with a section in their limit.")]
