@@ -249,7 +249,8 @@ def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
     if low.value <= 0:
         sentences.append(
             f"the train would have to pull with {-low.value:.4g} N at cam angle θ = "
-            f"{np.degrees(low.at):.4g}°: the follower leaves the cam there; increase the preload by {-low.value:.4g} N"
+            f"{np.degrees(low.at):.4g}°: the follower leaves the cam there; increase the "
+            f"preload by {-low.value:.4g} N"
         )
     return tuple(sentences)
 
