@@ -20,7 +20,7 @@ OURS = {
 # Handlers that leave an error of ours without a word, and why nothing is lost by it.
 SILENT = {
     (
-        "app/commands/check.py",
+        "linkages/study.py",
         "_whole",
     ): "the study and the check tell of lengths that no rotator has",
     (
@@ -71,7 +71,7 @@ SILENT = {
         "_from_pint",
     ): "a text that pint does not know is reported with the units that are known",
     ("drive/settling.py", "in_time"): "what was not found is told; it stays with the advice",
-    ("studio/analyses.py", "_dc_motor"): "without a steady motion no motor is offered; the findings tell why",
+    ("drive/obstacles.py", "_dc_motor"): "without a steady motion no motor is offered; the findings tell why",
 }
 
 

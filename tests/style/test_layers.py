@@ -19,6 +19,7 @@ PARTS = {
     "figures": SHOWS,
     "scene": SHOWS,
     "page": SHOWS,
+    "analyses": STUDY,
     "commands": COMMANDS,
 }
 
@@ -26,6 +27,7 @@ PARTS = {
 HOUSE = {
     "kernel": KERNEL,
     "machine": MACHINE,
+    "app.subjects": STUDY,
     "app.study": STUDY,
     "app.soundness": STUDY,
     "app.report": STUDY,
@@ -35,6 +37,9 @@ HOUSE = {
     "studies.figures": COMMANDS,
     "studies.tables": COMMANDS,
     "studies.commands": COMMANDS,
+    # So do derivatives.
+    "sensitivity": STUDY,
+    "sensitivity.commands": COMMANDS,
     "papers": PAPERS,
     "app": APP,
     "studio": APP,
@@ -52,7 +57,6 @@ SUBJECTS = (
     "turning",
     "synthesis",
     "sizing",
-    "sensitivity",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -71,7 +75,7 @@ EDGES = {
     # The contact force of a cam comes from the equilibrium of its machine in steady motion, ...
     ("cam.dynamics", "drive"),
     ("cam.dynamics", "kinetostatics"),
-    ("cam.study", "kinetostatics"),
+    ("cam.study", "drive.model"),
     # ... where it acts along the normal of the contact.
     ("kinetostatics", "cam.model"),
     ("kinetostatics", "cam.profile"),
@@ -93,6 +97,9 @@ EDGES = {
     ("drive.commands", "kinetostatics"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
+    # A machine without a motor has no forces in steady motion and no vibration of its driveline.
+    ("kinetostatics.analyses", "drive"),
+    ("torsion.analyses", "drive"),
     # A torsionally flexible driveline is a train.
     ("torsion.model", "drive.model"),
     ("torsion.core", "drive.model"),
@@ -120,18 +127,6 @@ EDGES = {
     # A motor is to drive a machine that keeps its contacts.
     ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
-    # Results of a drive and of a train are differentiated.
-    ("sensitivity", "drive"),
-    ("sensitivity", "drive.model"),
-    ("sensitivity", "linkages"),
-    ("sensitivity", "torsion.gradient"),
-    ("sensitivity", "kinetostatics"),
-    ("sensitivity", "turning"),
-    ("sensitivity", "pumping"),
-    ("sensitivity", "topping"),
-    ("sensitivity", "cam"),
-    ("sensitivity", "cam.dynamics"),
-    ("sensitivity", "cam.profile"),
     ("sizing.commands", "drive.model"),
 }
 
@@ -182,6 +177,11 @@ def _imports(path: Path, root: Path) -> Iterator[tuple[str, ...]]:
                     yield parts[1:]
         elif isinstance(node, ast.ImportFrom):
             yield from _imported_from(node, package)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "of":
+            # A function of an analysis by its place.
+            place = node.args[0]
+            if isinstance(place, ast.Constant) and isinstance(place.value, str) and ":" in place.value:
+                yield tuple(place.value.replace(":", ".").split("."))
 
 
 def _imported_from(node: ast.ImportFrom, package: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
@@ -249,12 +249,12 @@ def test_imports_point_down_and_keep_to_their_room() -> None:
 
 def test_folders_of_trains_use_those_before_them() -> None:
     room = ROOT / "torsion"
-    assert {path.stem for path in room.iterdir() if not path.stem.startswith("_")} == set(TRAINS)
+    assert {path.stem for path in room.iterdir() if not path.stem.startswith("_")} == {*TRAINS, "analyses"}
     wrong = [
         f"{path.relative_to(ROOT)} imports {'.'.join(target)}"
         for path in sorted(room.rglob("*.py"))
         for target in imports(path)
-        if target[0] == "torsion" and path.parts[len(room.parts)] != "__init__.py"
+        if target[0] == "torsion" and path.parts[len(room.parts)] not in ("__init__.py", "analyses.py")
         if TRAINS.index(target[1]) > TRAINS.index(Path(path.parts[len(room.parts)]).stem)
     ]
     assert not wrong, "\n".join(wrong)
@@ -262,7 +262,7 @@ def test_folders_of_trains_use_those_before_them() -> None:
 
 def test_every_room_is_listed() -> None:
     rooms = {path.name for path in ROOT.iterdir() if (path / "__init__.py").exists()}
-    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "papers", "app", "studio"}
+    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "sensitivity", "papers", "app", "studio"}
 
 
 def test_every_room_has_its_map() -> None:

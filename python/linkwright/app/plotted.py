@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.app.curves import chosen, curves_figure
-from linkwright.app.report.figures import figures
 from linkwright.app.report.scene import moving_scene
 from linkwright.app.report.sketch import sketch_figure
 from linkwright.app.study import Study, study
@@ -39,7 +38,7 @@ def study_figure(results: Study, names: tuple[str, ...], over: str | None) -> Fi
     """Curves of a study by name; without names the first figure of its report."""
     if names:
         return curves_figure(chosen(results, names, over))
-    first = next(figures(results), None)
+    first = next(results.figures(), None)
     if first is None:
         raise InputError(f"{results.machine.name}: its study has no figures")
     return first.figure

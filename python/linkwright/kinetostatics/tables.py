@@ -32,6 +32,11 @@ def envelope_table(forces: Forces) -> Table:
     return Table("forces", "Forces", ("quantity", "", "peak", "at φ", "rms", "mean"), rows)
 
 
+def envelope_tables(forces: Forces) -> tuple[Table]:
+    """The same table, for a report."""
+    return (envelope_table(forces),)
+
+
 def _row(extent: Extent, forces: Forces, scale: float) -> Row:
     word, symbol = _words(extent.name, forces)
     peak, rms, mean = (
