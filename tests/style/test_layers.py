@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2] / "python" / "linkwright"
+from tests.style.layers import ROOT, circles, imported
+
+# Files that may import each other in a circle.
+_CIRCLE_MAX = 3
 
 # Parts of the house from below. What is in no named part of a room computes.
 KERNEL, LAWS, MODEL, MACHINE, COMPUTES, SHOWS, STUDY, COMMANDS, PAPERS, APP = range(10)
@@ -155,45 +157,8 @@ CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
 
 @cache
 def imports(path: Path, root: Path = ROOT) -> tuple[tuple[str, ...], ...]:
-    """Dotted names below linkwright that a file imports, also inside its functions; not in its ``plot``.
-
-    What a notebook asks of a machine or a result is drawn above it, when it is asked for.
-    """
-    return tuple(_imports(path, root))
-
-
-def _imports(path: Path, root: Path) -> Iterator[tuple[str, ...]]:
-    package = path.relative_to(root).parent.parts
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    plots = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "plot"]
-    drawn = {id(node) for plot in plots if path.parts[-2] != "commands" for node in ast.walk(plot)}
-    for node in ast.walk(tree):
-        if id(node) in drawn:
-            continue
-        if isinstance(node, ast.Import):
-            for each in node.names:
-                parts = tuple(each.name.split("."))
-                if parts[0] == "linkwright" and len(parts) > 1:
-                    yield parts[1:]
-        elif isinstance(node, ast.ImportFrom):
-            yield from _imported_from(node, package)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "of":
-            # A function of an analysis by its place.
-            place = node.args[0]
-            if isinstance(place, ast.Constant) and isinstance(place.value, str) and ":" in place.value:
-                yield tuple(place.value.replace(":", ".").split("."))
-
-
-def _imported_from(node: ast.ImportFrom, package: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """Dotted names below linkwright of one ``from … import …``."""
-    parts = tuple((node.module or "").split(".")) if node.module else ()
-    if node.level:
-        parts = (*package[: len(package) - node.level + 1], *parts)
-    elif parts[:1] == ("linkwright",):
-        parts = parts[1:]
-    else:
-        return
-    yield from ((*parts, each.name) for each in node.names)
+    """Dotted names below linkwright that a file imports, also inside its functions."""
+    return tuple(tuple(name.split(".")) for name in imported(path, root, types=True))
 
 
 def level(name: tuple[str, ...]) -> int:
@@ -245,6 +210,10 @@ def wrong_imports(root: Path) -> list[str]:
 def test_imports_point_down_and_keep_to_their_room() -> None:
     wrong = wrong_imports(ROOT)
     assert not wrong, "\n".join(wrong)
+
+
+def test_no_circle_of_imports_has_more_than_a_few_files() -> None:
+    assert [circle for circle in circles() if len(circle) > _CIRCLE_MAX] == []
 
 
 def test_folders_of_trains_use_those_before_them() -> None:

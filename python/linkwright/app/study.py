@@ -115,9 +115,9 @@ class Study(Results):
         InputError
             There is no such curve, or nothing to draw.
         """
-        from linkwright.app.plotted import study_figure
+        from linkwright.kernel.figure.figure_of import plotted_figure
 
-        return study_figure(self, names, over)
+        return plotted_figure(self, *names, over=over)
 
     def _repr_html_(self) -> str:
         """Failed checks, warnings and all results, as a notebook shows them."""

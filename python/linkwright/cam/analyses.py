@@ -26,6 +26,7 @@ CAM = Analysis(
     check=of("cam.study:check_cams"),
     tables=of("cam.tables:cam_tables", "*cam", "*cam_sizes", "*cam_force"),
     figures=of("cam.figures.captions:cam_figures", "*cam", "*cam_force"),
+    headline=("stroke", "acceleration_max", "pressure_angle_max", "curvature_radius_min"),
 )
 
 SIZES = Analysis(name="cam_sizes", applies=_has_cams, parts=_cams, make=of("cam.study:made_sizes"))
@@ -40,6 +41,7 @@ FORCE = Analysis(
     applies=_has_cams,
     parts=_cams,
     make=of("cam.study:made_forces"),
+    headline=("force_min", "force_max", "speed_lost"),
     tangents=of("cam.dynamics.gradient:cam_force_tangents"),
 )
 

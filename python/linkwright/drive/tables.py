@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
 from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number, parted
-from linkwright.kernel.page.table import Row, Table, rows_in
+from linkwright.kernel.page.table import Row, Table, few, rows_in
 from linkwright.kernel.quantities import in_table, shown
 from linkwright.machine.analysis import Results
 
@@ -156,14 +157,17 @@ def drive_headline(study: Results) -> Iterator[tuple[str, str, str]]:
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", *parted(steady.speed_mean_time, "rad/s", 4)
-        yield "speed fluctuation δ", number(steady.unevenness, 4), ""
-        yield "dynamic factor H", number(steady.dynamism, 4), ""
+        motor = study.machine.drive.motor
+        if not isinstance(motor, ConstantSpeedMotor):
+            yield "speed fluctuation δ", number(steady.unevenness, 4), ""
+            yield "dynamic factor H", number(steady.dynamism, 4), ""
         # Without losses the mean is zero but for rounding.
         power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
         yield "mean motor power", *parted(power, "W", 4)
+        if motor.torque_rated is not None:
+            share = steady.torque_motor_rms / motor.torque_rated
+            yield "rms torque of the motor over its rated torque", number(share, 3), ""
     if run_up is not None:
         yield "run-up time", *parted(run_up.time, "s", 4)
     if steady is None and reduced is not None:
-        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", 4)
-        yield "maximum reduced inertia", *parted(reduced.inertia_max, "kg m²", 4)
-        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", 4)
+        yield from few(reduced, ("inertia_min", "inertia_max", "torque_load_mean"))

@@ -16,6 +16,7 @@ FORCES = Analysis(
     summary=of("kinetostatics.study:loads_summary"),
     tables=of("kinetostatics.tables:envelope_tables", "forces"),
     figures=of("kinetostatics.figures:captioned_forces", "forces"),
+    headline=of("kinetostatics.tables:forces_headline", "forces"),
     assumptions=of("kinetostatics.words:load_assumptions", "machine"),
 )
 

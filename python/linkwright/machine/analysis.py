@@ -19,6 +19,7 @@ from operator import attrgetter
 from typing import Any
 
 from linkwright.kernel.findings import Findings
+from linkwright.kernel.page.table import few
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
@@ -109,7 +110,8 @@ class Analysis:
     tables: Of | None = None
     details: Of | None = None  # tables at the end
     figures: Of | None = None
-    headline: Of | None = None  # word, value and unit of what its reader asks first
+    # What its reader asks first: quantities of the result, or word, value and unit of each.
+    headline: tuple[str, ...] | Of = ()
     formulas: Of | None = None
     papers: Of | None = None  # sources of formulas
     assumptions: Of | None = None
@@ -188,6 +190,17 @@ class Results(Mapping[str, Result]):
             within, _, name = analysis.within.partition(".")
             return getattr(getattr(self, within, None), name, None)
         return findings.of(analysis.analyse, self.machine, **analysis.options)
+
+    def headline(self, analyses: Iterable[Analysis]) -> Iterator[tuple[str, str, str]]:
+        """What the reader asks first: word, value, unit."""
+        for analysis in analyses:
+            if isinstance(analysis.headline, Of):
+                yield from analysis.headline.shown(self) if analysis.applies(self.machine) else ()
+                continue
+            parts = [key for key in self._results if key.partition(".")[0] == analysis.name]
+            for key in parts if analysis.headline else ():
+                before = f"cam {key.partition('.')[2]}: " if len(parts) > 1 else ""
+                yield from few(self[key], analysis.headline, before)
 
     def shown(self, analyses: Iterable[Analysis], what: str) -> Iterator[Any]:
         """What the analyses that apply show of themselves, such as their ``"tables"``, in their order."""

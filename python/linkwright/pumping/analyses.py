@@ -18,7 +18,12 @@ UNIT = Analysis(
     figures=of("pumping.figures:unit_figures", "?pumping_unit", "?rod_rotator"),
 )
 
-GEARBOX = Analysis(name="gear_torque", within="pumping_unit.gear")
+GEARBOX = Analysis(
+    name="gear_torque",
+    within="pumping_unit.gear",
+    applies=lambda machine: machine.pumping_unit is not None,
+    headline=("gear_load",),
+)
 
 ROTATOR = Analysis(
     name="rod_rotator",

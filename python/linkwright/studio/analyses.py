@@ -28,8 +28,9 @@ from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.page.content import Content, Few, Part
-from linkwright.kernel.page.language import ENGLISH, Language, in_language
+from linkwright.kernel.page.language import ENGLISH, Language
 from linkwright.kernel.page.sentences import sentence
+from linkwright.kernel.page.translation import in_language
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion

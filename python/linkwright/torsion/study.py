@@ -176,9 +176,9 @@ class TorsionStudy(PlainRecord):
         InputError
             There is no such figure; the message lists all.
         """
-        from linkwright.app.plotted import torsion_figure
+        from linkwright.kernel.figure.figure_of import plotted_figure
 
-        return torsion_figure(self, name)
+        return plotted_figure(self, name)
 
     def _repr_html_(self) -> str:
         """Exceeded limits, warnings and all results, as a notebook shows them."""

@@ -54,8 +54,8 @@ def write_report(
     InputError
         The file cannot be written, Typst is not installed, or nobody knows the language.
     """
-    from linkwright.kernel.page.language import in_language
     from linkwright.kernel.page.language import language as of_code
+    from linkwright.kernel.page.translation import in_language
 
     to = of_code(language, "language")
     report = in_language(replace(content(study, command), heading=heading or Heading()), to)
@@ -96,7 +96,7 @@ def _content(study: Study, command: str) -> Content:
         source=machine.source or "",
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
-        headline=[Few(*line) for line in study.showing("headline")],
+        headline=[Few(*line) for line in study.headline(ANALYSES)],
         scenes={name: scene for name, scene in scenes.items() if scene is not None},
         sketch=_sketch(study) if scenes["mechanism"] is not None else None,
         parts=[part for part in parts if part.tables or part.figures],
