@@ -157,7 +157,11 @@ def drive_headline(study: Results) -> Iterator[tuple[str, str, str]]:
     steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
     if steady is not None:
         yield "mean speed", *parted(steady.speed_mean_time, "rad/s", 4)
-        motor = study.machine.drive.motor
+        drive = study.machine.drive
+        # Steady motion has a motor.
+        assert drive is not None
+        assert drive.motor is not None
+        motor = drive.motor
         if not isinstance(motor, ConstantSpeedMotor):
             yield "speed fluctuation δ", number(steady.unevenness, 4), ""
             yield "dynamic factor H", number(steady.dynamism, 4), ""

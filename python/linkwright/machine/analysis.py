@@ -133,7 +133,7 @@ class Results(Mapping[str, Result]):
 
     findings: tuple[str, ...] = ()  # what the machine cannot do, in sentences
     warnings: tuple[str, ...] = ()  # what its designer should know, in sentences
-    attempt: Result | None = None  # the motion from the start to the stall, where the run-up fails
+    attempt: Any = None  # the motion from the start to the stall, where the run-up fails
     sound_cams: tuple[Any, ...] = ()  # cams that can be made
 
     def __init__(self, machine: Machine, accuracy: float = 1e-10, step: float | None = None) -> None:
