@@ -73,6 +73,7 @@ from linkwright.machine.write import write as write
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
 from linkwright.pumping.unit import pumping_unit as pumping_unit
+from linkwright.sensitivity.gradient import gradient as gradient
 from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
 from linkwright.sizing.motor import choose_motor as choose_motor
 from linkwright.sizing.power import required_power as required_power
