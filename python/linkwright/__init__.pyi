@@ -42,6 +42,7 @@ from linkwright.drive.run_up import run_up as run_up
 from linkwright.drive.steady_state import steady_state as steady_state
 from linkwright.drive.step_method import step_method as step_method
 from linkwright.drive.transient import transient as transient
+from linkwright.kernel.page.out_units import shown_in as shown_in
 from linkwright.kinetostatics.balancing import balance as balance
 from linkwright.kinetostatics.balancing import partial_balance as partial_balance
 from linkwright.kinetostatics.contact_in_time import contact_losses as contact_losses
@@ -50,6 +51,7 @@ from linkwright.kinetostatics.envelope import harmonics as harmonics
 from linkwright.kinetostatics.envelope import load_cases as load_cases
 from linkwright.kinetostatics.forces import forces as forces
 from linkwright.kinetostatics.friction import Friction as Friction
+from linkwright.kinetostatics.shaking_orders import shaking_orders as shaking_orders
 from linkwright.linkages.centrodes import centrodes as centrodes
 from linkwright.linkages.circuits import circuits as circuits
 from linkwright.linkages.closure import closure as closure
