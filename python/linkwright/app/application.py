@@ -201,4 +201,5 @@ def _machine_name(
     try:
         return read(file, set or (), allow_outside=allow_outside).name
     except LinkwrightError:
+        # silent: the name of the machine belongs to a finding, which is reported
         return None

@@ -66,6 +66,7 @@ def _dc_motor(machine: Machine) -> dict[str, Any] | None:
     try:
         needed = steady_state(machine, n=_INTERVALS).torque_motor_rms
     except LinkwrightError:
+        # silent: without a steady motion no motor is offered; the findings tell why
         return None
     torque = needed if needed > _NO_TORQUE else 1.0
     stall = torque / (1 - 1 / _NO_LOAD)

@@ -47,4 +47,5 @@ def _whole(machine: Machine) -> Mechanism:
     try:
         return machine.linkage
     except AssemblyError:
+        # silent: the study and the check tell of lengths that no rotator has
         return machine.with_entries({"rod_rotator": None}).linkage

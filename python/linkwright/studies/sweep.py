@@ -152,6 +152,7 @@ def _try(plan: StudyPlan) -> None:
     try:
         numbers(plan.machine, list(plan.asked))
     except FindingError:
+        # silent: what a machine cannot do as it is, its variants may, and each row says so
         # What the machine cannot do as it is, variants of it may.
         return
 

@@ -325,6 +325,7 @@ async def _texts(request: Request) -> Response:
     try:
         return JSONResponse(page_texts(request.path_params["code"]))
     except InputError:
+        # silent: a page in a language that there is none of is not found
         return Response(status_code=404)
 
 

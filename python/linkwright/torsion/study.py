@@ -334,6 +334,7 @@ def _at_critical(machine: Machine, free: FreeVibration, diagram: CampbellDiagram
         try:
             yield holzer_table(machine, float(free.natural_frequencies[mode]))
         except FindingError:
+            # silent: a mode in which the first disc is at rest has no Holzer table from that disc
             # The first disc is at rest in this mode, from which the table starts.
             continue
 
