@@ -13,8 +13,6 @@ from click.testing import CliRunner
 import linkwright as lw
 from linkwright.app.application import application
 from linkwright.app.curves import chosen, curves_figure, curves_of
-from linkwright.app.report.figures import figures
-from linkwright.app.report.tables import tables
 from linkwright.cam.figures.captions import cam_figures
 from linkwright.cam.tables import cam_tables
 from linkwright.drive.motion_events import course as course_of
@@ -106,7 +104,7 @@ def test_an_offset_moves_the_start_of_a_follower() -> None:
 def test_followers_have_rows_figures_and_columns(words: str) -> None:
     """The report has a follower in *Motion over the cycle* and a figure, `plot` and `motion` its curves."""
     results = lw.study(cam(words))
-    rows = {table.name: table.rows for table in tables(results)}["motion"]
+    rows = {table.name: table.rows for table in results.tables()}["motion"]
     swings = "oscillating" in words
     assert [row[0] for row in rows] == [
         f"F, {word}"
@@ -116,7 +114,7 @@ def test_followers_have_rows_figures_and_columns(words: str) -> None:
             else ("position", "velocity", "acceleration")
         )
     ]
-    assert "Motion of F" in [drawn.title for drawn in figures(results)]
+    assert "Motion of F" in [drawn.title for drawn in results.figures()]
     known = curves_of(results)
     coordinate = "angle" if swings else "place"
     assert known[f"motion.F.{coordinate}.velocity"].over == "crank_angle"

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import linkwright as lw
-from linkwright.app.report.figures import figures
 from linkwright.app.report.page import content
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.style import SMALL, legend_above, panels, styled
@@ -24,7 +23,7 @@ from linkwright.torsion.study import torsion_study
 def test_all_figures_over_the_crank_angle_have_the_same_marks(machine: str) -> None:
     """Every 90 degrees of one revolution or two, from zero on, also where samples begin beside it."""
     steps = set()
-    for figure in figures(lw.study(lw.read(machine))):
+    for figure in lw.study(lw.read(machine)).figures():
         for axes in figure.figure.axes:
             if axes.name == "rectilinear" and axes.get_xlabel().startswith("crank angle"):
                 marks = axes.get_xticks()

@@ -14,7 +14,8 @@ from linkwright.app.application import application
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.for_reader import _said
-from linkwright.kernel.page.language import ENGLISH, Language, in_language, language
+from linkwright.kernel.page.language import ENGLISH, Language, language
+from linkwright.kernel.page.translation import in_language
 from linkwright.machine.table import machine_parts
 from linkwright.torsion.page import torsion_content
 from linkwright.torsion.study import torsion_study

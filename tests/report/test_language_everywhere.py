@@ -15,7 +15,7 @@ import linkwright as lw
 from linkwright.app.commands.report import _content
 from linkwright.drive.batch import FAST_STARTS, STATUS
 from linkwright.kernel.page.content import Content
-from linkwright.kernel.page.language import in_language
+from linkwright.kernel.page.translation import in_language
 from linkwright.studies.point_responses import OPEN
 from linkwright.studies.rows import NO_NUMBER
 from linkwright.synthesis.straight_line import straight_lines

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.app.report.figures import figures
 from linkwright.app.study import Study, study
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.figures import motor_figure, reduction_figure, run_up_figure
@@ -27,7 +26,7 @@ def two_carts() -> Study:
 
 
 def test_axes_have_words_and_units() -> None:
-    for each in figures(two_carts()):
+    for each in two_carts().figures():
         for axes in each.figure.axes:
             assert "[" in axes.get_ylabel() or axes.get_subplotspec().colspan.start > 0
         assert any("[" in axes.get_xlabel() for axes in each.figure.axes)

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.app.report.tables import tables
 from linkwright.app.study import study
 from linkwright.kernel.files.library import template
 from linkwright.kernel.page.numbers import number
@@ -38,15 +37,15 @@ def test_number(value: float | None, text: str) -> None:
 
 def test_tables_are_those_that_there_are_results_for() -> None:
     machine = read(TWO_CARTS)
-    usual = ["linkage", "motion", "transmission", "reduction", "steady_state", "measures", "drive", "run_up"]
+    usual = ["linkage", "transmission", "motion", "reduction", "steady_state", "measures", "drive", "run_up"]
     last = ["forces", "dead_points", "numerical"]
-    assert [table.name for table in tables(study(machine))] == [*usual, *last]
-    stepped = tables(study(machine, step=np.radians(1)))
+    assert [table.name for table in study(machine).tables()] == [*usual, *last]
+    stepped = study(machine, step=np.radians(1)).tables()
     assert [table.name for table in stepped] == [*usual, "step_method", *last]
     for table in stepped:
         assert {len(row) for row in table.rows} == {len(table.heads)}
     with_brake = read(TWO_CARTS, ["drive.brake.torque=100"])
-    assert [table.name for table in tables(study(with_brake))] == [*usual, "run_down", *last]
+    assert [table.name for table in study(with_brake).tables()] == [*usual, "run_down", *last]
 
 
 def test_curves_read_back_exactly() -> None:

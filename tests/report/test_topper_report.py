@@ -16,7 +16,6 @@ from click.testing import CliRunner
 from linkwright.app.application import application
 from linkwright.app.commands.check import summary
 from linkwright.app.report.page import report_html
-from linkwright.app.report.tables import tables
 from linkwright.app.study import Study, study
 from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Table, curves_csv
@@ -60,7 +59,7 @@ def page(case: str) -> str:
 
 
 def shown(case: str) -> dict[str, Table]:
-    return {table.name: table for table in tables(studied(case))}
+    return {table.name: table for table in studied(case).tables()}
 
 
 def rows(table: Table) -> dict[str, tuple[str, ...]]:
@@ -84,7 +83,7 @@ def test_lengths_stand_side_by_side() -> None:
 
 @pytest.mark.parametrize("case", CASES)
 def test_tables_are_whole(case: str) -> None:
-    for table in tables(studied(case)):
+    for table in studied(case).tables():
         assert {len(row) for row in table.rows} == {len(table.heads)}
         for row in table.rows:
             assert not re.search(r"nan|inf\b|None", " ".join(row))
@@ -112,7 +111,7 @@ def test_mechanism_adds_its_drive() -> None:
 
 def test_a_drive_without_losses_takes_no_power() -> None:
     free = study(read(MACHINES / "topper_crank.toml", ["loads={}"]))
-    listed = rows({table.name: table for table in tables(free)}["topper_drive"])
+    listed = rows({table.name: table for table in free.tables()}["topper_drive"])
     assert listed["mean power"][0] == "0 W"
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import ast
 import importlib
 import inspect
 import pkgutil
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -177,25 +175,6 @@ def test_entries_of_descriptions_are_described() -> None:
                 if key != "kind" and not field.description
             ]
     assert not wrong, "\n".join(wrong)
-
-
-def _of_several_lines(source: str) -> list[str]:
-    """Private functions of a source whose documentation is longer than a line."""
-    private = [
-        node
-        for node in ast.walk(ast.parse(source))
-        if isinstance(node, ast.FunctionDef) and node.name.startswith("_") and not node.name.startswith("__")
-    ]
-    return [node.name for node in private if "\n" in (ast.get_docstring(node) or "")]
-
-
-def test_private_helpers_have_one_line() -> None:
-    sources = sorted(Path(lw.__file__).parent.glob("*/**/*.py"))
-    assert len(sources) > 100
-    assert [
-        (path.name, name) for path in sources for name in _of_several_lines(path.read_text("utf-8"))
-    ] == []
-    assert _of_several_lines('def _f():\n    """One.\n\n    Two.\n    """') == ["_f"]
 
 
 def test_a_wrong_docstring_is_found() -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2] / "python" / "linkwright"
+from tests.style.layers import ROOT, circles, imported
+
+# Files that may import each other in a circle.
+_CIRCLE_MAX = 3
 
 # Parts of the house from below. What is in no named part of a room computes.
 KERNEL, LAWS, MODEL, MACHINE, COMPUTES, SHOWS, STUDY, COMMANDS, PAPERS, APP = range(10)
@@ -19,6 +21,7 @@ PARTS = {
     "figures": SHOWS,
     "scene": SHOWS,
     "page": SHOWS,
+    "analyses": STUDY,
     "commands": COMMANDS,
 }
 
@@ -26,6 +29,7 @@ PARTS = {
 HOUSE = {
     "kernel": KERNEL,
     "machine": MACHINE,
+    "app.subjects": STUDY,
     "app.study": STUDY,
     "app.soundness": STUDY,
     "app.report": STUDY,
@@ -35,6 +39,9 @@ HOUSE = {
     "studies.figures": COMMANDS,
     "studies.tables": COMMANDS,
     "studies.commands": COMMANDS,
+    # So do derivatives.
+    "sensitivity": STUDY,
+    "sensitivity.commands": COMMANDS,
     "papers": PAPERS,
     "app": APP,
     "studio": APP,
@@ -52,7 +59,6 @@ SUBJECTS = (
     "turning",
     "synthesis",
     "sizing",
-    "sensitivity",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -71,7 +77,7 @@ EDGES = {
     # The contact force of a cam comes from the equilibrium of its machine in steady motion, ...
     ("cam.dynamics", "drive"),
     ("cam.dynamics", "kinetostatics"),
-    ("cam.study", "kinetostatics"),
+    ("cam.study", "drive.model"),
     # ... where it acts along the normal of the contact.
     ("kinetostatics", "cam.model"),
     ("kinetostatics", "cam.profile"),
@@ -93,6 +99,9 @@ EDGES = {
     ("drive.commands", "kinetostatics"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
+    # A machine without a motor has no forces in steady motion and no vibration of its driveline.
+    ("kinetostatics.analyses", "drive"),
+    ("torsion.analyses", "drive"),
     # A torsionally flexible driveline is a train.
     ("torsion.model", "drive.model"),
     ("torsion.core", "drive.model"),
@@ -120,18 +129,6 @@ EDGES = {
     # A motor is to drive a machine that keeps its contacts.
     ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
-    # Results of a drive and of a train are differentiated.
-    ("sensitivity", "drive"),
-    ("sensitivity", "drive.model"),
-    ("sensitivity", "linkages"),
-    ("sensitivity", "torsion.gradient"),
-    ("sensitivity", "kinetostatics"),
-    ("sensitivity", "turning"),
-    ("sensitivity", "pumping"),
-    ("sensitivity", "topping"),
-    ("sensitivity", "cam"),
-    ("sensitivity", "cam.dynamics"),
-    ("sensitivity", "cam.profile"),
     ("sizing.commands", "drive.model"),
 }
 
@@ -160,40 +157,8 @@ CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
 
 @cache
 def imports(path: Path, root: Path = ROOT) -> tuple[tuple[str, ...], ...]:
-    """Dotted names below linkwright that a file imports, also inside its functions; not in its ``plot``.
-
-    What a notebook asks of a machine or a result is drawn above it, when it is asked for.
-    """
-    return tuple(_imports(path, root))
-
-
-def _imports(path: Path, root: Path) -> Iterator[tuple[str, ...]]:
-    package = path.relative_to(root).parent.parts
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    plots = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "plot"]
-    drawn = {id(node) for plot in plots if path.parts[-2] != "commands" for node in ast.walk(plot)}
-    for node in ast.walk(tree):
-        if id(node) in drawn:
-            continue
-        if isinstance(node, ast.Import):
-            for each in node.names:
-                parts = tuple(each.name.split("."))
-                if parts[0] == "linkwright" and len(parts) > 1:
-                    yield parts[1:]
-        elif isinstance(node, ast.ImportFrom):
-            yield from _imported_from(node, package)
-
-
-def _imported_from(node: ast.ImportFrom, package: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """Dotted names below linkwright of one ``from … import …``."""
-    parts = tuple((node.module or "").split(".")) if node.module else ()
-    if node.level:
-        parts = (*package[: len(package) - node.level + 1], *parts)
-    elif parts[:1] == ("linkwright",):
-        parts = parts[1:]
-    else:
-        return
-    yield from ((*parts, each.name) for each in node.names)
+    """Dotted names below linkwright that a file imports, also inside its functions."""
+    return tuple(tuple(name.split(".")) for name in imported(path, root, types=True))
 
 
 def level(name: tuple[str, ...]) -> int:
@@ -247,14 +212,18 @@ def test_imports_point_down_and_keep_to_their_room() -> None:
     assert not wrong, "\n".join(wrong)
 
 
+def test_no_circle_of_imports_has_more_than_a_few_files() -> None:
+    assert [circle for circle in circles() if len(circle) > _CIRCLE_MAX] == []
+
+
 def test_folders_of_trains_use_those_before_them() -> None:
     room = ROOT / "torsion"
-    assert {path.stem for path in room.iterdir() if not path.stem.startswith("_")} == set(TRAINS)
+    assert {path.stem for path in room.iterdir() if not path.stem.startswith("_")} == {*TRAINS, "analyses"}
     wrong = [
         f"{path.relative_to(ROOT)} imports {'.'.join(target)}"
         for path in sorted(room.rglob("*.py"))
         for target in imports(path)
-        if target[0] == "torsion" and path.parts[len(room.parts)] != "__init__.py"
+        if target[0] == "torsion" and path.parts[len(room.parts)] not in ("__init__.py", "analyses.py")
         if TRAINS.index(target[1]) > TRAINS.index(Path(path.parts[len(room.parts)]).stem)
     ]
     assert not wrong, "\n".join(wrong)
@@ -262,7 +231,7 @@ def test_folders_of_trains_use_those_before_them() -> None:
 
 def test_every_room_is_listed() -> None:
     rooms = {path.name for path in ROOT.iterdir() if (path / "__init__.py").exists()}
-    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "papers", "app", "studio"}
+    assert rooms == {*SUBJECTS, "kernel", "machine", "studies", "sensitivity", "papers", "app", "studio"}
 
 
 def test_every_room_has_its_map() -> None:

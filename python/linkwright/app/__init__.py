@@ -13,6 +13,7 @@ time.
 | `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
 | `soundness` | What a machine can be seen to be unable to do without solving for its motion |
 | `study` | A study |
+| `subjects` | All analyses, as their rooms declare them |
 """
 
 from __future__ import annotations

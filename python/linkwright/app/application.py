@@ -201,6 +201,7 @@ def _machine_name(
     try:
         return read(file, set or (), allow_outside=allow_outside).name
     except LinkwrightError:
+        # silent: the name of the machine belongs to a finding, which is reported
         return None
 
 
@@ -216,6 +217,7 @@ def _place(error: Exception, file: Path | None = None, **_: Any) -> str:
     try:
         lines = key_lines(text_of_machine(file))
     except LinkwrightError:
+        # silent: the file was read before; without it the message has no place
         return ""
     own = [line for at, line in lines.items() if at[0] == "mechanism" and at[2:] == (error.element,)]
     table = "rod_rotator" if error.element.startswith("rotator") else "pumping_unit"

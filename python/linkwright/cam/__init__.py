@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `commands/` | ``linkwright cam`` |
 | `core` | The core's cam: one contact of a follower with a cam, its law and its dimensions |
 | `dynamics/` | What presses on a cam, and how its follower really moves |

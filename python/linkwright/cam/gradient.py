@@ -26,10 +26,11 @@ from linkwright.cam.core import CamKernel
 from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.profile.contact import Contact, contacts, opposite
-from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.cam.profile.profile import CamProfile, cam_profile, unit_in
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, columns
@@ -86,7 +87,9 @@ def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Deriv
     table = np.array([by_entry.get(entry, still) for entry in listed]).reshape(len(listed), len(values)).T
     tangents = {key: Tangent(float(values[key]), row) for key, row in zip(values, table, strict=True)}
     missing = {key: _PLACE for key in _PLACES if getattr(profile, key) is not None}
-    return Derivatives(listed, tangents, dict(ties), missing, refused)
+    cam = machine.mechanism.cams[profile.name]
+    units = {key: unit_in(shown(CamProfile, key).unit, cam) for key in tangents}
+    return Derivatives(listed, tangents, dict(ties), missing, refused, units=units)
 
 
 _PLACES = ("pressure_angle_max_angle", "curvature_radius_min_angle")

@@ -8,37 +8,61 @@ from linkwright.cam.dynamics.follower_vibration import FollowerVibration, follow
 from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
 from linkwright.cam.dynamics.one_mass import one_mass
 from linkwright.cam.profile.faults import cam_cautions, cam_faults
+from linkwright.cam.profile.least_sizes import LeastSizes, least_sizes
 from linkwright.cam.profile.profile import CamProfile, cam_profile
+from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.findings import Findings, sentence
-from linkwright.kinetostatics.result import Forces
+from linkwright.machine.analysis import Results
 from linkwright.machine.machine import Machine
 
 
-def sound_cams(machine: Machine, findings: Findings) -> tuple[tuple[CamProfile, ...], tuple[CamProfile, ...]]:
-    """All cams, and those that can be made; what makes one impossible is a finding."""
-    looked = [findings.of(cam_profile, machine, name) for name in machine.mechanism.cams]
-    judged = [(name, cam_faults(name)) for name in looked if name is not None]
+def made_cams(known: Results, findings: Findings) -> dict[str, CamProfile]:
+    """All cams by name; what makes one impossible is a finding, the others are its `sound_cams`."""
+    looked = [findings.of(cam_profile, known.machine, name) for name in known.machine.mechanism.cams]
+    judged = [(cam, cam_faults(cam)) for cam in looked if cam is not None]
     findings.add(text for _, faults in judged for text in faults)
-    return tuple(profile for profile, _ in judged), tuple(profile for profile, faults in judged if not faults)
+    known.sound_cams = tuple(cam for cam, faults in judged if not faults)
+    return {cam.name: cam for cam, _ in judged}
 
 
-def loaded_cams(
-    machine: Machine, cams: tuple[CamProfile, ...], borne: Forces | None, findings: Findings
-) -> tuple[LoadedCam, ...]:
+def made_sizes(known: Results, findings: Findings) -> dict[str, LeastSizes]:
+    """How small each cam might be."""
+    return {cam.name: least_sizes(cam) for cam in known.each("cam")}
+
+
+def made_forces(known: Results, findings: Findings) -> dict[str, LoadedCam]:
     """The cams that can be made under load; a follower that leaves its cam is a finding."""
+    machine = known.machine
     speed = None if machine.drive is None else machine.drive.speed
-    if not (machine.bodies or machine.loads) or (borne is None and speed is None):
-        return ()
-    along = None if borne is not None else speed
-    loaded = [findings.of(loaded_cam, machine, cam, along) for cam in cams]
-    return tuple(cam for cam in loaded if cam is not None)
+    if not (machine.bodies or machine.loads) or (known.forces is None and speed is None):
+        return {}
+    along = None if known.forces is not None else speed
+    loaded = [findings.of(loaded_cam, machine, cam, along) for cam in known.sound_cams]
+    return {cam.name: cam for cam in loaded if cam is not None}
 
 
-def cam_vibrations(
-    cams: tuple[CamProfile, ...], findings: Findings
-) -> tuple[tuple[str, FollowerVibration], ...]:
-    """Names of the cams whose follower vibrates, and how at the design speed."""
-    return tuple(vibration for cam in cams for vibration in _vibration(cam, findings))
+def made_vibrations(known: Results, findings: Findings) -> dict[str, FollowerVibration]:
+    """How followers vibrate at the design speed."""
+    return dict(vibration for cam in known.each("cam") for vibration in _vibration(cam, findings))
+
+
+def check_cams(machine: Machine, findings: Findings) -> Iterator[str]:
+    """Whether cams can be made, and at a known speed keep their followers."""
+    known = Results(machine)
+    made_cams(known, findings)
+    yield "cams: undercut, self-intersection, pressure angle of 90°, concave parts, second followers"
+    if known.sound_cams and _keeps_its_speed(machine) and (machine.bodies or machine.loads):
+        for cam in known.sound_cams:
+            findings.of(loaded_cam, machine, cam)
+        yield "cams at constant speed: loss of contact"
+
+
+def _keeps_its_speed(machine: Machine) -> bool:
+    """Whether the speed is known without solving: that of its motor, or the design speed without one."""
+    drive = machine.drive
+    if drive is None:
+        return False
+    return drive.speed is not None if drive.motor is None else isinstance(drive.motor, ConstantSpeedMotor)
 
 
 def _vibration(profile: CamProfile, findings: Findings) -> Iterator[tuple[str, FollowerVibration]]:

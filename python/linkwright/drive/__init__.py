@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `batch` | Steady motion of thousands to millions of machines that differ in some entries |
 | `cautions` | What the designer of a machine should know although it runs: sentences with numbers |
 | `characteristic` | The motor's characteristic and the mean load that it works against |
@@ -16,6 +17,8 @@
 | `gradient_at_constant_energy` | Derivatives of δ, H and k_p at constant energy |
 | `gradient_in_time` | Derivatives of run-up and run-down by entries of the machine |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
+| `obstacles` | What stands in the way of its analyses, and the entries that would mend it |
+| `words` | Formulas and assumptions of a report |
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_up` | Run-up from rest, and run-down with the motor off |
 | `settling` | Where does a machine come to in time whose steady motion was not found? |

@@ -10,7 +10,6 @@ import numpy as np
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.motion_events import course, sides
-from linkwright.drive.study import DriveStudy
 from linkwright.kernel.figure.style import (
     ACCELERATION,
     BLUE,
@@ -35,6 +34,7 @@ from linkwright.kernel.figure.style import (
 )
 from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.out_units import reader
+from linkwright.machine.analysis import Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -327,7 +327,7 @@ def _motor_legend(figure: Figure, full: Axes, last: Axes) -> None:
 _BEYOND = 0.012
 
 
-def drive_figures(study: DriveStudy) -> Iterator[CaptionedFigure]:
+def drive_figures(study: Results) -> Iterator[CaptionedFigure]:
     """The figures that a drive has results for: steady motion, motor, run-up, reduction."""
     yield from _steady(study)
     yield from _motor(study)
@@ -340,7 +340,7 @@ def _cycle_words(steady: SteadyState) -> str:
     return "one revolution" if steady.turns == 1 else f"{steady.turns} revolutions"
 
 
-def _steady(study: DriveStudy) -> Iterator[CaptionedFigure]:
+def _steady(study: Results) -> Iterator[CaptionedFigure]:
     steady = study.steady_state
     if steady is None:
         return
@@ -360,7 +360,7 @@ def _steady(study: DriveStudy) -> Iterator[CaptionedFigure]:
     yield CaptionedFigure("time", "Speed and motor torque over time", caption, time_figure(steady))
 
 
-def _motor(study: DriveStudy) -> Iterator[CaptionedFigure]:
+def _motor(study: Results) -> Iterator[CaptionedFigure]:
     drive, steady, reduced = study.machine.drive, study.steady_state, study.reduction
     if drive is None or drive.motor is None or reduced is None or isinstance(drive.motor, ConstantSpeedMotor):
         return
@@ -374,7 +374,7 @@ def _motor(study: DriveStudy) -> Iterator[CaptionedFigure]:
     yield CaptionedFigure("motor", "Motor and working range", caption, motor_figure(curve, steady))
 
 
-def _run_up(study: DriveStudy) -> Iterator[CaptionedFigure]:
+def _run_up(study: Results) -> Iterator[CaptionedFigure]:
     if study.run_up is not None:
         run_up = study.run_up
         caption = (
@@ -393,7 +393,7 @@ def _size(reduced: Reduction) -> float:
     return float(np.abs(reduced.torque_load).max())
 
 
-def _reduction(study: DriveStudy) -> Iterator[CaptionedFigure]:
+def _reduction(study: Results) -> Iterator[CaptionedFigure]:
     reduced = study.reduction
     if reduced is None:
         return

@@ -9,6 +9,7 @@ side, and `ties` says so.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,13 +21,14 @@ from linkwright.drive.steady_state import SteadyState, solved_state, unknown_wor
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.quantities import Label, declared
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.address import exchanged
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyCurves, SteadyGradient, SteadySolution
-from linkwright.machine.tangents import Directions
+from linkwright.machine.tangents import Derivatives, Directions, directions
 
 # Angles at which rivals of an extreme are looked for. A peak between two of the even ones is missed by
 # (2π/1440)² of the curve at most; where the motor is steep, the motion bends sharply beside a kink.
@@ -117,6 +119,60 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
     ties = {name: words for name, words in ties.items() if words}
     lost, rounding = along.lost(gradient.lost), _rounding(compiled, state)
     return SteadyTangents(replace(state, **tangents), ties, lost, rounding)
+
+
+def steady_derivatives(machine: Machine, variables: Sequence[str]) -> Derivatives:
+    """Scalars of steady motion by some entries. Raises what `steady_tangents` raises."""
+    program = directions(machine, variables)
+    steady = steady_tangents(machine, program)
+    listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Label)]
+    values = {name: getattr(steady.state, name) for name in listed}
+    tangents = {name: value for name, value in values.items() if isinstance(value, Tangent)}
+    nothing = _nothing(tangents, steady.rounding)
+    missing = dict.fromkeys(sorted(nothing), "it is zero within rounding error")
+    missing |= {name: _BETWEEN for name in _OF_MOTOR if name not in tangents}
+    tangents = {name: value for name, value in tangents.items() if name not in nothing}
+    ties = {name: reason for name in tangents if (reason := _tie(name, steady.ties))}
+    return Derivatives(program.variables, tangents, ties, missing, program.refused, steady.lost)
+
+
+# Extremes of the motor, and why one has no derivative.
+_OF_MOTOR = ("torque_motor_min", "torque_motor_max", "power_motor_max")
+_BETWEEN = "the extreme occurs at a speed between minimum and maximum, such as the breakdown speed"
+
+# Ratio → what it is a ratio of.
+_RATIOS = {
+    "cyclic_load_factor": ("torque_motor_rms", "torque_motor_mean"),
+    "efficiency": ("energy_load", "energy_motor"),
+}
+
+
+def _nothing(tangents: Mapping[str, Tangent], rounding: Mapping[str, float]) -> set[str]:
+    """Scalars that are zero but for rounding, and ratios of them; one that nothing moves stays zero."""
+    nothing = {
+        name
+        for name, least in rounding.items()
+        if name in tangents and abs(tangents[name].value) <= least and tangents[name].d.any()
+    }
+    return nothing | {ratio for ratio, of in _RATIOS.items() if nothing & {*of} and ratio in tangents}
+
+
+# Extremes → what is made of them.
+_MADE_OF = {
+    "speed": (
+        *("speed_mean_extremes", "unevenness", "unevenness_time", "motion_coefficient"),
+        *("motion_coefficient_time", "dynamism", "torque_motor_min", "torque_motor_max", "power_motor_max"),
+    ),
+    "acceleration": ("dynamism", "dynamism_time", "motion_coefficient", "motion_coefficient_time"),
+}
+
+
+def _tie(name: str, ties: Mapping[str, str]) -> str:
+    """Why a scalar of the motion has only one-sided derivatives; empty if it has one."""
+    for extreme, reason in ties.items():
+        if name == extreme or name in _MADE_OF[extreme.partition("_")[0]]:
+            return f"{extreme.replace('_', ' ')}: {reason}"
+    return ""
 
 
 def solved_along(machine: Machine, along: Directions) -> tuple[SteadyState, SteadySolution, Machine]:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
-from linkwright.drive.study import DriveStudy
-from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number
-from linkwright.kernel.page.table import Row, Table, rows_in
+from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number, parted
+from linkwright.kernel.page.table import Row, Table, few, rows_in
 from linkwright.kernel.quantities import in_table, shown
+from linkwright.machine.analysis import Results
 
 
-def drive_tables(study: DriveStudy) -> Iterator[Table]:
+def drive_tables(study: Results) -> Iterator[Table]:
     """What there is of reduction, steady motion, speed fluctuation, drive, run-up, run-down, step method."""
     parts = (_reduction, _steady, _measures, _drive, _run_up, _run_down, _step_method)
     yield from (table for part in parts if (table := part(study)) is not None)
@@ -27,7 +28,7 @@ def _rows(result: Reduction | SteadyState, table: str, *, without: Collection[st
     return rows_in(result, table, places, without=without)
 
 
-def _reduction(study: DriveStudy) -> Table | None:
+def _reduction(study: Results) -> Table | None:
     reduced = study.reduction
     if reduced is None:
         return None
@@ -36,7 +37,7 @@ def _reduction(study: DriveStudy) -> Table | None:
     return Table("reduction", "Reduced to the crank", ("quantity", "", "value", "where"), rows)
 
 
-def _steady(study: DriveStudy) -> Table | None:
+def _steady(study: Results) -> Table | None:
     steady = study.steady_state
     if steady is None:
         return None
@@ -50,7 +51,7 @@ def _steady(study: DriveStudy) -> Table | None:
 _NUMERICAL = ("multiplier", "accuracy", "steps")
 
 
-def numerical_tables(study: DriveStudy) -> Iterator[Table]:
+def numerical_tables(study: Results) -> Iterator[Table]:
     """How the steady motion was found, and how stable it is."""
     steady = study.steady_state
     if steady is not None:
@@ -60,7 +61,7 @@ def numerical_tables(study: DriveStudy) -> Iterator[Table]:
         yield Table("numerical", "Numerical details of the steady motion", heads, rows)
 
 
-def _measures(study: DriveStudy) -> Table | None:
+def _measures(study: Results) -> Table | None:
     """δ, H and k_p by each way of taking the mean, beside the limits that they are compared with."""
     columns = list(_measure_columns(study))
     if not columns:
@@ -77,7 +78,7 @@ def _measures(study: DriveStudy) -> Table | None:
 _MEASURES = ("unevenness", "dynamism", "motion_coefficient")
 
 
-def _measure_columns(study: DriveStudy) -> Iterator[tuple[str, Sequence[float | None]]]:
+def _measure_columns(study: Results) -> Iterator[tuple[str, Sequence[float | None]]]:
     """Head, and mean speed, δ, H, k_p."""
     steady, stepped, limit = study.steady_state, study.step_method, study.constant_energy
     if steady is not None:
@@ -92,7 +93,7 @@ def _measure_columns(study: DriveStudy) -> Iterator[tuple[str, Sequence[float | 
         yield "constant energy", [None, *(getattr(limit, name) for name in _MEASURES)]
 
 
-def _drive(study: DriveStudy) -> Table | None:
+def _drive(study: Results) -> Table | None:
     """Work, power and torque of the drive, beside what the motor is rated for."""
     steady, drive = study.steady_state, study.machine.drive
     if steady is None or drive is None or drive.motor is None:
@@ -113,7 +114,7 @@ def _beside(word: str, value: str) -> str:
     return "" if value.startswith("–") else f"{word} {value}"
 
 
-def _run_up(study: DriveStudy) -> Table | None:
+def _run_up(study: Results) -> Table | None:
     run_up = study.run_up
     if run_up is None:
         return None
@@ -122,7 +123,7 @@ def _run_up(study: DriveStudy) -> Table | None:
     return Table("run_up", title, ("quantity", "", "value", ""), rows)
 
 
-def _run_down(study: DriveStudy) -> Table | None:
+def _run_down(study: Results) -> Table | None:
     stop = study.run_down
     if stop is None:
         return None
@@ -130,7 +131,7 @@ def _run_down(study: DriveStudy) -> Table | None:
     return Table("run_down", "Run-down, motor off, brake on", heads, rows_in(stop, "run_down"))
 
 
-def _step_method(study: DriveStudy) -> Table | None:
+def _step_method(study: Results) -> Table | None:
     """The step method beside the exact solution."""
     stepped, steady = study.step_method, study.steady_state
     if stepped is None:
@@ -149,3 +150,28 @@ def _compared(stepped: StepMotion, steady: SteadyState | None, name: str) -> Row
     exact = getattr(steady, name)
     off = f"{number(100 * (value / exact - 1), 2)} %" if exact else "–"
     return mark.word, mark.symbol, measured(value, mark.unit), measured(exact, mark.unit), off
+
+
+def drive_headline(study: Results) -> Iterator[tuple[str, str, str]]:
+    """The few numbers that one looks for first: word, value, unit."""
+    steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
+    if steady is not None:
+        yield "mean speed", *parted(steady.speed_mean_time, "rad/s")
+        drive = study.machine.drive
+        # Steady motion has a motor.
+        assert drive is not None
+        assert drive.motor is not None
+        motor = drive.motor
+        if not isinstance(motor, ConstantSpeedMotor):
+            yield "speed fluctuation δ", number(steady.unevenness), ""
+            yield "dynamic factor H", number(steady.dynamism), ""
+        # Without losses the mean is zero but for rounding.
+        power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
+        yield "mean motor power", *parted(power, "W")
+        if motor.torque_rated is not None:
+            share = steady.torque_motor_rms / motor.torque_rated
+            yield "rms torque of the motor over its rated torque", number(share, 3), ""
+    if run_up is not None:
+        yield "run-up time", *parted(run_up.time, "s")
+    if steady is None and reduced is not None:
+        yield from few(reduced, ("inertia_min", "inertia_max", "torque_load_mean"))

@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `applied` | What each load does |
 | `balancing` | Which counterweights make the shaking force small? |
 | `cam_contact` | The force with which a cam drives its follower |
@@ -22,6 +23,8 @@
 | `places` | Where members, points and guides are, and how they move |
 | `result` | The forces by name |
 | `shaking_orders` | Primary and secondary shaking forces and couples, and those of higher orders |
+| `study` | Its part of the study of a machine |
 | `tables` | Forces as tables of text |
+| `words` | Assumptions of a report |
 | `wrench` | Forces and couples on members |
 """

@@ -114,7 +114,10 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
         if any(reasons):
             ties[name] = "; ".join(filter(None, reasons))
-    return Derivatives(program.variables, extremes, ties, missing, program.refused, lost)
+    pairs = [name for name in (*extremes, *missing) if name.startswith("reaction_max.")]
+    words = {name: f"maximum force of {name.partition('.')[2]}" for name in pairs}
+    units = dict.fromkeys(pairs, "N")
+    return Derivatives(program.variables, extremes, ties, missing, program.refused, lost, words, units)
 
 
 def drive_forces_along(

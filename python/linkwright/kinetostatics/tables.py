@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number, quantity
+from linkwright.kernel.page.numbers import (
+    crank_angle,
+    cycle_of_angles,
+    degrees,
+    measured,
+    number,
+    parted,
+    quantity,
+)
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
@@ -30,6 +38,19 @@ def envelope_table(forces: Forces) -> Table:
     scales = _scales(extents)
     rows = [_row(extent, forces, scales[extent.unit]) for extent in extents]
     return Table("forces", "Forces", ("quantity", "", "peak", "at φ", "rms", "mean"), rows)
+
+
+def envelope_tables(forces: Forces) -> tuple[Table]:
+    """The same table, for a report."""
+    return (envelope_table(forces),)
+
+
+def forces_headline(forces: Forces) -> Iterator[tuple[str, str, str]]:
+    """The largest force of a pair, and where."""
+    known = {name: force for name, force in forces.reaction_max.items() if math.isfinite(force)}
+    if known and any(known.values()):
+        pair = max(known, key=lambda name: known[name])
+        yield f"maximum force of {pair}", *parted(known[pair], "N")
 
 
 def _row(extent: Extent, forces: Forces, scale: float) -> Row:

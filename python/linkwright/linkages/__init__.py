@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `centrodes` | About which point does a link turn, and what does that point trace on frame and link? |
 | `circuits` | In which assembly modes does it close, and which form one circuit? |
 | `closure` | At which crank angles does the mechanism close? |
@@ -27,6 +28,7 @@
 | `pose` | Where is everything at one crank angle? |
 | `scene` | Sketch of a mechanism: points, links, slides, gears, bodies, springs over the crank angle |
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
+| `study` | Its part of the study of a machine |
 | `sweep` | A linkage swept over its cycle: what is looked at, curves, exact extremes |
 | `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
 | `whole_cycle` | After how many revolutions do masses, loads and forces repeat? |

@@ -23,6 +23,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.quantities import shown
 from linkwright.linkages.cycle import ElementMotion, examined, swept_cycle
 from linkwright.linkages.dyads import transmission, transmission_channels, transmission_slope
 from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, ways_between
@@ -74,7 +75,12 @@ def linkage_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         found.of_transmission(name, element, _transmission_turns(compiled, swept, element.element, program))
         if element.turns is not None:
             found.missing[f"{name}.turns"] = _TURNS
-    return Derivatives(program.variables, found.tangents, found.ties, found.missing, refused)
+    marks = {name: shown(ElementMotion, name.rpartition(".")[2]) for name in found.tangents}
+    return Derivatives(
+        *(program.variables, found.tangents, found.ties, found.missing, refused),
+        words={name: f"{mark.word} of {name.rpartition('.')[0]}" for name, mark in marks.items()},
+        units={name: mark.unit for name, mark in marks.items()},
+    )
 
 
 def _leaving(compiled: CompiledMachine, cycle: Cycle, program: Directions) -> list[str]:

@@ -160,6 +160,7 @@ def _bodies_moved(machine: Machine, corner: LawJump) -> list[str]:
     try:
         there, moved = _places(machine), _places(replace(machine, {address: float(value) + _MOVED}))
     except (AssemblyError, InputError):
+        # silent: what a driver moves is not known, so that all bodies count
         return list(machine.bodies)
     names = {
         name

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, measured, number, parted, quantity
+from collections.abc import Iterator
+
+from linkwright.kernel.page.numbers import (
+    crank_angle,
+    cycle_of_angles,
+    degrees,
+    measured,
+    number,
+    parted,
+    quantity,
+)
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import END, DeadPoint, ElementMotion, Linkage
 
@@ -13,14 +23,9 @@ _DEAD_POINTS_MAX = 24
 _CONSTANT = 1e-7
 
 
-def travel_tables(linkage: Linkage) -> list[Table]:
-    """Strokes, swings and time ratios, if there are outputs."""
-    return _with_rows(_travel(linkage))
-
-
-def transmission_tables(linkage: Linkage) -> list[Table]:
-    """Transmission angles, if there are dyads."""
-    return _with_rows(_transmission(linkage))
+def motion_tables(linkage: Linkage) -> list[Table]:
+    """Strokes, swings and time ratios of the outputs, and transmission angles of the dyads."""
+    return _with_rows(_travel(linkage), _transmission(linkage))
 
 
 def loop_tables(linkage: Linkage) -> list[Table]:
@@ -118,3 +123,24 @@ def _dead(linkage: Linkage) -> Table:
 def _turning(point: DeadPoint, names: list[str]) -> str:
     """The element of a dead point; of two with one name, whether link or slide turns back."""
     return f"{point.element}, {point.turns_back}" if names.count(point.element) > 1 else point.element
+
+
+# Outputs among the few numbers.
+_OUTPUTS = 2
+
+
+def linkage_headline(linkage: Linkage) -> Iterator[tuple[str, str, str]]:
+    """Strokes, swings and time ratios, and the worst transmission angle."""
+    moving = [element for element in linkage.elements if element.turns is None]
+    last = [*{element.output: element for element in moving[::-1]}.values()][::-1]
+    for moved in last if len(moving) <= _OUTPUTS else ():
+        if moved.stroke is not None:
+            yield f"stroke of {moved.output}", *parted(moved.stroke, "m")
+        elif moved.swing is not None:
+            yield f"swing of {moved.output}", degrees(moved.swing), ""
+        if moved.time_ratio is not None:
+            yield f"time ratio of {moved.output}", number(moved.time_ratio), ""
+    worst = [element.transmission_angle_worst for element in linkage.elements]
+    known = [angle for angle in worst if angle is not None]
+    if known:
+        yield "worst transmission angle", degrees(min(known)), ""

@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analysis` | What an analysis is, and the results of a study |
 | `tangents` | Exact derivatives of what follows from the entries by plain arithmetic |
 | `address` | Entries by address |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |

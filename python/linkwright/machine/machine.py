@@ -135,9 +135,9 @@ class Machine(WholeDescription):
         InputError
             There is no such curve, or nothing to draw.
         """
-        from linkwright.app.plotted import machine_figure
+        from linkwright.kernel.figure.figure_of import plotted_figure
 
-        return machine_figure(self, names, over)
+        return plotted_figure(self, *names, over=over)
 
     def _repr_html_(self) -> str:
         """The parts with their entries, as a notebook shows them."""

@@ -211,7 +211,9 @@ class Derivatives:
 
     `tangents`: by name, NaN for an entry without one; `ties`: names with one-sided derivatives only, or
     with none for some entries, and the reason; `missing`: names that have none at all; `refused`: entries
-    that have none; `lost`: entries for which the shift of a kink was not found, with its crank angle [rad].
+    that have none; `lost`: entries for which the shift of a kink was not found, with its crank angle [rad];
+    `words`, `units`: of names that are no declared quantities of the result; `usual`: what is given if no
+    name is asked for, all without it.
     """
 
     variables: tuple[str, ...]
@@ -220,6 +222,9 @@ class Derivatives:
     missing: Mapping[str, str]
     refused: Mapping[str, str]
     lost: Mapping[str, float] = field(default_factory=dict)
+    words: Mapping[str, str] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    usual: tuple[str, ...] | None = None
 
     def only(self, entries: Sequence[str]) -> Derivatives:
         """Those by some of the entries, in their order."""

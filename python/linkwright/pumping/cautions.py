@@ -19,18 +19,12 @@ _SMALL = 0.01
 _FREE_FALL = 9.81
 
 
-def unit_cautions(
-    machine: Machine, unit: PumpingUnitMotion | None, rotator: RodRotatorMotion | None
-) -> tuple[str, ...]:
-    """All that should be known of a unit and its rotator."""
-    sentences: list[str] = []
-    if unit is not None:
-        sentences += _stroke(unit)
-        sentences += _fall(unit)
-        sentences += _flanks(unit.gear) if unit.gear else []
-    if rotator is not None:
-        sentences += _lever(machine, rotator)
-    return tuple(sentences)
+def unit_cautions(unit: PumpingUnitMotion) -> Iterator[str]:
+    """What should be known of a unit."""
+    yield from _stroke(unit)
+    yield from _fall(unit)
+    if unit.gear is not None:
+        yield from _flanks(unit.gear)
 
 
 def unit_findings(unit: PumpingUnitMotion) -> Iterator[str]:
@@ -77,7 +71,8 @@ def _flanks(gear: GearTorque) -> Iterator[str]:
         )
 
 
-def _lever(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
+def rotator_cautions(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
+    """What should be known of a rotator."""
     if not rotator.extremes_coincide:
         yield (
             "The distance from the beam's pin to the hanger has an extreme inside the stroke: the lengths "

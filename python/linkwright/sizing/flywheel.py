@@ -229,6 +229,7 @@ def _unevenness(machine: Machine) -> float | None:
     try:
         return _steady(machine).unevenness
     except SteadyStateError:
+        # silent: no steady motion is an answer there: δ counts as infinite
         return None
 
 

@@ -149,6 +149,7 @@ def _end(
     try:
         also = sought(other, goal, value + signs[goal] * _GIVEN * abs(value))
     except FindingError:
+        # silent: the best by one goal stands, where a search does not find another that is as good by it
         return best
     gained = signs[other] * (best.responses[other] - also.responses[other])
     return also if gained > _GIVEN * abs(best.responses[other]) else best

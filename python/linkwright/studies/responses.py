@@ -14,12 +14,12 @@ maximum velocity of a slider.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from importlib import import_module
 from inspect import signature
 from typing import Any, NamedTuple, get_args, get_type_hints
 
 import numpy as np
 
+from linkwright.app.subjects import ANALYSES as SUBJECTS
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, LinkwrightError, MachineError
 from linkwright.kernel.quantities import Label, declared, is_array
@@ -45,32 +45,14 @@ from linkwright.studies.study_response import (
 from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.response.stress import stressed
 
-# Analysis → the function that makes it of a machine, and a name where there are several.
-ANALYSES = {
-    "reduction": "drive.reduction:reduction",
-    "constant_energy": "drive.evenness:constant_energy",
-    "steady_state": "drive.steady_state:steady_state",
-    "run_up": "drive.run_up:run_up",
-    "run_down": "drive.run_up:run_down",
-    "linkage": "linkages.cycle:linkage",
-    "cycle_motion": "drive.cycle_motion:cycle_motion",
-    "forces": "kinetostatics.forces:forces",
-    "cam": "cam.profile.profile:cam_profile",
-    "cam_check": "cam.profile.check:cam_check",
-    "cam_force": "cam.dynamics.loaded:cam_force",
-    "pumping_unit": "pumping.unit:pumping_unit",
-    "rotator": "pumping.rod_rotator:rod_rotator",
-    "rod_rotator": "pumping.rod_rotator:rod_rotator",
-    "turning_moment": "turning.diagram:turning_moment",
-    "topper": "topping.topper:topper",
-    "topper_field": "topping.field:topper_field",
-    "free_vibration": "torsion.modes.free:free_vibration",
-    "forced_vibration": "torsion.response.forced:forced_vibration",
-    "shaft_stress": "torsion.response.stress:shaft_stress",
-}
+# Analyses with a function of their own, by name.
+ANALYSES = {each.name: each for each in SUBJECTS if each.function is not None}
+
+# Former names of analyses → today's.
+_FORMERLY = {each.formerly: each.name for each in SUBJECTS if each.formerly}
 
 # What `run` calls a result within another → the analysis, and its name there.
-_WITHIN = {"gear_torque": ("pumping_unit", "gear")}
+_WITHIN = {each.name: each.within.split(".") for each in SUBJECTS if each.within}
 
 # The largest force of every pair, by its name.
 PAIRS = "forces.reaction_max"
@@ -78,9 +60,7 @@ PAIRS = "forces.reaction_max"
 
 def analysis(name: str) -> Callable[..., Result]:
     """The function of an analysis, imported now."""
-    module, _, function = ANALYSES[name].partition(":")
-    analyse: Callable[..., Result] = getattr(import_module(f"linkwright.{module}"), function)
-    return analyse
+    return ANALYSES[name].analyse
 
 
 def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, StudyPath]) -> StudyResponse:
@@ -92,8 +72,9 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         return _of_entry(machine, name, response.entry)
     text = response.quantity or response.curve or ""
     first, *rest = text.split(".")
+    first = _FORMERLY.get(first, first)
     if first in _WITHIN:
-        first, rest = _WITHIN[first][0], [_WITHIN[first][1], *rest]
+        first, *rest = *_WITHIN[first], *rest
     key = "quantity" if response.quantity is not None else "curve"
     if first == MOTION:
         return of_motion(machine, name, key, text, response)
@@ -197,6 +178,7 @@ def require_place(machine: Machine, response: StudyResponse) -> None:
         expected = f"0 to {error.count - 1}: the list has {error.count} values"
         raise wrong(response.name, "index", str(response.index), expected) from None
     except LinkwrightError:
+        # silent: a machine without an answer has no list whose length tells anything, and each row says why
         return
 
 

@@ -197,6 +197,7 @@ def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | N
     try:
         tangents = source(machine, analysis, entries)
     except InputError:
+        # silent: what has no exact derivatives is differenced, where the analysis says again what is wrong
         return None
     return None if tangents.refused else tangents
 

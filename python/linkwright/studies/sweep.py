@@ -73,9 +73,9 @@ class Sweep(Result):
         InputError
             There is no such response.
         """
-        from linkwright.app.plotted import sweep_figure
+        from linkwright.kernel.figure.figure_of import plotted_figure
 
-        return sweep_figure(self, names)
+        return plotted_figure(self, *names)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Counts, reasons and extremes by name, ready for JSON; no `curves`: rows are in the folder."""
@@ -155,6 +155,7 @@ def _try(plan: StudyPlan) -> None:
     try:
         numbers(plan.machine, list(plan.asked))
     except FindingError:
+        # silent: what a machine cannot do as it is, its variants may, and each row says so
         # What the machine cannot do as it is, variants of it may.
         return
 

@@ -20,23 +20,23 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from linkwright.app.study import Study, study
-from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.app.subjects import ANALYSES
+from linkwright.drive.obstacles import design_speed, no_mass
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
-from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.page.content import Content, Few, Part
-from linkwright.kernel.page.language import ENGLISH, Language, in_language
+from linkwright.kernel.page.language import ENGLISH, Language
 from linkwright.kernel.page.sentences import sentence
+from linkwright.kernel.page.translation import in_language
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
+from linkwright.machine.analysis import Analysis
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.machine.table import grouped, machine_parts
-from linkwright.studio.document import short
 from linkwright.studio.drawing import drawing
 from linkwright.studio.shown import shown
 from linkwright.studio.views import knife_view, train_view
@@ -49,26 +49,8 @@ if TYPE_CHECKING:
 _INTERVALS = 360
 _EVERY = 3
 
-# Entries that make a machine move at all, until its motor is chosen.
-_MOTOR = {"drive.motor": {"kind": "constant_speed", "speed": "10 rad/s"}}
-_BRAKE = {"drive.brake": {"torque": "100 N m"}}
-_ELASTIC = {"drive.crankshaft": {"sections": [{"length": "1 m", "diameter": "80 mm"}]}}
-
-# Of a DC motor in place of one that keeps its speed: no-load speed over that speed, and the limit of its
-# torque over the root mean square that is needed.
-_NO_LOAD, _LIMIT = 1.1, 2.5
-
-# Torque below which a machine without masses needs none: rounding of its motion [N m].
-_NO_TORQUE = 1e-9
-
-
-@dataclass(frozen=True)
-class Obstacle:
-    """What stands in the way of an analysis."""
-
-    words: str  # what is missing
-    mend: str = ""  # words of the button that mends it; empty if nothing simple does
-    entries: dict[str, Any] | None = None  # entries that the button sets
+# Lanes in the order of their chips.
+_ORDER = ("fast", "study", "torsion")
 
 
 def chips(machine: Machine) -> list[dict[str, Any]]:
@@ -77,94 +59,18 @@ def chips(machine: Machine) -> list[dict[str, Any]]:
     Of each ``name``, ``word``, ``lane`` (``fast``, ``study`` or ``torsion``) and, where it is not ready,
     ``obstacle`` with ``mend`` and ``entries``.
     """
+    listed = [each for each in ANALYSES if each.words and each.applies(machine)]
     return [
-        {"name": name, "word": word, "lane": lane, **_obstacle_dict(obstacle)}
-        for name, word, lane, obstacle in _chips(machine)
+        {"name": each.name, "word": each.words, "lane": each.lane, **_obstacle(each, machine)}
+        for each in sorted(listed, key=lambda each: _ORDER.index(each.lane))
     ]
 
 
-def _obstacle_dict(obstacle: Obstacle | None) -> dict[str, Any]:
+def _obstacle(analysis: Analysis, machine: Machine) -> dict[str, Any]:
+    obstacle = analysis.obstacle(machine) if analysis.obstacle is not None else None
     if obstacle is None:
         return {}
-    return {"obstacle": obstacle.words, "mend": obstacle.mend, "entries": obstacle.entries or {}}
-
-
-def _chips(machine: Machine) -> Iterator[tuple[str, str, str, Obstacle | None]]:
-    if machine.has_crank:
-        yield "motion", "Motion", "fast", None
-        motor = Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
-        no_motor = None if has_motor(machine) else motor
-        no_mass = None if _is_loaded(machine) else _no_mass(machine)
-        yield "steady_state", "Steady motion", "fast", no_motor
-        yield "forces", "Forces", "fast", (None if _design_speed(machine) else no_motor) or no_mass
-        yield "linkage", "Extreme positions", "study", None
-        yield "reduction", "Reduced inertia", "study", no_mass
-        yield "run_up", "Run-up", "study", no_motor or _no_run_up(machine)
-        yield "run_down", "Run-down", "study", no_motor or _no_brake(machine)
-    tables = (
-        ("cam", "Cams", bool(machine.mechanism.cams)),
-        ("pumping_unit", "Pumping unit", machine.pumping_unit is not None),
-        ("topper", "Topper", machine.topper is not None),
-        ("turning_moment", "Turning moments", machine.turning_moment is not None),
-    )
-    yield from ((name, word, "study", None) for name, word, there in tables if there)
-    if has_train(machine):
-        yield "torsion", "Torsional vibration", "torsion", None
-    elif machine.has_crank:
-        rigid = Obstacle("The driveline is rigid.", "Add an elastic crankshaft", _ELASTIC)
-        yield "torsion", "Torsional vibration", "torsion", no_motor or rigid
-
-
-def _design_speed(machine: Machine) -> float | None:
-    """Speed of the crank at which forces are asked for where no motor makes a motion."""
-    return None if machine.drive is None or has_motor(machine) else machine.drive.speed
-
-
-def _no_mass(machine: Machine) -> Obstacle:
-    """A first body: on a slider, or else at the moving point that is built last."""
-    places = [*machine.mechanism.sliders, *reversed(machine.linkage.moving_points())]
-    entries = {join(("bodies", places[0])): {"mass": "1 kg"}} if places else None
-    return Obstacle("No masses and no loads: add a body or a load.", "Add a body" if places else "", entries)
-
-
-def _is_loaded(machine: Machine) -> bool:
-    inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
-    return bool(machine.bodies or machine.loads or inertia)
-
-
-def _no_run_up(machine: Machine) -> Obstacle | None:
-    if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        entries = _dc_motor(machine)
-        mend = "" if entries is None else "Use a DC motor"
-        return Obstacle("The motor keeps its speed from the start.", mend, entries)
-    return None
-
-
-def _dc_motor(machine: Machine) -> dict[str, Any] | None:
-    """A DC motor with the needed torque at the speed that a motor keeps; None where none is known."""
-    motor = machine.drive.motor if machine.drive is not None else None
-    if not isinstance(motor, ConstantSpeedMotor):
-        return None
-    try:
-        needed = steady_state(machine, n=_INTERVALS).torque_motor_rms
-    except LinkwrightError:
-        return None
-    torque = needed if needed > _NO_TORQUE else 1.0
-    stall = torque / (1 - 1 / _NO_LOAD)
-    return {
-        "drive.motor": {
-            "kind": "dc",
-            "speed_no_load": f"{short(_NO_LOAD * float(motor.speed))} rad/s",
-            "torque_stall": f"{short(stall)} N m",
-            "torque_max": f"{short(min(stall, _LIMIT * torque))} N m",
-        }
-    }
-
-
-def _no_brake(machine: Machine) -> Obstacle | None:
-    if machine.drive is None or machine.drive.brake is None:
-        return Obstacle("The driveline has no brake.", "Add a brake", _BRAKE)
-    return None
+    return {"obstacle": obstacle.words, "mend": obstacle.remedy, "entries": dict(obstacle.entries or {})}
 
 
 def has_train(machine: Machine) -> bool:
@@ -203,10 +109,10 @@ def fast(machine: Machine, *, held: bool) -> Answers:
         return Answers([], findings.findings, findings.warnings, views=views)
     steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
-    if _is_loaded(machine):
+    if no_mass(machine) is None:
         if steady is not None:
             acting = findings.beside_of(_forces, machine, steady, _EVERY if held else 1)
-        elif _design_speed(machine):
+        elif design_speed(machine):
             acting = findings.beside_of(forces, machine, n=_INTERVALS, contributions=False)
     scene = findings.of(drawing, machine, steady, acting)
     results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
@@ -241,11 +147,8 @@ def lanes(machine: Machine) -> list[str]:
 
 
 def _study(results: Study, to: Language) -> Answers:
-    from linkwright.app.report.figures import figures
-    from linkwright.app.report.tables import tables
-
     known = [shown(name, result) for name, result in _new_results(results)]
-    drawn = [figure for figure in figures(results) if figure.name not in _CURVES]
+    drawn = [figure for figure in results.figures() if figure.name not in _CURVES]
     knife = knife_view(results)
     return Answers(
         known,
@@ -253,7 +156,7 @@ def _study(results: Study, to: Language) -> Answers:
         results.warnings,
         figures=tuple(_svg(one, to) for one in drawn),
         views=() if knife is None else (knife,),
-        tables=tuple(_tables(Content(title="", parts=[Part("", tables(results))]), results.machine, to)),
+        tables=tuple(_tables(Content(title="", parts=[Part("", results.tables())]), results.machine, to)),
     )
 
 
@@ -264,7 +167,7 @@ _CURVES = {"speed", "torque", "time", "reduction", "run_up"}
 def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
     """What the fast lane has not shown."""
     known = ("steady_state", "forces")
-    yield from ((name, result) for name, result in results.results().items() if name not in known)
+    yield from ((name, result) for name, result in results.items() if name not in known)
 
 
 def _torsion_study(machine: Machine) -> TorsionStudy:

@@ -448,6 +448,7 @@ def added(text: str, kind: str, size: float, picked: str, path: str = "") -> str
         loads(text, path=path)
         is_sound = True
     except LinkwrightError:
+        # silent: a file that is not sound has its problems beside its entries
         is_sound = False
     why = f"{found.word} needs {found.needs}" if found.needs else f"{found.word}: there is one already"
     for _, (place, entries) in zip(range(_TRIES), found.made(site), strict=False):

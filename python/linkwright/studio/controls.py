@@ -107,6 +107,7 @@ def _number(value: Any, mark: Quantity) -> Control:
     try:
         return {"si": parse(size, mark.kind)} | ({"tolerance": tolerance} if tolerance else {})
     except UnitError:
+        # silent: a text that is no quantity is a problem of the file, which stands beside it
         return {"si": None}
 
 

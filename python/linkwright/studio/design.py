@@ -69,6 +69,7 @@ def goals(machine: Machine) -> Iterator[Goal]:
     try:
         known = linkage(machine) if machine.has_crank else None
     except LinkwrightError:
+        # silent: a linkage that closes nowhere is reported by the motion
         return
     if known is None:
         return
@@ -131,6 +132,7 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
     try:
         exact = gradient(machine, [response])
     except InputError:
+        # silent: what has no exact derivatives is differenced, where the study says what is wrong
         return _differenced(machine, response)
     rows = exact.of(response)
     return {

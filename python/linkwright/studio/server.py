@@ -235,6 +235,7 @@ class Studio:
         try:
             return JSONResponse(page_texts(request.path_params["code"]))
         except InputError:
+            # silent: a page in a language that there is none of is not found
             return Response(status_code=404)
 
     async def _tab(self, page: WebSocket) -> None:
@@ -259,6 +260,7 @@ class Studio:
             number, body = unpacked(message.get("bytes") or b"")
             given = read(body)
         except (TimeoutError, WireError, InputError):
+            # silent: the connection is refused
             return False
         if not isinstance(given, Enter):
             return False
@@ -337,6 +339,7 @@ async def _converse(page: WebSocket, session: Session) -> None:
             try:
                 session.take(message.get("bytes") or b"")
             except WireError:
+                # silent: the connection ends with this code
                 code = _NO_MESSAGE
     except WebSocketDisconnect:
         pass

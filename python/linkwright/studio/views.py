@@ -149,6 +149,7 @@ def thumbnail(folder: Folder, place: str, name: str) -> View:
         scene = moving_scene(machine, None) if machine.has_crank else None
         view = None if scene is not None else _view(machine)
     except LinkwrightError:
+        # silent: a machine that cannot be drawn has no picture; opening it says why
         return {"scene": None, "view": None}
     if scene is not None:
         del scene["motion"]

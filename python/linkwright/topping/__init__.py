@@ -2,9 +2,11 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `best/` | The best knife of a topper within its limits |
 | `cautions` | Findings and warnings on a topper and on its field |
 | `charts` | Curves of required length over speed and diameter |
+| `check` | What can be seen without solving, and what a machine consists of |
 | `commands` | ``linkwright topper``: field, sweep, best knife |
 | `core` | The core's knife of a topper over many heads |
 | `coverage` | What a head leaves uncut, of one pass and of many roots |

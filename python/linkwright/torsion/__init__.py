@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `commands/` | ``linkwright torsion`` |
 | `core/` | Trains in the terms of the core |
 | `damper/` | The best damper for a mode |

@@ -176,9 +176,9 @@ class TorsionStudy(PlainRecord):
         InputError
             There is no such figure; the message lists all.
         """
-        from linkwright.app.plotted import torsion_figure
+        from linkwright.kernel.figure.figure_of import plotted_figure
 
-        return torsion_figure(self, name)
+        return plotted_figure(self, name)
 
     def _repr_html_(self) -> str:
         """Exceeded limits, warnings and all results, as a notebook shows them."""
@@ -334,6 +334,7 @@ def _at_critical(machine: Machine, free: FreeVibration, diagram: CampbellDiagram
         try:
             yield holzer_table(machine, float(free.natural_frequencies[mode]))
         except FindingError:
+            # silent: a mode in which the first disc is at rest has no Holzer table from that disc
             # The first disc is at rest in this mode, from which the table starts.
             continue
 

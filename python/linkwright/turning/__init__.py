@@ -2,6 +2,8 @@
 
 | module | |
 | --- | --- |
+| `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
+| `check` | What can be seen without solving, and what a machine consists of |
 | `diagram` | Fluctuation of energy over a cycle, and the flywheel that evens the motion |
 | `gradient` | Derivatives of a diagram by its entries |
 | `figures` | The diagram, the energy and the speed over a cycle |

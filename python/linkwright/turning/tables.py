@@ -9,6 +9,7 @@ from linkwright.kernel.page.numbers import degrees, measured, number, parted
 from linkwright.kernel.page.table import Row, Table, known_rows
 from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
+from linkwright.turning.model import TurningMoment
 
 _SOURCE = "Rattan, Theory of Machines, chapter 13"
 _RIM_SOURCE = "Khurmi, Gupta, Theory of Machines, chapter 16"
@@ -33,12 +34,11 @@ def turning_formulas(diagram: TurningMomentDiagram) -> list[Formula]:
     return [*FORMULAS, *(RIM_FORMULAS if diagram.rim_radius is not None else ())]
 
 
-# What is taken for granted, in sentences.
-ASSUMPTIONS = (
-    "Torques of driver and load depend only on the angle of the shaft, not on its speed.",
-    "The moment of inertia of the shaft is constant; the shaft is rigid.",
-    "The mean speed is the mean of the extreme speeds.",
-)
+def turning_assumptions(described: TurningMoment) -> Iterator[str]:
+    """What is taken for granted."""
+    yield "Torques of driver and load depend only on the angle of the shaft, not on its speed."
+    yield "The moment of inertia of the shaft is constant; the shaft is rigid."
+    yield "The mean speed is the mean of the extreme speeds."
 
 
 def turning_headline(diagram: TurningMomentDiagram) -> Iterator[tuple[str, str, str]]:

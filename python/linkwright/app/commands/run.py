@@ -91,11 +91,13 @@ def _zero(study: Study, where: str | None) -> Zero:
 
 def _answer(study: Study, zero: Zero) -> Answer:
     """All that was found, and the files of a study."""
+    from linkwright.app.study import results_to_dict
+
     return Answer(
         machine=study.machine.name,
         units=study.machine.units,
         zero=zero,
-        results=lambda curves: {k: result.to_dict(curves=curves) for k, result in study.results().items()},
+        results=lambda curves: results_to_dict(study, curves=curves),
         findings=study.findings,
         warnings=study.warnings,
         head=partial(_head, study),
@@ -114,9 +116,7 @@ def _head(study: Study) -> str:
 
 def _tables(study: Study) -> list[Table]:
     """Tables for people."""
-    from linkwright.app.report.tables import tables
-
-    return tables(study)
+    return study.tables()
 
 
 def _report(study: Study) -> Content:
@@ -134,8 +134,8 @@ def _files(study: Study) -> dict[str, str]:
     from linkwright.kernel.page.table import curves_csv
 
     with progress("writing the report"):
-        names = file_names(dict.fromkeys(study.results(), ".csv"))
-        tables = {names[name]: curves_csv(result) for name, result in study.results().items()}
+        names = file_names(dict.fromkeys(study, ".csv"))
+        tables = {names[name]: curves_csv(result) for name, result in study.items()}
         texts = {name: text for name, text in tables.items() if text}
         if study.topper is not None and not study.topper.obstacle:
             from linkwright.topping.tables.topper import edge_csv

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from linkwright.app.report.assumptions import assumed_of, assumptions
-from linkwright.app.report.figures import figures
 from linkwright.app.report.scene import moving_scene, scene
-from linkwright.app.report.tables import DETAIL_TABLES, MOTION_TABLES, tables
 from linkwright.app.study import Study
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.app.subjects import ANALYSES
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.content import Content, Few, Heading, Part
-from linkwright.kernel.page.formulas import KLOSS_1909, PAPER_1, Formula, formulas
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import degrees, number, parted, zero_words
+from linkwright.kernel.page.numbers import zero_words
 from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.public import public
@@ -62,8 +56,8 @@ def write_report(
     InputError
         The file cannot be written, Typst is not installed, or nobody knows the language.
     """
-    from linkwright.kernel.page.language import in_language
     from linkwright.kernel.page.language import language as of_code
+    from linkwright.kernel.page.translation import in_language
 
     to = of_code(language, "language")
     report = in_language(replace(content(study, command), heading=heading or Heading()), to)
@@ -90,29 +84,26 @@ def content(study: Study, command: str = "") -> Content:
 
 def _content(study: Study, command: str) -> Content:
     machine = study.machine
-    drawn, listed = list(figures(study)), tables(study)
-    moving = [figure for figure in drawn if figure.name.startswith(_MOTION_FIGURES)]
-    motion = [table for table in listed if table.name in MOTION_TABLES]
-    details = [table for table in listed if table.name in DETAIL_TABLES]
-    results = [table for table in listed if table not in motion and table not in details]
+    motion, other = ([each for each in ANALYSES if each.is_motion is so] for so in (True, False))
+    shown = study.shown
     parts = (
-        Part("Motion", motion, moving),
-        Part("Results", results, [figure for figure in drawn if figure not in moving]),
-        Part("Details", details),
+        Part("Motion", list(shown(motion, "tables")), list(shown(motion, "figures"))),
+        Part("Results", list(shown(other, "tables")), list(shown(other, "figures"))),
+        Part("Details", list(study.showing("details"))),
     )
     sections = machine_sections(machine, study.steady_state)
     knife = knife_scene(study)
     sections["scenes"] = {**({"topper": knife} if knife is not None else {}), **sections["scenes"]}
-    sections["assumptions"] = assumptions(study)
+    sections["assumptions"] = list(study.showing("assumptions"))
     return Content(
         title=machine.name,
         lead=" ".join(filter(None, (machine.description, zero_words(zero_shown())))),
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
-        headline=[Few(*line) for line in _headline(study)],
+        headline=[Few(*line) for line in study.headline(ANALYSES)],
         parts=[part for part in parts if part.tables or part.figures],
-        formulas=_formulas(study),
-        papers=_papers(study),
+        formulas=list(study.showing("formulas")),
+        papers=". ".join(study.showing("papers")),
         command=command or "linkwright run machine.toml --out report",
         **sections,
     )
@@ -129,7 +120,7 @@ def machine_sections(machine: Machine, steady: SteadyState | None = None) -> dic
         "scenes": {} if drawn is None else {"mechanism": drawn},
         "sketch": None if drawn is None else _sketch(machine, steady),
         "groups": grouped(machine_parts(machine)),
-        "assumptions": assumed_of(machine),
+        "assumptions": list(Study(machine).showing("assumptions")),
         "file": in_own_units(machine),
     }
 
@@ -147,118 +138,7 @@ def _sketch(machine: Machine, steady: SteadyState | None) -> Callable[[], Figure
     return drawn
 
 
-# Figures of the part on motion begin so.
-_MOTION_FIGURES = ("motion_", "transmission", "coupler_curves")
-
-
 def knife_scene(study: Study) -> dict[str, Any] | None:
     """Data of the moving view of a topper from above; None without one."""
-    if study.knife is None:
-        return None
-    from linkwright.topping.scene import topper_scene
-
-    return topper_scene(study.machine, *study.knife)
-
-
-def _topper_formulas(study: Study) -> list[Formula]:
-    if study.machine.topper is None:
-        return []
-    from linkwright.topping.tables.words import topper_formulas
-
-    return topper_formulas(study.machine.topper, study.topper)
-
-
-def _turning_formulas(study: Study) -> list[Formula]:
-    if study.turning_moment is None:
-        return []
-    from linkwright.turning.tables import turning_formulas
-
-    return turning_formulas(study.turning_moment)
-
-
-def _turning_headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    if study.turning_moment is not None:
-        from linkwright.turning.tables import turning_headline
-
-        yield from turning_headline(study.turning_moment)
-
-
-def _topper_headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    if study.knife is None:
-        return
-    from linkwright.topping.tables.words import topper_headline
-
-    yield from topper_headline(*study.knife)
-
-
-# Outputs among the few numbers.
-_OUTPUTS = 2
-
-
-def _motion_headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    """Strokes, swings and time ratios, and the worst transmission angle."""
-    if study.linkage is None:
-        return
-    moving = [element for element in study.linkage.elements if element.turns is None]
-    for moved in (
-        [*{element.output: element for element in moving[::-1]}.values()][::-1]
-        if len(moving) <= _OUTPUTS
-        else ()
-    ):
-        if moved.stroke is not None:
-            yield f"stroke of {moved.output}", *parted(moved.stroke, "m")
-        elif moved.swing is not None:
-            yield f"swing of {moved.output}", degrees(moved.swing), ""
-        if moved.time_ratio is not None:
-            yield f"time ratio of {moved.output}", number(moved.time_ratio), ""
-    worst = [element.transmission_angle_worst for element in study.linkage.elements]
-    known = [angle for angle in worst if angle is not None]
-    if known:
-        yield "worst transmission angle", degrees(min(known)), ""
-
-
-def _formulas(study: Study) -> list[Formula]:
-    cut = [*_turning_formulas(study), *_topper_formulas(study)]
-    if study.machine.is_topper_alone or study.machine.is_diagram_alone:
-        return cut
-    motor = study.machine.drive.motor if study.machine.drive else None
-    is_induction = isinstance(motor, InductionMotor)
-    steps = study.step_method is not None
-    return [*cut, *formulas(induction=is_induction, motor=motor is not None, steps=steps)]
-
-
-def _papers(study: Study) -> str:
-    """The papers that formulas are from."""
-    machine = study.machine
-    if machine.is_diagram_alone:
-        return ""
-    sources = [] if machine.is_topper_alone else [PAPER_1]
-    if machine.drive is not None and isinstance(machine.drive.motor, InductionMotor) and sources:
-        sources.append(KLOSS_1909)
-    if machine.topper is not None:
-        from linkwright.topping.tables.words import PAPER_5
-
-        sources.append(PAPER_5)
-    return ". ".join(sources)
-
-
-def _headline(study: Study) -> Iterator[tuple[str, str, str]]:
-    """The few numbers that one looks for first: symbol and word, value, unit."""
-    yield from _turning_headline(study)
-    yield from _topper_headline(study)
-    yield from _motion_headline(study)
-    steady, run_up, reduced = study.steady_state, study.run_up, study.reduction
-    if steady is not None:
-        yield "mean speed", *parted(steady.speed_mean_time, "rad/s")
-        yield "speed fluctuation δ", number(steady.unevenness), ""
-        yield "dynamic factor H", number(steady.dynamism), ""
-        # Without losses the mean is zero but for rounding.
-        power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
-        yield "mean motor power", *parted(power, "W")
-    if run_up is not None:
-        yield "run-up time", *parted(run_up.time, "s")
-    if steady is None and reduced is not None:
-        most, size = reduced.inertia_max, float(np.abs(reduced.torque_load).max())
-        yield "minimum reduced inertia", *parted(reduced.inertia_min, "kg m²", scale=most)
-        yield "maximum reduced inertia", *parted(most, "kg m²")
-        yield "mean load torque", *parted(reduced.torque_load_mean, "N m", scale=size)
+    own = [each.scene for each in ANALYSES if each.scene is not None and each.applies(study.machine)]
+    return next((dict(scene) for one in own if (scene := one.shown(study))), None)

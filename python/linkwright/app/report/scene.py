@@ -130,6 +130,7 @@ def _closes(machine: Machine) -> bool:
         moves = any(getattr(machine.linkage, table) for table in DRIVERS)
         return moves and bool(closure(machine).ranges)
     except AssemblyError:
+        # silent: the same, and a mechanism that does not move is not drawn
         # No lengths for a rotator.
         return False
 

@@ -13,5 +13,6 @@
 | `out_units` | Units in which numbers are shown |
 | `sentences` | Findings and warnings in the units, and with the crank angles, of the reader |
 | `table` | A table of text, the rows that attributes of results make, and tables and curves as CSV |
+| `translation` | A content in a language, its figures too |
 | `typeset` | A report as PDF, by Typst |
 """

@@ -8,13 +8,6 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-PAPER_1 = (
-    "Paper 1: “Аналіз нерівномірності руху приводних механізмів машин роликового формування” (Analysis of "
-    "the unevenness of motion of the drive mechanisms of roller-forming machines)"
-)
-
-KLOSS_1909 = "M. Kloss, Drehmoment und Schlüpfung des Drehstrommotors, Archiv für Elektrotechnik, 1909"
-
 
 class Formula(NamedTuple):
     """A formula: what it says, the formula in the notation of this module, and where it is from."""
@@ -108,56 +101,3 @@ def _typst_part(part: str) -> str:
     if len(part) > 1 and part.isascii() and part.isalpha():
         return f'op("{part}") '
     return _SIGNS.get(part, part.replace("′", "'")) + " "
-
-
-MOTION = Formula(
-    "Motion of the machine, reduced to the crank",
-    "J ω frac(d ω|d φ) + frac(1|2) ω^2 frac(d J|d φ) = M_d − M_r",
-    "paper 1 (1)",
-)
-INERTIA = Formula(
-    "Reduced inertia, over all bodies and the drive",
-    "J = J_0 + Σ ( m |p′|^2 + J_S ψ′^2 )",
-    "paper 1 (10), for any linkage",
-)
-LOAD = Formula(
-    "Reduced torque of all forces and torques",
-    "M_r = − Σ F · p′ − Σ M ψ′",
-    "paper 1 (5), for any linkage",
-)
-KLOSS = Formula(
-    "Torque of an induction motor over its slip",
-    "M = frac(2 M_k|s / s_k + s_k / s) , s = frac(ω_0 − ω_m|ω_0)",
-    "Kloss 1909; paper 1 (8)",
-)
-GEARBOX = Formula("Driving torque at the crank, behind the gearbox", "M_d = M i η", "paper 1 (9)")
-UNEVENNESS = Formula("Coefficient of speed fluctuation", "δ = frac(ω_max − ω_min|ω_mean)", "paper 1 (13)")
-DYNAMISM = Formula("Dynamic factor", "H = frac(∣ε∣_max|ω_mean^2)", "paper 1 (14)")
-COEFFICIENT = Formula("Combined non-uniformity index", "k_p = δ^2 + H", "paper 1 (15)")
-MEANS = Formula(
-    "Mean speed, of the extremes or over time",
-    "ω_mean = frac(ω_max + ω_min|2) , ω_mean = frac(2 π|T)",
-    "paper 1 takes the first",
-)
-LIMIT = Formula(
-    "Constant-energy limit: motor and loads switched off",
-    "ω ∝ frac(1|root(J)) , ε = − frac(ω^2|2 J) frac(d J|d φ)",
-    "(1) without torques",
-)
-STEPS = Formula(
-    "Step method",
-    "ω_k+1 = frac(( M_d − M_r ) Δφ|J_k ω_k) + frac(3 J_k − J_k+1|2 J_k) ω_k",
-    "Baranov; paper 1 (4)",
-)
-
-
-def formulas(*, induction: bool, motor: bool, steps: bool) -> list[Formula]:
-    """The formulas that a report needs, from the motion to its measures.
-
-    With those of an induction motor, of any motor, of the step method if these are in it.
-    """
-    needed = [MOTION, INERTIA, LOAD]
-    needed += [KLOSS] if induction else []
-    needed += [GEARBOX] if motor else []
-    needed += [UNEVENNESS, DYNAMISM, COEFFICIENT, MEANS] if motor else []
-    return [*needed, LIMIT, *([STEPS] if steps else [])]

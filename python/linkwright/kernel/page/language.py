@@ -12,17 +12,11 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from linkwright.kernel.page.content import Content
 
 # A number as `linkwright.kernel.page.numbers` writes it, no digits of a name.
 _DIGITS = r"(?<![\w.])[-−+]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|e[-−+]?\d+)?(?![\w]|\.\d)"
@@ -33,9 +27,6 @@ _WORD = re.compile(r"[A-Za-z]{2}")
 _STOPS = frozenset(".;:,")
 # Where a number or a name stands in a translation.
 _PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
-
-# Entries that are read by programs, or that only their author may change.
-_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language", "names"})
 
 
 @dataclass(frozen=True)
@@ -184,54 +175,3 @@ def language(code: str, where: str = "--lang") -> Language:
         raise InputError(f'{where}: found "{code}", expected one of {", ".join(sorted(["en", *known]))}')
     tables = tomllib.loads(known[code].read_text(encoding="utf-8"))
     return Language(code, tables["texts"], tables["units"], tables["decimal"], tuple(tables["titles"]))
-
-
-def in_language(content: Content, to: Language) -> Content:
-    """A content in a language; its figures are changed in place, and names of the machine's parts stay."""
-    if to.code == "en":
-        return content
-    names = {part.name for _, parts in content.groups for part in parts if part.is_named} | {*content.names}
-    texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
-    title = replace(to, texts=texts)(content.title)
-    if title == content.title:
-        names.add(title)
-    changed: Content = _changed(content, replace(to, names=frozenset(names)))
-    groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
-    return replace(changed, title=title, groups=groups, language=to)
-
-
-def _part(part: Any, to: Language) -> Any:
-    """A part of the machine with its name in a language, unless the file gives that name."""
-    return part if part.is_named else part._replace(name=": ".join(map(to, part.name.split(": "))))
-
-
-def _changed(value: Any, to: Language) -> Any:
-    from matplotlib.figure import Figure
-
-    from linkwright.kernel.figure.for_reader import translated_figure
-
-    if isinstance(value, str):
-        return to.label(value)
-    if isinstance(value, Figure):
-        return translated_figure(value, to)
-    if is_dataclass(value) and not isinstance(value, type):
-        entries = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
-        return replace(value, **{name: _entry(name, entry, to) for name, entry in entries.items()})
-    if hasattr(value, "_fields"):
-        return type(value)(*(_entry(name, getattr(value, name), to) for name in value._fields))
-    if isinstance(value, (list, tuple)):
-        return type(value)(_changed(one, to) for one in value)
-    if callable(value):
-        return _drawn(value, to)
-    return value
-
-
-def _entry(name: str, entry: Any, to: Language) -> Any:
-    if name == "unit":
-        return to.unit(entry)
-    return entry if name in _KEPT else _changed(entry, to)
-
-
-def _drawn(draw: Callable[[], Any], to: Language) -> Callable[[], Any]:
-    """What draws, with its figure in a language."""
-    return lambda: _changed(draw(), to)

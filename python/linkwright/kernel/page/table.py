@@ -14,13 +14,13 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from io import StringIO
 from typing import NamedTuple
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import counted_columns
-from linkwright.kernel.page.numbers import NOISE, measured
+from linkwright.kernel.page.numbers import NOISE, degrees, measured, parted
 from linkwright.kernel.page.out_units import shown_columns
 from linkwright.kernel.quantities import Label, in_table, shown
 from linkwright.kernel.result import Result
@@ -55,6 +55,16 @@ def _scale(result: Result, mark: Label) -> float:
     beside = in_table(type(result), mark.table) if mark.table and mark.unit else ()
     same = (getattr(result, name) for name in beside if shown(type(result), name).unit == mark.unit)
     return max((abs(value) for value in same if value is not None and math.isfinite(value)), default=0.0)
+
+
+def few(result: Result, names: Iterable[str], before: str = "") -> Iterator[tuple[str, str, str]]:
+    """Word, value and unit of what is known of some attributes; `before`: what stands before each word."""
+    for name in names:
+        mark, value = shown(type(result), name), getattr(result, name)
+        if value is not None and math.isfinite(value):
+            unit = result.unit_of(name)
+            text = (degrees(value), "") if unit == "rad" else parted(value, unit, scale=_scale(result, mark))
+            yield f"{before}{mark.word}", *text
 
 
 def rows_of(result: Result, *names: str) -> list[Row]:

@@ -247,6 +247,7 @@ def _from_pint(text: str) -> tuple[float, Dimension] | None:
             return None
         reduced: tuple[Any, Any] = registry.get_base_units(unit)
     except Exception:  # whatever pint's tokenizer and its arithmetic meet in a text that is no unit
+        # silent: a text that pint does not know is reported with the units that are known
         return None
     factor, base = reduced
     powers: dict[str, Any] = dict(base._units)

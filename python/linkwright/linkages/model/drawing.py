@@ -102,6 +102,7 @@ def _places(
         try:
             x, y = parse_list(value, LENGTH)
         except (UnitError, ValueError):
+            # silent: a wrong place becomes a fault of the drawing, with its name
             expected = 'two lengths, x and y, such as "80, 25 mm"'
             faults.append(fault("drawing", "points", name, found=value, expected=expected))
         else:
@@ -135,6 +136,7 @@ def _number(entry: object, key: str, kind: Kind) -> float | None:
     try:
         return None if value is None else parse(value, kind)
     except UnitError:
+        # silent: a number of the file that is wrong is reported by the element that it stands in
         return None
 
 

@@ -10,7 +10,7 @@ from linkwright.kernel.page.numbers import degrees, parted
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
 
-PAPER_5 = (
+_PAPER = (
     "Paper 5: “Кінематичний аналіз переміщення ножа обрізника по головці коренеплоду” (Kinematic analysis of "
     "the movement of a topper's knife over the head of a root)"
 )
@@ -77,10 +77,15 @@ def topper_headline(described: Topper, study: TopperStudy) -> Iterator[tuple[str
         yield "knife frequency", *parted(study.frequency, "1/s", 3)
 
 
-def topper_formulas(described: Topper, study: TopperStudy | None) -> list[Formula]:
+def topper_formulas(described: Topper, study: TopperStudy) -> list[Formula]:
     """Formulas of the lengths and of slicing."""
-    moves = described.motion.phase is None and study is not None and study.stroke > 0
+    moves = described.motion.phase is None and study.stroke > 0
     return [*_FORMULAS, *([_EVERY_PHASE] if moves else []), _SLICING]
+
+
+def topper_papers(described: Topper) -> tuple[str]:
+    """The paper that formulas are from."""
+    return (_PAPER,)
 
 
 def topper_assumptions(described: Topper) -> Iterator[str]:

@@ -74,6 +74,7 @@ def _manoeuvre(study: TorsionStudy, moved: TorsionTransient) -> Iterator[Caption
     try:
         orders = waterfall(moved.time[first:], angle, moved.torque[shaft, first:])
     except LinkwrightError:
+        # silent: a record too short for orders has no waterfall
         # Too short for turns to tell orders apart.
         return
     caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."

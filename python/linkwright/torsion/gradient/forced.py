@@ -17,7 +17,6 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import Derivatives
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
@@ -42,24 +42,19 @@ _TIE, _ONE = 1e-7, 1e-3
 _RIGID = 1e-9
 
 
-@dataclass(frozen=True)
-class ForcedTangents:
-    """Largest torques of the shafts over the speeds [N m], with derivatives by `variables`.
-
-    `vibratory` and `greatest` by shaft, the latter where the mean torque has derivatives; `ties` by
-    ``quantity.shaft``.
-    """
-
-    variables: tuple[str, ...]
-    vibratory: dict[str, Tangent]
-    greatest: dict[str, Tangent]
-    ties: dict[str, str]
-    refused: dict[str, str]
+# Quantity → its name among responses, and its words.
+_KINDS = {
+    "vibratory": ("shaft_torque_vibratory", "largest vibratory torque of"),
+    "greatest": ("shaft_torque_max", "largest torque of"),
+}
 
 
-def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangents:
-    """Torques of the shafts along entries of a machine. Raises what `forced_vibration` raises, and
-    InputError for the train of a driveline, whose torques are those of its mechanism.
+def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+    """Largest torques of the shafts over the speeds [N m], named ``shaft_torque_max.SHAFT``, where the mean
+    torque has derivatives, and ``shaft_torque_vibratory.SHAFT``.
+
+    Raises what `forced_vibration` raises, and InputError for the train of a driveline, whose torques are
+    those of its mechanism.
     """
     if machine.train is None:
         raise InputError("forced vibration of a driveline has no derivatives: describe its train in [train]")
@@ -80,15 +75,16 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> ForcedTangent
     known = [name for name in d.variables if name not in refused]
     acting = {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
     forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting, shafts), acting)
-    tangents: dict[str, dict[str, Tangent]] = {"vibratory": {}, "greatest": {}}
-    ties: dict[str, str] = {}
+    tangents, words, ties = {}, {}, {}
     for kind, shaft, place, tie in peaks:
         value, slope, twice = forced.response(kind, shaft, place)
-        name = referred.shafts[shaft]
-        tangents[kind][name] = Tangent(value, slope)
+        (quantity, said), of = _KINDS[kind], referred.shafts[shaft]
+        name = f"{quantity}.{of}"
+        tangents[name], words[name] = Tangent(value, slope), f"{said} {of} over the speeds"
         if tie or twice:
-            ties[f"{kind}.{name}"] = tie or twice
-    return ForcedTangents(tuple(known), tangents["vibratory"], tangents["greatest"], ties, refused)
+            ties[name] = tie or twice
+    units = dict.fromkeys(tangents, "N m")
+    return Derivatives(tuple(known), tangents, ties, {}, refused, words=words, units=units)
 
 
 def _refused(variables: Sequence[str]) -> dict[str, str]:

@@ -31,6 +31,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
+from linkwright.machine.tangents import Derivatives
 from linkwright.torsion.core.train import HELD, ReferredTrain
 from linkwright.torsion.gradient.distributed_modes import DistributedModes, ModeAngles
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
@@ -92,6 +93,28 @@ def mode_tangents(machine: Machine, variables: Sequence[str]) -> ModeTangents:
             elif len(group) == 1:
                 _add_shape(tangents, i, referred.discs, modes.angles(i, slope))
     return tangents
+
+
+def mode_derivatives(machine: Machine, variables: Sequence[str]) -> Derivatives:
+    """The same as scalars, named ``natural_frequencies.MODE`` and ``mode_shapes.MODE.DISC``."""
+    found = mode_tangents(machine, variables)
+    frequencies = {f"natural_frequencies.{i}": tangent for i, tangent in found.natural_frequencies.items()}
+    words = {name: f"natural frequency of mode {name.rsplit('.', 1)[-1]}" for name in frequencies}
+    ties = {f"natural_frequencies.{i}": reason for i, reason in found.ties.items()}
+    shapes = {}
+    for (i, disc), tangent in found.mode_shapes.items():
+        name = f"mode_shapes.{i}.{disc}"
+        shapes[name], words[name] = tangent, f"amplitude of {disc} in mode {i}"
+        if i in found.shape_ties:
+            ties[name] = found.shape_ties[i]
+    return Derivatives(
+        *(found.variables, frequencies | shapes, ties),
+        {f"mode_shapes.{i}.{disc}": reason for (i, disc), reason in found.missing.items()},
+        found.refused,
+        words=words,
+        units=dict.fromkeys(frequencies, "Hz") | dict.fromkeys(shapes, ""),
+        usual=tuple(frequencies),
+    )
 
 
 def _groups(omega: Floats, *, alone: bool) -> list[list[int]]:

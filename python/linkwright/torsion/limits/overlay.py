@@ -302,6 +302,7 @@ def _kind(entry: object, name: str, path: Path, line: int) -> str:
         try:
             parse(entry, kind)
         except UnitError:
+            # silent: a unit that none of the quantities has is reported with those that have one
             continue
         if isinstance(entry, str):
             return what

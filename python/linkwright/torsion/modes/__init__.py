@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `campbell` | Campbell's diagram of a train: natural frequencies over the speed, and where orders meet them |
+| `check` | What can be seen without solving, and what a machine consists of |
 | `damped` | Free vibration of a train with damping: how fast each mode dies out |
 | `free` | Natural frequencies, mode shapes, nodes, energy, and what changes them |
 | `holzer` | What a train needs to swing at any frequency |

@@ -1,0 +1,22 @@
+"""All analyses, in the order in which a study makes them and a report shows them."""
+
+from __future__ import annotations
+
+from linkwright.cam import analyses as cam
+from linkwright.drive import analyses as drive
+from linkwright.kinetostatics import analyses as kinetostatics
+from linkwright.linkages import analyses as linkages
+from linkwright.pumping import analyses as pumping
+from linkwright.topping import analyses as topping
+from linkwright.torsion import analyses as torsion
+from linkwright.turning import analyses as turning
+
+ANALYSES = (
+    *(turning.DIAGRAM, topping.TOPPER, topping.FIELD),
+    *(cam.CAM, cam.SIZES, cam.CHECK),
+    *(pumping.UNIT, pumping.GEARBOX, pumping.ROTATOR),
+    *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
+    *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, kinetostatics.FORCES),
+    *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
+    *(torsion.TORSION, torsion.FREE, torsion.FORCED, torsion.STRESS),
+)

@@ -1,0 +1,66 @@
+"""A content of a page in a language, its figures too."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from linkwright.kernel.page.language import Language
+
+if TYPE_CHECKING:
+    from linkwright.kernel.page.content import Content
+
+# Entries that are read by programs, or that only their author may change.
+_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language", "names"})
+
+
+def in_language(content: Content, to: Language) -> Content:
+    """A content in a language; its figures are changed in place, and names of the machine's parts stay."""
+    if to.code == "en":
+        return content
+    names = {part.name for _, parts in content.groups for part in parts if part.is_named} | {*content.names}
+    texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
+    title = replace(to, texts=texts)(content.title)
+    if title == content.title:
+        names.add(title)
+    changed: Content = _changed(content, replace(to, names=frozenset(names)))
+    groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
+    return replace(changed, title=title, groups=groups, language=to)
+
+
+def _part(part: Any, to: Language) -> Any:
+    """A part of the machine with its name in a language, unless the file gives that name."""
+    return part if part.is_named else part._replace(name=": ".join(map(to, part.name.split(": "))))
+
+
+def _changed(value: Any, to: Language) -> Any:
+    from matplotlib.figure import Figure
+
+    from linkwright.kernel.figure.for_reader import translated_figure
+
+    if isinstance(value, str):
+        return to.label(value)
+    if isinstance(value, Figure):
+        return translated_figure(value, to)
+    if is_dataclass(value) and not isinstance(value, type):
+        entries = {one.name: getattr(value, one.name) for one in fields(value) if one.init}
+        return replace(value, **{name: _entry(name, entry, to) for name, entry in entries.items()})
+    if hasattr(value, "_fields"):
+        return type(value)(*(_entry(name, getattr(value, name), to) for name in value._fields))
+    if isinstance(value, (list, tuple)):
+        return type(value)(_changed(one, to) for one in value)
+    if callable(value):
+        return _drawn(value, to)
+    return value
+
+
+def _entry(name: str, entry: Any, to: Language) -> Any:
+    if name == "unit":
+        return to.unit(entry)
+    return entry if name in _KEPT else _changed(entry, to)
+
+
+def _drawn(draw: Callable[[], Any], to: Language) -> Callable[[], Any]:
+    """What draws, with its figure in a language."""
+    return lambda: _changed(draw(), to)
