@@ -14,10 +14,10 @@ from linkwright.drive.cycle_motion import CycleMotion
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.angle_marks import mark_angles
 from linkwright.kernel.figure.style import (
     LINES,
     legend_above,
-    mark_angles,
     named,
     panels,
     roomy,

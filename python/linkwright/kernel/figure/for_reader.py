@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.text import Text
 from matplotlib.ticker import AutoLocator, FixedLocator, Formatter, Locator
 
-from linkwright.kernel.figure.style import mark_angles
+from linkwright.kernel.figure.angle_marks import mark_angles
 from linkwright.kernel.page.angle_zero import Zero, zero_shown
 from linkwright.kernel.page.out_units import reader
 

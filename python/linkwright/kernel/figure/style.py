@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.angle_marks import mark_angles
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.system import away_from
@@ -183,30 +184,8 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
         axes.set_xlabel("crank angle φ [°]")
 
 
-def mark_angles(axes: Axes, low: float, high: float) -> None:
-    """Mark crank angles [°] along x, with lines half-way: every 90° from half a revolution to four on."""
-    span = high - low
-    step = 90.0 * max(1, round(span / 1440)) if span >= _HALF_TURN else _fine_step(span)
-    for part in (step, step / 2):
-        first, last = np.ceil(low / part - 1e-6), np.floor(high / part + 1e-6)
-        axes.set_xticks(part * np.arange(first, last + 1), minor=part < step)
-    axes.grid(visible=True, axis="x", which="minor", linewidth=0.35)
-    axes.tick_params(axis="x", which="minor", length=0)
-
-
 # What a range of crank angles may differ from whole revolutions [°].
 _WHOLE = 1e-3
-
-# Range from which on crank angles have the marks of a whole revolution [°].
-_HALF_TURN = 180.0
-
-
-def _fine_step(span: float) -> float:
-    """Step of round angles of which four or more fit into a short range [°]."""
-    power = 10.0 ** np.floor(np.log10(max(span, 1e-9) / 4))
-    steps = (30.0, 15.0, *(power * np.array([5.0, 2.0, 1.0])))
-    return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
-
 
 # Mark of a legend above its axes, and its columns at most.
 ABOVE, COLUMNS = "above", 4
