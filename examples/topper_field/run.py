@@ -16,7 +16,7 @@ from linkwright.topping.model.field import RandomField
 def bell(values: tuple[float, ...], least: float) -> dict[str, object]:
     """The normal distribution of measured lengths."""
     spread = float(np.std(values, ddof=1))
-    return {"kind": "normal", "mean": float(np.mean(values)), "deviation": spread, "least": least}
+    return {"kind": "normal", "mean": float(np.mean(values)), "deviation": spread, "min": least}
 
 
 def by_normal_distributions(machine: lw.Machine) -> lw.Machine:

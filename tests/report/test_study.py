@@ -58,8 +58,8 @@ def test_a_motor_without_a_rotor_is_told_with_an_estimate() -> None:
     estimate = 0.138 * (3000 / (955 * math.pi / 30) / 107.7) ** (5 / 3)
     assert text.count(given) == 1
     without = study(loads(text.replace(given, "")))
-    assert warned(without, "4A112MA6U3", f"{estimate:.3g} kg m²", "zero is used")
-    assert not warned(study(loads(text)), "zero is used")
+    assert warned(without, "no rotor inertia for 4A112MA6U3", f"is used, {estimate:.3g} kg m²")
+    assert not warned(study(loads(text)), "rotor inertia")
 
 
 def test_overload_is_told_with_both_numbers() -> None:

@@ -187,6 +187,6 @@ def _joined(branches: list[Ended]) -> list[list[Ended]]:
                 for *_, n in there:
                     first[root(n)] = least
     groups: dict[int, list[Ended]] = {}
-    for n, branch in enumerate(branches):
-        groups.setdefault(root(n), []).append(branch)
+    for n, ended in enumerate(branches):
+        groups.setdefault(root(n), []).append(ended)
     return list(groups.values())

@@ -178,5 +178,5 @@ def diagram_view(machine: Machine) -> View:
     if not len(diagram.crank_angle):
         # Areas alone: the energy at their ends.
         energies = [0.0, *(area["energy_after"] for area in diagram.areas)]
-        curves = [(np.arange(len(energies)), np.array(energies))]
+        curves = [(np.arange(float(len(energies))), np.array(energies))]
     return {"kind": "turning", "curves": [{"x": x, "y": y} for x, y in curves]}

@@ -162,7 +162,7 @@ AnyField = Annotated[RandomField | MeasuredField, Field(discriminator="kind")]
 
 def even_offset(greatest: float) -> UniformScatter:
     """Axes of roots evenly to both sides of the row. ``greatest``: Δ [m]."""
-    return UniformScatter(kind="uniform", least=-greatest, greatest=greatest)
+    return UniformScatter(kind="uniform", min=-greatest, max=greatest)
 
 
 def field_faults(
