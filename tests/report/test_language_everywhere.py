@@ -63,7 +63,9 @@ def _is_names(text: str, files: str) -> bool:
 def _english(words: list[str]) -> set[str]:
     """Texts of the report of a command that are English still in Ukrainian."""
     content = _content(words, "")
-    watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal, UKRAINIAN.titles)
+    watched = Watched(
+        UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal, UKRAINIAN.keys, UKRAINIAN.titles
+    )
     in_language(content, watched)
     files = [path.read_text(encoding="utf-8") for path in map(Path, words) if path.is_file()]
     # What files say of themselves, and what they name: a name in a sentence is asked for by itself.

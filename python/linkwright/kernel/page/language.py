@@ -4,6 +4,7 @@ A catalogue, ``texts_CODE.toml``, has an English text and its translation a line
 a number with its unit, or a list of them, and ``{}`` for names; in the translation they come in the same
 order, or as ``#2``, ``{1}`` where the order is another one. A text of several sentences is translated
 sentence by sentence. What has no translation stays as it is: names of a machine file, symbols, sources.
+Its table ``keys`` has the words of machine files, of which the entries of a machine are put together.
 The title of a report is such a name, unless a command made the machine: its titles are listed as `titles`.
 """
 
@@ -35,7 +36,12 @@ _STOPS = frozenset(".;:,")
 _PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
 
 # Entries that are read by programs, or that only their author may change.
-_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language", "names"})
+_KEPT = frozenset(
+    {"name", "file", "command", "scenes", "text", "source", "heading", "language", "names", "groups"}
+)
+
+# What makes an entry a formula, in which names are no words.
+_FORMULA = re.compile(r"[*^()=<>]| [-+/] ")
 
 
 @dataclass(frozen=True)
@@ -47,6 +53,8 @@ class Language:
     texts: Mapping[str, str] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
     decimal: str = "."  # decimal sign
+    # Of the texts, tables, keys and choices of a machine file.
+    keys: Mapping[str, str] = field(default_factory=dict)
     titles: tuple[str, ...] = ()  # texts of titles of machines that commands make
     names: frozenset[str] = frozenset()  # what stays as it is
 
@@ -152,6 +160,25 @@ class Language:
         joined = re.sub(r"(?<=\w|[²³⁴]) (?=\w)(?!на )(?<!на )", "·", written)
         return " " * (len(text) - len(text.lstrip())) + joined
 
+    def entry(self, text: str) -> str:
+        """Words of an entry of a machine: a key, a value, or a list of keys with their values."""
+        return text if self.code == "en" else ", ".join(map(self._keyed, text.split(", ")))
+
+    def _keyed(self, text: str) -> str:
+        """A key, alone or before a value or a further key; what else there is stays, as formulas do."""
+        known = self._known(text)
+        words = text.split(" ")
+        for n in range(len(words) - 1, 0, -1) if known is None and not _FORMULA.search(text) else ():
+            if key := self.keys.get(" ".join(words[:n])):
+                rest = " ".join(words[n:])
+                return f"{key}{':' if rest in self.keys else ''} {self._keyed(rest)}"
+        return text if known is None else known
+
+    def heading(self, text: str) -> str:
+        """The heading of a table of a machine file, whose key it may be with a capital."""
+        key = self.keys.get(f"{text[:1].lower()}{text[1:]}", "")
+        return f"{key[:1].upper()}{key[1:]}" if key and text not in self.texts else self(text)
+
     def label(self, text: str) -> str:
         """A label of an axis or the head of a column: words, and a unit in brackets at the end."""
         match = re.fullmatch(r"(.*?)\s*\[([^\[\]]+)\]", text, re.DOTALL)
@@ -183,7 +210,9 @@ def language(code: str, where: str = "--lang") -> Language:
     if code not in known:
         raise InputError(f'{where}: found "{code}", expected one of {", ".join(sorted(["en", *known]))}')
     tables = tomllib.loads(known[code].read_text(encoding="utf-8"))
-    return Language(code, tables["texts"], tables["units"], tables["decimal"], tuple(tables["titles"]))
+    keys = tables["keys"]
+    texts = keys | tables["texts"]
+    return Language(code, texts, tables["units"], tables["decimal"], keys, tuple(tables["titles"]))
 
 
 def in_language(content: Content, to: Language) -> Content:
@@ -195,14 +224,19 @@ def in_language(content: Content, to: Language) -> Content:
     title = replace(to, texts=texts)(content.title)
     if title == content.title:
         names.add(title)
-    changed: Content = _changed(content, replace(to, names=frozenset(names)))
-    groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
+    named = replace(to, names=frozenset(names))
+    changed: Content = _changed(content, named)
+    groups = [
+        (to.heading(group), [_part(part, to, named) for part in parts]) for group, parts in content.groups
+    ]
     return replace(changed, title=title, groups=groups, language=to)
 
 
-def _part(part: Any, to: Language) -> Any:
-    """A part of the machine with its name in a language, unless the file gives that name."""
-    return part if part.is_named else part._replace(name=": ".join(map(to, part.name.split(": "))))
+def _part(part: Any, to: Language, named: Language) -> Any:
+    """A part of the machine in a language; names that the file gives stay."""
+    entries = [one._replace(word=to.entry(one.word), value=named.entry(one.value)) for one in part.entries]
+    name = part.name if part.is_named else ": ".join(map(to.entry, part.name.split(": ")))
+    return part._replace(name=name, entries=entries)
 
 
 def _changed(value: Any, to: Language) -> Any:
