@@ -99,7 +99,8 @@ def _content(study: Study, command: str) -> Content:
     scenes = {"topper": knife_scene(study), "mechanism": scene(study)}
     return Content(
         title=machine.name,
-        lead=" ".join(filter(None, (machine.description, zero_words(zero_shown())))),
+        about=machine.description or "",
+        lead=zero_words(zero_shown()),
         source=machine.source or "",
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),

@@ -30,6 +30,9 @@ _DIGITS = r"(?<![\w.])[-−+]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸�
 # A name, or a few words; it does not go on behind the end of a sentence.
 _NAME = r"((?:(?![.;:] ).)+?)"
 _WORD = re.compile(r"[A-Za-z]{2}")
+_WORDS = re.compile(r"[a-z]{2,} [a-z]{2,}")
+# The beginning of a sentence, no name of one word.
+_SENTENCE = re.compile(r"[A-Z][a-z]* ")
 # Ends of sentences and of parts of sentences, with which a text may be written or not.
 _STOPS = frozenset(".;:,")
 # Where a number or a name stands in a translation.
@@ -37,7 +40,10 @@ _PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
 
 # Entries that are read by programs, or that only their author may change.
 _KEPT = frozenset(
-    {"name", "file", "command", "scenes", "text", "source", "heading", "language", "names", "groups"}
+    {
+        *("name", "file", "command", "scenes", "text", "about", "source", "heading", "language", "names"),
+        "groups",
+    }
 )
 
 # What makes an entry a formula, in which names are no words.
@@ -65,9 +71,13 @@ class Language:
         known = self._known(text)
         if known is not None:
             return known
-        parts = re.split(r"(?<=[.;:]) ", text)
-        if len(parts) > 1:
-            return " ".join(self(part) for part in parts)
+        for ends, between in ((r"(?<=[.;:]) ", " "), (", ", ", ")):
+            parts = re.split(ends, text)
+            if len(parts) > 1:
+                return between.join(map(self, parts))
+        names = text.split(" and ")
+        if len(names) > 1 and not any(map(_WORDS.search, names)):
+            return f" {self.texts['and']} ".join(map(self, names))
         return text
 
     def _known(self, text: str) -> str | None:
@@ -80,9 +90,15 @@ class Language:
             return None
         if body[-1:] in _STOPS and (known := self._known(body[:-1])) is not None:
             return known + body[-1]
-        alone = self._with(self._number, body)
-        # A list of numbers stands where a text has one.
-        return self._with(self._listed, body) if alone is None and self._listed.search(body) else alone
+        known = self._with(self._number, body)
+        if known is None and self._listed.search(body):
+            # A list of numbers stands where a text has one.
+            known = self._with(self._listed, body)
+        if known is None and _SENTENCE.match(body):
+            # What is said after a name begins with a small letter, what is said alone with a capital.
+            known = self._known(f"{body[0].lower()}{body[1:]}")
+            known = known and f"{known[0].upper()}{known[1:]}"
+        return known
 
     def _with(self, number: re.Pattern[str], body: str) -> str | None:
         """The translation of a text whose numbers are found by an expression; None if there is none."""
@@ -220,7 +236,11 @@ def in_language(content: Content, to: Language) -> Content:
     if to.code == "en":
         return content
     names = {part.name for _, parts in content.groups for part in parts if part.is_named} | {*content.names}
-    texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
+    texts = {
+        text: words
+        for text, words in to.texts.items()
+        if text in to.titles or not ("{}" in text or text in to.keys)
+    }
     title = replace(to, texts=texts)(content.title)
     if title == content.title:
         names.add(title)
