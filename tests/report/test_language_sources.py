@@ -1,4 +1,4 @@
-"""Every text of the package that a report can show has a Ukrainian line, whether a test provokes it or not."""
+"""Every text of the package that a report can show has a Ukrainian line, provoked by a test or not."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from docs.tables import descriptions, results
 from tests.report.test_language import UKRAINIAN
 
 import linkwright
+from linkwright.kernel import errors
 from linkwright.kernel.description.place import field_names
+from linkwright.kernel.errors import FindingError
 from linkwright.kernel.quantities import quantities_of
 
 SOURCE = Path(linkwright.__file__).parent
@@ -22,7 +24,7 @@ SOURCE = Path(linkwright.__file__).parent
 # Modules whose texts no report shows: they are for the terminal, for notebooks and for whoever wrote a file
 # that is refused, or belong to the studio and the papers, which are tested by themselves.
 OTHERS = re.compile(
-    r"(studio|papers|[a-z]+/model|kernel/(files|description|command|units|public|figure))/"
+    r"(studio|papers|kernel/(files|description|command|units|public|figure))/"
     r"|kernel/(errors|quantities|result|system|extras|limits)\.py|kernel/page/(typeset|notebook|language)\.py"
     r"|app/(application|curves)\.py|app/commands/(schema|new|draw|glossary)\.py|app/report/(company|moving)\.py"
     r"|cam/laws/(boundary|limited|optimal|polynomial|spline)\.py|synthesis/(task|commands)\.py"
@@ -39,9 +41,13 @@ UNSEEN = {
     *("progress", "echo", "About", "Label", "Bound", "filter", "fromkeys", "legend", "filterwarnings"),
     *("_unreadable", "ImportError", "annotate"),
 }
+# What a description can find of the machine; what else it says is that its file is wrong.
+FINDINGS = {
+    name for name, one in vars(errors).items() if isinstance(one, type) and issubclass(one, FindingError)
+}
 UNSEEN_KEYWORDS = {"method", "loc", "command", "tail", "help", "bbox_to_anchor"}
 
-# Titles of books, keys of programs, what the programmer is told, and an error of input that a function returns.
+# Titles of books, keys of programs, what the programmer is told, an error of input that a function returns.
 KEPT = {
     *("pontryagin et al", "gelfand and fomin, calculus of variations (#"),
     *("biagiotti and melchiorri, trajectory planning (#", "den hartog, mechanical vibrations, 4th ed"),
@@ -107,6 +113,16 @@ def _texts(node: ast.AST, unseen: set[str]) -> Iterator[str]:
 
 def _of_module(path: Path) -> Iterator[str]:
     tree = ast.parse(path.read_text(encoding="utf-8"))
+    if "model" in path.parts:
+        calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call))
+        yield from (
+            text
+            for call in calls
+            if _name(call.func) in FINDINGS
+            for part in call.args
+            for text in _texts(part, set())
+        )
+        return
     classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
     yield from _texts(tree, {name for one in classes for name in _hidden(one) if name.startswith("_")})
 

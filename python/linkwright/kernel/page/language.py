@@ -76,7 +76,7 @@ class Language:
             if len(parts) > 1:
                 return between.join(map(self, parts))
         names = text.split(" and ")
-        if len(names) > 1 and not any(map(_WORDS.search, names)):
+        if len(names) > 1 and all(not _WORDS.search(name) or self._known(name) for name in names):
             return f" {self.texts['and']} ".join(map(self, names))
         return text
 
@@ -94,18 +94,16 @@ class Language:
         if known is None and self._listed.search(body):
             # A list of numbers stands where a text has one.
             known = self._with(self._listed, body)
-        if known is None and _SENTENCE.match(body):
-            # What is said after a name begins with a small letter, what is said alone with a capital.
-            known = self._known(f"{body[0].lower()}{body[1:]}")
-            known = known and f"{known[0].upper()}{known[1:]}"
         return known
 
     def _with(self, number: re.Pattern[str], body: str) -> str | None:
         """The translation of a text whose numbers are found by an expression; None if there is none."""
         numbers = number.findall(body)
         key = number.sub("#", body)
-        pattern: str | None = self.texts.get(body) or self.texts.get(key)
-        if pattern is not None:
+        pattern = self.texts.get(body) or self.texts.get(key)
+        if pattern is None and _SENTENCE.match(key):
+            pattern = _capital(self.texts.get(_small(body)) or self.texts.get(_small(key)) or "")
+        if pattern:
             return _filled(pattern, [*map(self.numbers, numbers)], [])
         if not _WORD.search(key):
             # Numbers and signs alone.
@@ -131,16 +129,20 @@ class Language:
                 for place, number in zip(places, numbers, strict=True):
                     held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
                 names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]
-                return _filled(pattern, [*map(self.numbers, held[-1])], names)
+                text = _filled(pattern, [*map(self.numbers, held[-1])], names)
+                return _capital(text) if spans[0][0] and key[0].isupper() else text
         return None
 
     @cached_property
     def _forms(self) -> list[tuple[re.Pattern[str], str]]:
-        """Texts with names as expressions, those with most letters of their own first."""
+        """Texts with names as expressions, those with most letters of their own first; what is said after a name
+        begins with a small letter, what is said alone with a capital.
+        """
         named = sorted((text for text in self.texts if "{}" in text), key=len, reverse=True)
+        forms = (re.escape(text).replace(r"\{\}", _NAME) for text in named)
+        either = (f"[{form[0].upper()}{form[0]}]{form[1:]}" if form[0].islower() else form for form in forms)
         return [
-            (re.compile(re.escape(text).replace(r"\{\}", _NAME), re.DOTALL), self.texts[text])
-            for text in named
+            (re.compile(form, re.DOTALL), self.texts[text]) for form, text in zip(either, named, strict=True)
         ]
 
     @cached_property
@@ -192,8 +194,8 @@ class Language:
 
     def heading(self, text: str) -> str:
         """The heading of a table of a machine file, whose key it may be with a capital."""
-        key = self.keys.get(f"{text[:1].lower()}{text[1:]}", "")
-        return f"{key[:1].upper()}{key[1:]}" if key and text not in self.texts else self(text)
+        key = self.keys.get(_small(text), "")
+        return _capital(key) if key and text not in self.texts else self(text)
 
     def label(self, text: str) -> str:
         """A label of an axis or the head of a column: words, and a unit in brackets at the end."""
@@ -212,6 +214,16 @@ def _filled(pattern: str, numbers: list[str], names: list[str]) -> str:
         return values[int(which) - 1] if which else next(counted[place[0][0]], place[0])
 
     return _PLACE.sub(filling, pattern)
+
+
+def _small(text: str) -> str:
+    """A text with a small letter at its beginning."""
+    return text[:1].lower() + text[1:]
+
+
+def _capital(text: str) -> str:
+    """A text with a capital at its beginning."""
+    return text[:1].upper() + text[1:]
 
 
 ENGLISH = Language()
