@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 # A number as `linkwright.kernel.page.numbers` writes it, no digits of a name.
 _DIGITS = r"(?<![\w.])[-−+]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|e[-−+]?\d+)?(?![\w]|\.\d)"
+_NUMERAL = re.compile(_DIGITS)
 # A name, or a few words; it does not go on behind the end of a sentence.
 _NAME = r"((?:(?![.;:] ).)+?)"
 _WORD = re.compile(r"[A-Za-z]{2}")
@@ -78,7 +79,9 @@ class Language:
         names = text.split(" and ")
         if len(names) > 1 and all(not _WORDS.search(name) or self._known(name) for name in names):
             return f" {self.texts['and']} ".join(map(self, names))
-        return text
+        # A name and its number.
+        name, _, number = text.rpartition(" ")
+        return f"{name} {self.number(number)}" if name in self.names and _NUMERAL.fullmatch(number) else text
 
     def _known(self, text: str) -> str | None:
         """The translation of a whole text; None if there is none."""
@@ -90,53 +93,51 @@ class Language:
             return None
         if body[-1:] in _STOPS and (known := self._known(body[:-1])) is not None:
             return known + body[-1]
-        known = self._with(self._number, body)
-        if known is None and self._listed.search(body):
-            # A list of numbers stands where a text has one.
-            known = self._with(self._listed, body)
-        return known
-
-    def _with(self, number: re.Pattern[str], body: str) -> str | None:
-        """The translation of a text whose numbers are found by an expression; None if there is none."""
-        numbers = number.findall(body)
-        key = number.sub("#", body)
-        pattern = self.texts.get(body) or self.texts.get(key)
-        if pattern is None and _SENTENCE.match(key):
-            pattern = _capital(self.texts.get(_small(body)) or self.texts.get(_small(key)) or "")
-        if pattern:
-            return _filled(pattern, [*map(self.numbers, numbers)], [])
-        if not _WORD.search(key):
-            # Numbers and signs alone.
-            return _filled(key, [*map(self.numbers, numbers)], [])
-        return self._named(key, numbers)
+        # A list of numbers stands where a text has one, unless it has each.
+        ways = {way.sub("#", body): way.findall(body) for way in (self._number, self._listed)}
+        for key, numbers in ways.items():
+            pattern = self.texts.get(body) or self.texts.get(key)
+            if pattern is None and _SENTENCE.match(key):
+                pattern = _capital(self.texts.get(_small(body)) or self.texts.get(_small(key)) or "")
+            if pattern or not _WORD.search(key):
+                # Numbers and signs alone are a text that is the same in every language.
+                return _filled(pattern or key, [*map(self.numbers, numbers)], [])
+        return self._named(ways)
 
     def template(self, text: str) -> str:
         """A text in this language whose numbers, ``#``, are still to come."""
         bare = text[:-1] if text[-1:] in _STOPS else text
         return self.texts.get(bare, bare) + text[len(bare) :]
 
-    def _named(self, key: str, numbers: list[str]) -> str | None:
-        """The translation of a text with names in it; numbers inside a name belong to the name."""
-        places = [place for place, letter in enumerate(key) if letter == "#"]
+    def _named(self, ways: Mapping[str, list[str]]) -> str | None:
+        """The translation of a text with names in it, of which there are ways to tell its numbers."""
         for form, pattern in self._forms:
-            if match := form.fullmatch(key):
-                parts = key.split(", ")
-                if len(parts) > 1 and all(map(form.fullmatch, parts)):
-                    # A list, whose first part would take the others for a name.
-                    return ", ".join(map(self, _filled(key, numbers, []).split(", ")))
-                spans = [match.span(n + 1) for n in range(form.groups)]
-                held: list[list[str]] = [[] for _ in (*spans, "the text")]
-                for place, number in zip(places, numbers, strict=True):
-                    held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
-                names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]
-                text = _filled(pattern, [*map(self.numbers, held[-1])], names)
-                return _capital(text) if spans[0][0] and key[0].isupper() else text
+            for key, numbers in ways.items():
+                if match := form.fullmatch(key):
+                    return self._around(match, form, pattern, numbers)
         return None
+
+    def _around(self, match: re.Match[str], form: re.Pattern[str], pattern: str, numbers: list[str]) -> str:
+        """A text with its names in place; numbers inside a name belong to the name."""
+        key = match.string
+        parts = key.split(", ")
+        if len(parts) > 1 and all(map(form.fullmatch, parts)):
+            # A list, whose first part would take the others for a name.
+            return ", ".join(map(self, _filled(key, numbers, []).split(", ")))
+        places = [place for place, letter in enumerate(key) if letter == "#"]
+        spans = [match.span(n + 1) for n in range(form.groups)]
+        held: list[list[str]] = [[] for _ in (*spans, "the text")]
+        for place, number in zip(places, numbers, strict=True):
+            held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
+        names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]
+        text = _filled(pattern, [*map(self.numbers, held[-1])], names)
+        return _capital(text) if spans[0][0] and key[0].isupper() else text
 
     @cached_property
     def _forms(self) -> list[tuple[re.Pattern[str], str]]:
-        """Texts with names as expressions, those with most letters of their own first; what is said after a name
-        begins with a small letter, what is said alone with a capital.
+        """Texts with names as expressions, those with most letters of their own first.
+
+        What is said after a name begins with a small letter, what is said alone with a capital.
         """
         named = sorted((text for text in self.texts if "{}" in text), key=len, reverse=True)
         forms = (re.escape(text).replace(r"\{\}", _NAME) for text in named)
