@@ -80,8 +80,11 @@ class Language:
         if len(names) > 1 and all(not _WORDS.search(name) or self._known(name) for name in names):
             return f" {self.texts['and']} ".join(map(self, names))
         # A name and its number.
-        name, _, number = text.rpartition(" ")
-        return f"{name} {self.number(number)}" if name in self.names and _NUMERAL.fullmatch(number) else text
+        bare = text.rstrip("".join(_STOPS))
+        name, _, number = bare.rpartition(" ")
+        if name in self.names and _NUMERAL.fullmatch(number):
+            return f"{name} {self.number(number)}{text[len(bare) :]}"
+        return text
 
     def _known(self, text: str) -> str | None:
         """The translation of a whole text; None if there is none."""
