@@ -4,18 +4,30 @@ from __future__ import annotations
 
 import re
 import tomllib
-from functools import cache
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from itertools import chain
 from pathlib import Path
 
+import click
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 from tests.cli.test_answer import CASES, NEVER, call, known
-from tests.report.test_language import UKRAINIAN, Watched
+from tests.report.test_language import UKRAINIAN
+from tests.samples.provoked import provoked, shaken
 
 import linkwright as lw
 from linkwright.app.commands.report import _content
 from linkwright.drive.batch import FAST_STARTS, STATUS
+from linkwright.kernel.errors import LinkwrightError
+from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content
+from linkwright.kernel.page.formulas import Formula
+from linkwright.kernel.page.table import Table
 from linkwright.kernel.page.translation import in_language
+from linkwright.machine.table import Part
 from linkwright.studies.point_responses import OPEN
 from linkwright.studies.rows import NO_NUMBER
 from linkwright.synthesis.straight_line import straight_lines
@@ -24,70 +36,152 @@ __all__ = ["known"]
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted([*ROOT.glob("machines/*.toml"), *ROOT.glob("examples/*/machine.toml")])
-PAPERS = [path.read_text(encoding="utf-8") for path in ROOT.glob("python/linkwright/papers/*/paper?.toml")]
+FOUND = [path for path in sorted(ROOT.glob("tests/found/**/*.toml")) if "format" in path.read_text("utf-8")]
 
-# What is no word: addresses, paths, names with digits, symbols with an index, what stands in quotes.
-_NO_WORDS = re.compile(r"\"[^\"]*\"|\S*[/._\d]\S*|--[a-z]+")
-_WORD = re.compile(r"[A-Za-z]{4,}")
-# Names of rules, formulas and motors, of parts that a pumping unit stands for, and of the tasks here.
-_NAMES = {
-    "Linkwright",
-    "IACS",
-    "pole",
-    "carter",
-    "zimanenko",
-    "hoeken",
-    "beam",
-    "rotator",
-    "saddle",
-    "delta",
-    "torsiograph",
-}
+# What is no word: names with digits, with points or underscores, symbols with an index, addresses, options,
+# what stands in quotes, formulas.
+_NO_WORDS = re.compile(
+    r"[\"«`“][^\"»`”]*[\"»`”]|\S*[/._\d=^$\\*]\S*|--[a-z]+|\b\w+\((?:[^()]|\([^()]*\))*\)|\b\w+ = "
+)
+_WORD = re.compile(r"(?<![A-Za-z])[A-Za-z]{3,}(?![A-Za-z])")
+_FORMULA = re.compile(r"[*^]|\w\(|\w = ")
+_POINT = re.compile(r"(?<![\w.])\d+\.\d+(?![\w.])")
+# Symbols, rules, methods and authors; a part of a table that its task names.
+_NAMES = re.compile(
+    r"\b(IACS|IIA|phi|IEC|DNV|DXF|SVG|CSV|STEP|JSON|PDF|CLF|DOP|TF|cos|sin|tan|arctan|min|max|Hz|rpm|Linkwright|linkwright|"
+    r"pole|ground|torsiograph|true|false)\b"
+)
 
 
-@cache
-def _said_by(text: str) -> list[str]:
-    """Name and description of a machine file, or the title of a paper, as far as it is one."""
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        return []
-    return [str(tables.get(key, "")) for key in ("name", "description", "title")]
+def _shown(value: object, at: str = "") -> Iterator[str]:
+    """All texts of a report that a reader sees, those of figures among them."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Figure):
+        yield from (text.get_text() for text in value.findobj(Text))
+        yield from (str(line.get_label()) for axes in value.axes for line in axes.get_lines())
+    elif isinstance(value, Formula):
+        yield value.words
+    elif is_dataclass(value):
+        # Keys of programs, sources, files, and what the author of a file wrote.
+        kept = {
+            "title",
+            "about",
+            "source",
+            "papers",
+            "names",
+            "file",
+            "command",
+            "language",
+            "heading",
+            "scenes",
+        }
+        yield from (
+            one
+            for each in fields(value)
+            if each.name not in kept
+            for one in _shown(getattr(value, each.name))
+        )
+    elif isinstance(value, Part):
+        yield from _shown([value.entries, [] if value.is_named else [value.name]])
+    elif isinstance(value, (Table, CaptionedFigure)):
+        yield from _shown(value[1:])
+    elif isinstance(value, (list, tuple)):
+        yield from (one for part in value for one in _shown(part))
+    elif callable(value):
+        yield from _shown(value())
 
 
-def _is_names(text: str, files: str) -> bool:
-    """Whether a text is a list of names of the files, of parts of what they name, or of their keywords."""
-    return all(part.split(".")[0].replace("_", " ") in files for part in re.split(r", | \(|\)|:", text))
-
-
-def _english(words: list[str]) -> set[str]:
-    """Texts of the report of a command that are English still in Ukrainian."""
+def _english(words: list[str], *, figures: bool = True) -> set[str]:
+    """Texts of the report of a command, in Ukrainian, with a word or a number that is English still."""
     content = _content(words, "")
-    watched = Watched(UKRAINIAN.code, UKRAINIAN.texts, UKRAINIAN.units, UKRAINIAN.decimal, UKRAINIAN.titles)
-    in_language(content, watched)
-    files = [path.read_text(encoding="utf-8") for path in map(Path, words) if path.is_file()]
-    # What files say of themselves, and what they name: a name in a sentence is asked for by itself.
-    machines = [*(path.read_text(encoding="utf-8") for path in MACHINES), *files]
-    said = [text for file in machines + PAPERS for text in _said_by(file)]
-    own = " ".join([*said, content.source, content.papers, str(content.groups)])
-    listed = " ".join(files).replace("_", " ")
-    named = [*content.names, *(part.name for _, parts in content.groups for part in parts)]
-    names = _NAMES | {word for name in named for word in name.split()}
-    left = (text for text in watched.left if text.rstrip(".") not in own and not _is_names(text, listed))
-    return {text for text in left if set(_WORD.findall(_NO_WORDS.sub(" ", text))) - names}
+    if not figures:
+        bare = [
+            part._replace(figures=[one._replace(figure=None) for one in part.figures])
+            for part in content.parts
+        ]
+        content = replace(content, parts=bare, sketch=None)
+    parts = [part for _, parts in content.groups for part in parts]
+    entries = [entry for part in parts for entry in part.entries]
+    # Motors of a catalogue, constants and formulas are the file's own as well as names.
+    given = (entry.value for entry in entries if entry.word == "catalogue" or _FORMULA.search(entry.value))
+    names = {*content.names, content.title, *given, *(part.name for part in parts if part.is_named)}
+    own = re.compile(
+        "|".join(rf"(?<!\w){re.escape(name)}(?!\w)" for name in sorted(names, key=len, reverse=True) if name)
+    )
+    left = set()
+    for text in _shown(in_language(content, UKRAINIAN)):
+        bare = _NAMES.sub(" ", own.sub(" ", text))
+        if _POINT.search(bare) or _WORD.search(_NO_WORDS.sub(" ", bare)):
+            left.add(text)
+    return left
 
 
-def _calls() -> list[tuple[str, str]]:
-    """A study of each machine, and the vibration of each train."""
-    texts = {str(path): path.read_text(encoding="utf-8") for path in MACHINES}
-    trains = [path for path, text in texts.items() if "[train" in text]
-    others = [path for path, text in texts.items() if path not in trains or "[mechanism" in text]
-    return [*(("run", path) for path in others), *(("torsion", path) for path in trains)]
+def _of(path: Path) -> list[str]:
+    """The command for a machine: a study of all that it is, or the vibration of its train."""
+    return ["torsion" if "[train" in path.read_text(encoding="utf-8") else "run", str(path)]
 
 
-@pytest.mark.parametrize(("command", "path"), _calls(), ids=lambda text: "/".join(Path(text).parts[-2:]))
-def test_a_machine(command: str, path: str) -> None:
-    assert not _english([command, path])
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: "/".join(path.parts[-2:]))
+def test_a_machine(path: Path) -> None:
+    assert not _english(_of(path))
+
+
+Fault = tuple[Path, str, list[str]]
+
+
+def _faults(path: Path) -> list[Fault]:
+    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    return [(path, what, entries) for what, entries in provoked(tables)]
+
+
+def _one_each() -> Iterator[Fault]:
+    """A fault of each machine, of the kind that fewest others have."""
+    used: Counter[str] = Counter()
+    for path in MACHINES:
+        if options := _faults(path):
+            rarest = min(options, key=lambda fault: used[fault[1]])
+            used[rarest[1]] += 1
+            yield rarest
+
+
+def _shaken() -> Iterator[Fault]:
+    for n, path in enumerate(MACHINES):
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        yield from ((path, " ".join(entries), entries) for entries in shaken(tables, n, 10))
+
+
+def _name(value: object) -> str:
+    return "/".join(value.parts[-2:]) if isinstance(value, Path) else str(value)[:60]
+
+
+def _left(path: Path, entries: list[str]) -> set[str]:
+    """What stays English where these entries are changed; nothing of what is refused, which has no report."""
+    try:
+        return _english(
+            [*_of(path), *(word for entry in entries for word in ("--set", entry))], figures=False
+        )
+    except (LinkwrightError, click.exceptions.Exit):
+        return set()
+
+
+@pytest.mark.parametrize(("path", "what", "entries"), list(_one_each()), ids=_name)
+def test_a_machine_with_a_fault(path: Path, what: str, entries: list[str]) -> None:
+    """Findings and warnings of an overload, a stall, lost contact, an undercut, a resonance, and so on."""
+    assert not _left(path, entries)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("path", "what", "entries"), [*chain(*map(_faults, MACHINES)), *_shaken()], ids=_name
+)
+def test_all_faults_of_all_machines(path: Path, what: str, entries: list[str]) -> None:
+    assert not _left(path, entries)
+
+
+@pytest.mark.parametrize("path", FOUND, ids=_name)
+def test_machines_in_which_faults_were_found(path: Path) -> None:
+    assert not _left(path, [])
 
 
 @pytest.mark.parametrize("kind", ["right", "finding"])

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel
 
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.place import field_names, join, keys, look
+from linkwright.kernel.description.schema_walk import annotation_at
 from linkwright.kernel.page.numbers import measured, number, pretty_unit
 from linkwright.kernel.page.out_units import reader
 from linkwright.linkages.model.topology import TABLES
@@ -209,8 +210,10 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
             return ", ".join(value)
         return _list(machine, place, value)
     if isinstance(value, bool | str):
-        is_formula = place[-1] in ("force", "torque")
-        return str(value) if is_formula else str(value).replace("_", " ")
+        # A choice is a word; a name or a formula stands as the file has it.
+        branches = get_args(annotation := annotation_at(Machine, place, machine))
+        is_choice = any(get_origin(branch) is Literal for branch in (annotation, *branches))
+        return str(value).replace("_", " ") if is_choice else str(value)
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
     return measured(value, pretty_unit(unit), digits=_GIVEN)

@@ -1,7 +1,8 @@
 """The studio in another language than English: what the server says, and the texts of the page.
 
 A catalogue, ``texts_CODE.toml``, adds texts to that of reports (`linkwright.kernel.page.language`): ``page``
-for those that the page draws itself, ``file`` for the declarations of entries.
+for those that the page draws itself beside the words of machine files, ``file`` for the declarations of
+entries.
 """
 
 from __future__ import annotations
@@ -57,7 +58,8 @@ def spoken(code: str) -> Language:
 def page_texts(code: str) -> dict[str, Any]:
     """What the page needs to draw itself in a language: ``code``, ``texts``, ``units`` and ``decimal``."""
     of = language(code, "language")
-    return {"code": code, "texts": _catalogue(code)["page"], "units": of.units, "decimal": of.decimal}
+    texts = {**of.keys, **_catalogue(code)["page"]}
+    return {"code": code, "texts": texts, "units": of.units, "decimal": of.decimal}
 
 
 def _catalogue(code: str) -> dict[str, dict[str, str]]:

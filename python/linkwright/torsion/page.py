@@ -51,7 +51,7 @@ def torsion_content(study: TorsionStudy, command: str = "") -> Content:
 def _content(study: TorsionStudy, command: str) -> Content:
     return Content(
         title=study.machine.name,
-        lead=study.machine.description or "",
+        about=study.machine.description or "",
         source=study.machine.source or "",
         notes=[
             (title, sentence(text))

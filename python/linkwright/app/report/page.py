@@ -97,7 +97,8 @@ def _content(study: Study, command: str) -> Content:
     sections["assumptions"] = list(study.showing("assumptions"))
     return Content(
         title=machine.name,
-        lead=" ".join(filter(None, (machine.description, zero_words(zero_shown())))),
+        about=machine.description or "",
+        lead=zero_words(zero_shown()),
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
         headline=[Few(*line) for line in study.headline(ANALYSES)],

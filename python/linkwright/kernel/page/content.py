@@ -72,6 +72,7 @@ class Content:
     title: str
     names: Collection[str] = ()  # further names that its author gave, which stay in every language
     heading: Heading = _NO_HEADING  # what stands at its head
+    about: str = ""  # its description, in the words of its author
     lead: str = ""
     source: str = ""
     notes: Sequence[tuple[str, str]] = ()  # what must be read first, heading and text

@@ -12,7 +12,12 @@ if TYPE_CHECKING:
     from linkwright.kernel.page.content import Content
 
 # Entries that are read by programs, or that only their author may change.
-_KEPT = frozenset({"name", "file", "command", "scenes", "text", "source", "heading", "language", "names"})
+_KEPT = frozenset(
+    {
+        *("name", "file", "command", "scenes", "text", "about", "source", "heading", "language", "names"),
+        "groups",
+    }
+)
 
 
 def in_language(content: Content, to: Language) -> Content:
@@ -20,18 +25,27 @@ def in_language(content: Content, to: Language) -> Content:
     if to.code == "en":
         return content
     names = {part.name for _, parts in content.groups for part in parts if part.is_named} | {*content.names}
-    texts = {text: words for text, words in to.texts.items() if "{}" not in text or text in to.titles}
+    texts = {
+        text: words
+        for text, words in to.texts.items()
+        if text in to.titles or not ("{}" in text or text in to.keys)
+    }
     title = replace(to, texts=texts)(content.title)
     if title == content.title:
         names.add(title)
-    changed: Content = _changed(content, replace(to, names=frozenset(names)))
-    groups = [(group, [_part(part, to) for part in parts]) for group, parts in changed.groups]
+    named = replace(to, names=frozenset(names))
+    changed: Content = _changed(content, named)
+    groups = [
+        (to.heading(group), [_part(part, to, named) for part in parts]) for group, parts in content.groups
+    ]
     return replace(changed, title=title, groups=groups, language=to)
 
 
-def _part(part: Any, to: Language) -> Any:
-    """A part of the machine with its name in a language, unless the file gives that name."""
-    return part if part.is_named else part._replace(name=": ".join(map(to, part.name.split(": "))))
+def _part(part: Any, to: Language, named: Language) -> Any:
+    """A part of the machine in a language; names that the file gives stay."""
+    entries = [one._replace(word=to.entry(one.word), value=named.entry(one.value)) for one in part.entries]
+    name = part.name if part.is_named else ": ".join(map(to.entry, part.name.split(": ")))
+    return part._replace(name=name, entries=entries)
 
 
 def _changed(value: Any, to: Language) -> Any:

@@ -100,8 +100,8 @@ def _head(content: Content) -> Iterator[str]:
     """Company, title, what the document is, whose numbers they are."""
     yield from _company(content.heading)
     yield f"= {_text(content.title)}"
-    if content.lead:
-        yield _text(content.lead) + "\n"
+    if content.about or content.lead:
+        yield _text(" ".join(filter(None, (content.about, content.lead)))) + "\n"
     if content.source:
         yield f"#note[{content.language('Source of the numbers')}: {_text(content.source)}]"
     if rows := content.heading.rows():
