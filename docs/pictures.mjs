@@ -18,7 +18,7 @@ let page;
 
 /** An empty page of a browser. */
 const blank = async (width, height) => {
-  page = await (await browser.newContext({ viewport: { width, height }, reducedMotion: "reduce" })).newPage();
+  page = await (await browser.newContext({ viewport: { width, height }, reducedMotion: "reduce", bypassCSP: true })).newPage();
   page.setDefaultTimeout(90_000);
   page.on("pageerror", (error) => faults.push(error.message));
 };
