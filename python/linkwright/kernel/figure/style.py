@@ -208,7 +208,7 @@ def _fine_step(span: float) -> float:
     return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
 
 
-# Mark of a legend above its axes, and its columns at most.
+# Label of a legend above its axes, and its columns at most.
 ABOVE, COLUMNS = "above", 4
 
 
@@ -224,7 +224,7 @@ def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries
         handlelength=1.8,
         **entries,
     )
-    legend.set_gid(ABOVE)
+    legend.set_label(ABOVE)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:
