@@ -89,7 +89,7 @@ def test_joints_of_a_programme() -> None:
     assert found.joints[0].jumps[3] == pytest.approx(jerk, rel=1e-12)
     assert found.joints[1].jumps[3] == pytest.approx(-jerk, rel=1e-12)
     words = found.joints[0].words("m")
-    assert words == f"continuous up to the acceleration; the jerk jumps by {jerk:.6g} m/rad³"
+    assert words == f"continuous up to the acceleration; the jerk jumps by {jerk:.4g} m/rad³"
 
 
 def test_constant_velocity_gives_its_slope_to_both_neighbours() -> None:

@@ -33,7 +33,7 @@ def finish_legends(figure: Figure) -> None:
         legend = axes.get_legend()
         if legend is not None:
             _tell_coinciding(axes, legend, figure)
-            if legend.get_gid() == ABOVE:
+            if legend.get_label() == ABOVE:
                 _fit(axes, legend, figure)
 
 

@@ -187,7 +187,22 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
 # What a range of crank angles may differ from whole revolutions [°].
 _WHOLE = 1e-3
 
+<<<<<<< HEAD
 # Mark of a legend above its axes, and its columns at most.
+=======
+# Range from which on crank angles have the marks of a whole revolution [°].
+_HALF_TURN = 180.0
+
+
+def _fine_step(span: float) -> float:
+    """Step of round angles of which four or more fit into a short range [°]."""
+    power = 10.0 ** np.floor(np.log10(max(span, 1e-9) / 4))
+    steps = (30.0, 15.0, *(power * np.array([5.0, 2.0, 1.0])))
+    return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
+
+
+# Label of a legend above its axes, and its columns at most.
+>>>>>>> page
 ABOVE, COLUMNS = "above", 4
 
 
@@ -203,7 +218,7 @@ def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries
         handlelength=1.8,
         **entries,
     )
-    legend.set_gid(ABOVE)
+    legend.set_label(ABOVE)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:
