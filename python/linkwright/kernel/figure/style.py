@@ -187,22 +187,7 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
 # What a range of crank angles may differ from whole revolutions [°].
 _WHOLE = 1e-3
 
-<<<<<<< HEAD
-# Mark of a legend above its axes, and its columns at most.
-=======
-# Range from which on crank angles have the marks of a whole revolution [°].
-_HALF_TURN = 180.0
-
-
-def _fine_step(span: float) -> float:
-    """Step of round angles of which four or more fit into a short range [°]."""
-    power = 10.0 ** np.floor(np.log10(max(span, 1e-9) / 4))
-    steps = (30.0, 15.0, *(power * np.array([5.0, 2.0, 1.0])))
-    return float(next(step for step in steps if 4 * step <= span * (1 + 1e-9) or step == power))
-
-
 # Label of a legend above its axes, and its columns at most.
->>>>>>> page
 ABOVE, COLUMNS = "above", 4
 
 
