@@ -166,8 +166,9 @@ def _choices(annotation: Any) -> Iterator[str]:
         yield from _choices(part)
 
 
-@pytest.mark.parametrize("model", descriptions().values(), ids=descriptions().keys())
-def test_keys_and_choices_of_files_have_a_word(model: Any) -> None:
+@pytest.mark.parametrize("kind", sorted(descriptions()))
+def test_keys_and_choices_of_files_have_a_word(kind: str) -> None:
+    model = descriptions()[kind]
     """Data of a machine are put together of them; names of rules and classes, in capitals, stay."""
     keys = field_names(model)
     choices = (choice for name in keys.values() for choice in _choices(model.model_fields[name].annotation))
