@@ -128,7 +128,7 @@ def test_a_report_about_a_machine_has_drawing_data_and_assumptions(
     assert "torque breakdown <b>215.4 N m</b>" in page
     assert "Dry friction has a constant magnitude" in page
     if command == "forces":
-        assert "Joint reactions along the steady motion: O:A1 at most 33960 N." in page
+        assert "Joint reactions in steady motion: peak 33960 N at O:A1." in page
 
 
 def test_the_machine_of_a_report_is_in_the_units_of_its_file(folder: Path) -> None:

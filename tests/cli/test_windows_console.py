@@ -101,8 +101,9 @@ def test_a_command_line_is_repeated_with_quotes_of_windows(monkeypatch: pytest.M
 
 
 def test_completion_has_the_ends_of_lines_of_shells(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    given = {}
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    monkeypatch.setattr(Path, "write_text", lambda path, text, **options: given.update(options))
     group._install("fish")
-    assert given == {"encoding": "utf-8", "newline": "\n"}
+    (script,) = tmp_path.rglob("*.fish")
+    text = script.read_bytes()
+    assert text.count(b"\n") > 3
+    assert b"\r" not in text

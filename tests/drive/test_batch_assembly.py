@@ -104,12 +104,12 @@ def test_a_group_that_is_assembled_otherwise_is_refused_with_its_row() -> None:
     lengths = ([0.1176, 0.375919], [0.1233, 0.452694], [0.1576, 0.036684], [0.1519, 0.351815])
     entries = {bar: np.array(length) for bar, length in zip(BARS, lengths, strict=True)}
     assert alone(machine, entries, 1) is not None
-    with pytest.raises(InputError, match="row 1: the joints C and D are assembled otherwise"):
+    with pytest.raises(InputError, match="row 1: the joints C and D have another assembly mode"):
         lw.steady_states(machine, entries)
 
 
 @pytest.mark.parametrize("others", [{}, {"bodies.C.mass": np.array([20.0, 20.0])}])
 def test_places_of_the_joints_of_a_group_are_refused_by_name(others: dict[str, np.ndarray]) -> None:
     machine = lw.loads(PLATE)
-    with pytest.raises(InputError, match=r"mechanism\.joints\.D: its place decides"):
+    with pytest.raises(InputError, match=r"mechanism\.joints\.D: its position selects the assembly mode"):
         lw.steady_states(machine, {"mechanism.joints.D.x": np.array([0.2654, 0.05]), **others})

@@ -202,7 +202,7 @@ def test_given_lengths_that_do_not_turn_are_a_finding() -> None:
 def test_a_swing_that_cannot_be_had_leaves_the_rest_of_the_study() -> None:
     study = lw.study(lw.replace(INTERMITTENT, {"rod_rotator.swing": np.radians(179.9).item()}))
     assert study.pumping_unit is not None
-    assert study.rotator is None
+    assert study.rod_rotator is None
     assert len(study.findings) == 1
     assert 'choose assembly = "right"' in study.findings[0]
 

@@ -47,7 +47,7 @@ FINDINGS = {
 }
 UNSEEN_KEYWORDS = {"method", "loc", "command", "tail", "help", "bbox_to_anchor"}
 
-# Titles of books, keys of programs, what the programmer is told, an error of input that a function returns.
+# Titles of books, keys of programs, messages for programmers, an error of input that a function returns.
 KEPT = {
     *("pontryagin et al", "gelfand and fomin, calculus of variations (#"),
     *("biagiotti and melchiorri, trajectory planning (#", "den hartog, mechanical vibrations, 4th ed"),

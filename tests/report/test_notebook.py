@@ -143,7 +143,7 @@ def test_derivatives_are_a_table_and_bars() -> None:
     slope = found.of("steady_state.unevenness")["mechanism.cranks.A2.phase"]
     shown = found._repr_html_()
     assert 'scope="row" style="text-align:left">by mechanism.cranks.A2.phase</th>' in shown
-    assert f'<td style="text-align:left">{slope:.5g}</td><td style="text-align:left">per rad</td>' in shown
+    assert f'<td style="text-align:left">{slope:.4g}</td><td style="text-align:left">per rad</td>' in shown
     frame = found.to_frame()
     assert frame.shape == (len(found.variables), 2)
     assert frame.loc["mechanism.cranks.A2.phase", "steady_state.unevenness"] == slope

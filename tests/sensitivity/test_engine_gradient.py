@@ -152,7 +152,7 @@ def test_counts_and_ends_of_a_range_are_refused():
     machine = lw.read(V8)
     for name, reason in (
         ("train.engine.strokes", "count"),
-        ("train.engine.gas.releases.0.share", "end of its range, 1"),
+        ("train.engine.gas.releases.0.share", "limit of its range, 1"),
     ):
         with pytest.raises(InputError, match=reason):
             lw.gradient(machine, ["forced_vibration"], [name])

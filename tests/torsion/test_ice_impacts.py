@@ -234,7 +234,7 @@ def test_limit_of_a_stage_in_a_loop_is_said_not_to_be_judged() -> None:
     moved = lw.torsion_transient(machine)
     assert np.isnan(moved.stage_torque).all()
     (note,) = moved.notes
-    assert note.startswith("stage: torque_permitted is not judged")
+    assert note.startswith("stage: torque_permitted is not checked")
     assert moved.to_dict()["stages"]["stage"] == {"torque_max": None, "torque_min": None}
 
 

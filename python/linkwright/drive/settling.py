@@ -27,7 +27,7 @@ def in_time(machine: Machine, speed: float, turns: int) -> str:
             return _ended(first)
         last = transient(machine, speed=float(first.speed[-1]), turns=turns)
     except LinkwrightError:
-        # silent: what was not found is told; it stays with the advice
+        # silent: the finding keeps its advice
         return _ADVICE
     start, end = last.speed[[0, -1]]
     if last.end != End.TURNS or abs(end - start) > _SETTLED * start:

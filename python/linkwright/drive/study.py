@@ -13,6 +13,7 @@ What fails becomes a finding, and what does not depend on it goes on.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -124,7 +125,12 @@ def made_motion(known: Results, findings: Findings) -> Callable[[], CycleMotion]
     """Motion of every point, link and slide over the cycle, computed when it is first asked for."""
     if known.linkage is None:
         return None
-    return lambda: cycle_motion_of(known.machine, known.linkage, known.steady_state, known.accuracy)
+    return partial(_motion, known)
+
+
+def _motion(known: Results) -> CycleMotion:
+    """What is made of the linkage and the steady motion by then."""
+    return cycle_motion_of(known.machine, known.linkage, known.steady_state, known.accuracy)
 
 
 def check_drive(machine: Machine, findings: Findings) -> Iterator[str]:

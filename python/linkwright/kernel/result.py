@@ -230,6 +230,7 @@ class Result(Record):
         _, mark = declared(type(self)).get(name, (None, None))
         return mark.unit if isinstance(mark, Label) else ""
 
+    @public
     def word_of(self, name: str, word: str) -> str:
         """What a quantity is called in this result; `word`: as it is declared."""
         return word

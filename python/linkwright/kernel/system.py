@@ -6,7 +6,7 @@
 | a process that Ctrl+C does not reach | signal blocked, own session | flag of the console, own group |
 | nobody reads a pipe | `EPIPE` | `EINVAL` of the C library |
 | a name that a program holds open | free to be replaced | refused until it is closed |
-| bytes of a file that a program claims | `fcntl` | `LockFile` of the C library |
+| bytes of a file that a program claims | `lockf` | `LockFile` of the C library |
 
 Source: Microsoft, Windows API: OpenProcess, GetExitCodeProcess, SetConsoleCtrlHandler, CreateProcess.
 """
@@ -173,9 +173,8 @@ def claims(file: IO[bytes], first: int, count: int, *, wait: bool = False) -> bo
                 count,
             )
         else:
-            import fcntl
-
-            fcntl.lockf(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB), count, first)
+            os.lseek(file.fileno(), first, os.SEEK_SET)
+            os.lockf(file.fileno(), os.F_LOCK if wait else os.F_TLOCK, count)
     except OSError as error:
         # Some file systems of clusters know no claims: whoever shares a folder there keeps order himself.
         return error.errno not in (EACCES, EAGAIN) and not WINDOWS

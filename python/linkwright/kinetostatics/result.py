@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
 from linkwright.kinetostatics.motion import Motion
@@ -177,6 +178,7 @@ class Forces(Result):
         words = f"torque on the input shaft of the law of {', '.join(self.laws)}"
         return words if np.any(self.acceleration) else f"{words}, at constant speed"
 
+    @public
     def word_of(self, name: str, word: str) -> str:
         """That of the driving torque says where it acts."""
         return self.shaft or word if name in ("torque_drive", "torque_drive_max") else word

@@ -244,7 +244,7 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats, by: Indices) -> dic
     points[np.arange(1, 1 + 4 * n), np.repeat(by, 4)] += (nodes * h[:, None]).ravel()
     rows = evaluate(plan, {axis.name: points[:, i].copy() for i, axis in enumerate(plan.axes)})
     rows.require_solved(
-        lambda row: f"a neighbouring step in {plan.axes[by[(row - 1) // 4]].name}" if row else "there"
+        lambda row: f"at a neighbouring step in {plan.axes[by[(row - 1) // 4]].name}" if row else "there"
     )
     differences = {}
     for name in plan.responses:

@@ -94,8 +94,8 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
     if low.value <= 0:
         raise FindingError(
             f"at rest the follower does not stay on the cam at cam angle θ = {np.degrees(low.at):.4g}°: "
-            f"spring and load give a contact force of {low.value:.4g} N; increase the preload by at "
-            f"least {-low.value:.4g} N"
+            f"spring and load give a contact force of {low.value:.4g} N; increase the "
+            f"preload by {-low.value:.4g} N or more"
         )
     _no_drop(lift, "there the follower leaves the cam at any speed")
     return _least(lift, follower, held)
