@@ -128,6 +128,9 @@ def _turning(point: DeadPoint, names: list[str]) -> str:
 # Outputs among the few numbers.
 _OUTPUTS = 2
 
+# Ways forth and back that take as long, but for rounding.
+_EVEN = 1e-6
+
 
 def linkage_headline(linkage: Linkage) -> Iterator[tuple[str, str, str]]:
     """Strokes, swings and time ratios, and the worst transmission angle."""
@@ -138,7 +141,7 @@ def linkage_headline(linkage: Linkage) -> Iterator[tuple[str, str, str]]:
             yield f"stroke of {moved.output}", *parted(moved.stroke, "m")
         elif moved.swing is not None:
             yield f"swing of {moved.output}", degrees(moved.swing), ""
-        if moved.time_ratio is not None:
+        if moved.time_ratio is not None and abs(moved.time_ratio - 1) > _EVEN:
             yield f"time ratio of {moved.output}", number(moved.time_ratio), ""
     worst = [element.transmission_angle_worst for element in linkage.elements]
     known = [angle for angle in worst if angle is not None]

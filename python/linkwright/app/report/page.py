@@ -101,6 +101,7 @@ def _content(study: Study, command: str) -> Content:
         lead=zero_words(zero_shown()),
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
+        passed="" if study.findings else "All checks passed.",
         headline=[Few(*line) for line in study.headline(ANALYSES)],
         parts=[part for part in parts if part.tables or part.figures],
         formulas=list(study.showing("formulas")),

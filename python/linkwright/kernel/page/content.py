@@ -79,6 +79,7 @@ class Content:
     # What the machine cannot do; what its designer should know besides.
     findings: Sequence[str] = ()
     warnings: Sequence[str] = ()
+    passed: str = ""  # what is said where all checks pass
     headline: Sequence[Few] = ()  # the few numbers that one looks for first
     # Data of the moving drawings, by what they show: `"mechanism"`, `"topper"`.
     scenes: Mapping[str, dict[str, Any]] = field(default_factory=dict)

@@ -72,6 +72,8 @@ def _lines(content: Content) -> Iterator[str]:
         yield _box(words("Failed checks"), content.findings, "bad")
     if content.warnings:
         yield _box(words("Warnings"), content.warnings, "care")
+    if content.passed:
+        yield f"*{_text(content.passed)}*\n"
     if content.headline:
         cells = "".join(f"few[{_text(w)}][{_text(v)}][{_text(u)}], " for w, v, u in content.headline)
         columns = min(len(content.headline), 3)

@@ -262,7 +262,7 @@
     const [unit, size] = scene.speed_unit;
     const speed = between(scene.speeds, k) / size;
     const words = `φ = ${degrees.toFixed(0).padStart(3, "\u2007")}°`;
-    state.textContent = scene.true_speed ? `${words}   ω = ${speed.toPrecision(4)} ${unit}` : words;
+    state.textContent = scene.true_speed ? `${words}   ω = ${decimal(speed.toPrecision(4))} ${WORDS.units[unit] ?? unit}` : words;
   }
 
   // One revolution in two seconds at the middle of the slider, or in its own time if that is longer and still watchable.
