@@ -72,7 +72,7 @@ test("a link holds the whole state: machine, variants, units, layers, instant", 
   assert.deepEqual({ ...state, pinned: 0, curves: 0 }, { unit: "in", velocities: true, ends: { [RADIUS]: [0.1, 0.3] }, pinned: 0, curves: 0, place: { place: "", name: "" }, unsaved: true });
   await other.close();
   const broken = await opened(context, `${new URL(page.url()).origin}/#state=none`, faults);
-  await broken.getByRole("alert").getByText("The link holds no state").waitFor();
+  await broken.getByRole("alert").getByText("The link contains no state").waitFor();
   assert.match(await broken.locator("h1").textContent(), /two carts/);
   await broken.close();
   await page.evaluate(() => (globalThis.studio.state.units.value = { ...globalThis.studio.state.units.value, m: "m", "rad/s": "rad/s" }));
