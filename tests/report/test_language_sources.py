@@ -52,9 +52,10 @@ KEPT = {
     *("pontryagin et al", "gelfand and fomin, calculus of variations (#"),
     *("biagiotti and melchiorri, trajectory planning (#", "den hartog, mechanical vibrations, 4th ed"),
     *("ker wilson, practical solution of torsional vibration problems, #–#", "?:φ = |crank angles? (?:of )?"),
+    "kloss, drehmoment und schlüpfung des drehstrommotors, archiv für elektrotechnik, #",
     *("steady gradient", "fine steady motion", "slides along a jump at", "ground of", "too many steps"),
     *("a unit with a load", "has motors with", "expected at most", "the most powerful of these motors"),
-    "the series",
+    *("the series", "is now study"),
 }
 
 # Two words, no name of a file and no option; a formula stands between signs.
