@@ -21,10 +21,10 @@ def test_a_cam_has_lift_acceleration_pressure_angle_curvature_and_contact_force(
     study = lw.study(lw.read("roller_cam"))
     (cam,), (loaded,) = study.cams, study.loaded_cams
     shown = cards(study)
-    assert shown["maximum lift"] == ("0.4", "m")
-    assert shown["maximum pressure angle"] == (f"{np.degrees(cam.pressure_angle_max):.4g}°", "")
-    assert shown["minimum radius of curvature"] == (f"{cam.curvature_radius_min:.4g}", "m")
-    assert shown["maximum normal force"] == (f"{loaded.force_max:.4g}", "N")
+    assert shown["cam cart: maximum lift"] == ("0.4", "m")
+    assert shown["cam cart: maximum pressure angle"] == (f"{np.degrees(cam.pressure_angle_max):.4g}°", "")
+    assert shown["cam cart: minimum radius of curvature"] == (f"{cam.curvature_radius_min:.4g}", "m")
+    assert shown["cam cart: maximum normal force"] == (f"{loaded.force_max:.4g}", "N")
 
 
 def test_a_pumping_unit_has_its_net_torque_over_the_rating() -> None:
@@ -65,6 +65,7 @@ def test_a_study_is_a_mapping_whose_former_names_are_read() -> None:
     assert study["rod_rotator"] is study.rod_rotator
     with pytest.warns(DeprecationWarning, match="study.rotator is now study.rod_rotator"):
         assert study.rotator is study["rod_rotator"]
+    assert {"linkage", "rod_rotator"} <= set(dir(study))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert study.run_up is None

@@ -142,7 +142,8 @@ def check_drive(machine: Machine, findings: Findings) -> Iterator[str]:
         findings.add(idle_parts(machine))
         findings.warn(law_cautions(machine))
     loads = "; loads are defined everywhere" if machine.loads else ""
-    yield f"mechanism: closes over the {'travel' if is_screw(machine) else 'full revolution'}{loads}"
+    closes = "closure" if compiled is None else "closes"
+    yield f"mechanism: {closes} over the {'travel' if is_screw(machine) else 'full revolution'}{loads}"
     if has_motor(machine):
         if compiled is not None:
             findings.of(_require_drive, machine, compiled)

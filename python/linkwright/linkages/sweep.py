@@ -67,6 +67,11 @@ class Cycle:
         return self.period is not None
 
     @property
+    def has_limits(self) -> bool:
+        """Whether the mechanism closes between its ends alone."""
+        return bool(self.ends[0] < self.angles[0])
+
+    @property
     def span(self) -> float:
         """From the first angle to the last [rad]."""
         return float(self.angles[-1] - self.angles[0])
@@ -212,15 +217,12 @@ class LinkageSweep:
 
     def ratios(self, k: int) -> tuple[float, float] | tuple[None, None]:
         """Extremes of the output's speed over the crank's; None where a limit lets them grow."""
-        if not self.cycle.repeats and not self._is_whole():
+        if self.cycle.has_limits:
             return None, None
         at = self._zeros[len(self.dyads) + len(self.outputs) + k]
         at = np.concatenate([at, self.cycle.angles[[0, -1]]])
         values = self._seen(at)[2][len(self.dyads) + k]
         return float(values.min()), float(values.max())
-
-    def _is_whole(self) -> bool:
-        return self.cycle.span > 2 * np.pi * (1 - 1e-9)
 
     def transmission(self, element: str) -> tuple[float, float, float, float] | None:
         """Minimum and maximum μ of a dyad, and their crank angles."""

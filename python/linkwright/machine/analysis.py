@@ -165,6 +165,10 @@ class Results(Mapping[str, Result]):
             raise AttributeError(name)
         return self[name] if name in self._results else self._without(name)
 
+    def __dir__(self) -> list[str]:
+        """Attributes, and the results that there are."""
+        return sorted({*super().__dir__(), *(name for name in self._results if name.isidentifier())})
+
     def _without(self, name: str) -> Any:
         """What the attribute of a result that is not there is."""
         return None
@@ -213,7 +217,8 @@ class Results(Mapping[str, Result]):
                 continue
             parts = [key for key in self._results if key.partition(".")[0] == analysis.name]
             for key in parts if analysis.headline else ():
-                before = f"cam {key.partition('.')[2]}: " if len(parts) > 1 else ""
+                names = analysis.parts(self.machine) if analysis.parts is not None else ()
+                before = f"cam {key.partition('.')[2] or names[0]}: " if names else ""
                 yield from few(self[key], analysis.headline, before)
 
     def shown(self, analyses: Iterable[Analysis], what: str) -> Iterator[Any]:

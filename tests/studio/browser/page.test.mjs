@@ -304,7 +304,7 @@ test("tables of the report stand among the numbers, diagrams are enlarged, both 
   await complete(page);
   await shows(() => page.locator(".warning li").allTextContents(), (words) => words.some((each) => each.includes(" rpm")) && !words.some((each) => each.includes("rad/s")));
   await page.getByRole("tab", { name: "Diagrams" }).click();
-  const figure = page.locator(".diagrams figure").first();
+  const figure = page.locator(".diagrams figure", { hasText: "Motion of" }).first();
   await shows(() => figure.locator("figcaption").textContent(), (words) => words.includes("m/s"));
   const small = (await figure.locator("svg").boundingBox()).width;
   await figure.getByRole("button", { name: "Enlarge" }).click();
