@@ -55,6 +55,11 @@ def machine_parts(machine: Machine) -> list[Part]:
     return [part for one in parts for part in one(machine)]
 
 
+def part_names(machine: Machine) -> set[str]:
+    """Names that the file gives to parts of the machine."""
+    return {part.name for part in machine_parts(machine) if part.is_named}
+
+
 def _diagram(machine: Machine) -> Iterator[Part]:
     """A turning-moment diagram, its driver and its load."""
     if machine.turning_moment is not None:

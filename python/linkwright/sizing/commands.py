@@ -357,6 +357,7 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
         machine=machine.name,
         units=machine.units,
         described=machine,
+        names=[candidate.type for candidate in motor.candidates],
         results=lambda _: results,
         findings=[*([] if chosen else [motor.reason]), *lost(moved)],
         warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged(machine)],
@@ -554,6 +555,7 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     hand_over(
         Answer(
             machine=None,
+            names=[known.type for known in chosen],
             results=lambda curves: {"motors": [_entries(known) for known in chosen]},
             tables=partial(_tables, chosen),
         ),

@@ -183,6 +183,7 @@ def line(
 ) -> None:
     """Straight-line linkage from the catalogue, exact or approximate."""
     from linkwright.kernel.units import LENGTH
+    from linkwright.synthesis.line_kinds import KINDS
     from linkwright.synthesis.straight_line import straight_line, straight_lines
     from linkwright.synthesis.tables import catalogue_table
 
@@ -193,6 +194,7 @@ def line(
         lines = straight_lines(wanted)
         answer = Answer(
             machine=None,
+            names=tuple(KINDS),
             results=lambda _: {"straight_lines": [line.to_dict() for line in lines]},
             tables=lambda: [catalogue_table(lines)],
         )
@@ -221,6 +223,7 @@ def _finish(
 ) -> None:
     """Write the machine and print the result."""
     from linkwright.machine.write import dumps
+    from linkwright.synthesis.line_kinds import KINDS
     from linkwright.synthesis.tables import linkage_table
 
     machine: Machine = result.machine  # type: ignore[attr-defined]
@@ -230,6 +233,7 @@ def _finish(
     answer = Answer(
         machine=machine.name,
         units=machine.units,
+        names=tuple(KINDS),
         results=lambda _: {what: entries},
         warnings=warnings,
         head=lambda: machine.name,

@@ -22,6 +22,7 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
     """
     from linkwright.app.soundness import soundness
     from linkwright.machine.read import read
+    from linkwright.machine.table import part_names
 
     machine = read(file, set or (), allow_outside=allow_outside)
     judged = soundness(machine)
@@ -40,7 +41,8 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
         # A report has the name of the machine as its title, and tables in place of columns of a terminal.
         verdict = f"{count} finding{'s' if count > 1 else ''}" if count else "no finding"
         tables = [_parts(machine), _checks(judged.looked_at)]
-        answer = replace(answer, head=lambda: f"Check of {file}: {verdict}", tables=lambda: tables)
+        head = f"Check of {file}: {verdict}"
+        answer = replace(answer, names=part_names(machine), head=lambda: head, tables=lambda: tables)
     hand_over(answer, json=json)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.answer import Answer, hand_over, is_reported
 from linkwright.kernel.command.common import File, Json, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, out_option, output_folder
 from linkwright.kernel.command.parameter import Option
@@ -73,10 +73,12 @@ def damper(
 
 def _answer(machine: Machine, design: DamperDesign) -> Answer:
     """The damper, also as lines of a machine file."""
+    from linkwright.machine.table import part_names
     from linkwright.torsion.tables.engine import damper_lines, damper_table
 
     return Answer(
         machine=machine.name,
+        names=part_names(machine) if is_reported() else (),
         units=machine.units,
         results=lambda _: {"damper": design.to_dict(curves=True)},
         tables=lambda: [damper_table(design)],
