@@ -37,11 +37,11 @@ format = 1
 name = "Three discs"
 [train.discs]
 left = { inertia = 1 }
-middle = { inertia = 1 }
+M = { inertia = 1 }
 right = { inertia = 1 }
 [train.shafts]
-one = { between = ["left", "middle"], stiffness = 1e4 }
-two = { between = ["middle", "right"], stiffness = 1e4 }
+one = { between = ["left", "M"], stiffness = 1e4 }
+two = { between = ["M", "right"], stiffness = 1e4 }
 """,
     "field.toml": TOPPER + FIELD,
     "poses.toml": POSES,
@@ -190,7 +190,7 @@ CASES = {
     ),
     "torsion damper": Case(
         "{symmetric.toml} --on left --ring-inertia 0.1",
-        "{symmetric.toml} --on middle --ring-inertia 0.1",
+        "{symmetric.toml} --on M --ring-inertia 0.1",
         "{symmetric.toml} --on nobody --ring-inertia 0.1",
     ),
     "torsion diagnose": Case(

@@ -45,7 +45,7 @@ def test_a_motor_that_keeps_its_speed_has_no_speed_fluctuation() -> None:
 
 
 def test_a_value_that_is_rounding_is_zero_on_its_card() -> None:
-    """The least reduced inertia of an inline slider-crank is at its dead centres, where it vanishes."""
+    """The minimum reduced inertia of an inline slider-crank is at its dead centres, where it vanishes."""
     machine = lw.loads(
         'format = 1\nname = "idle"\n[mechanism.points.O]\nx = 0\ny = 0\n[mechanism.cranks.A]\npivot = "O"\n'
         'radius = 0.1\n[mechanism.sliders.B]\ncrank = "A"\nrod = 0.4\n[bodies.B]\nmass = 5\n'
