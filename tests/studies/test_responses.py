@@ -33,12 +33,12 @@ CASES = {
     "cam_check": ("roller_cam", "bodies.cart.mass", "cart.n_faults"),
     "cam_force": ("roller_cam", "bodies.cart.mass", "cart.force_size"),
     "pumping_unit": (*ROTATOR, "stroke"),
-    "rotator": (*ROTATOR, "transfer_max"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
     "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),
     "topper": ("topper", "topper.edge_length", "length_exact"),
     "topper_field": ("topper", "topper.edge_length", "share_complete"),
     "free_vibration": (*TRAIN, "natural_frequencies"),
+    "damped_vibration": (*TRAIN, "damping_ratios"),
     "forced_vibration": (*TRAIN, "shaft_torque_vibratory"),
     "shaft_stress": (*TRAIN, "vibratory"),
 }
@@ -61,6 +61,21 @@ def test_a_study_gives_the_numbers_of_an_analysis(name: str, tmp_path: Path) -> 
     by_itself = np.max(getattr(result, attribute))
     # A batch and a single machine agree to the accuracy of the batch.
     assert rows.columns["number"][0] == pytest.approx(by_itself, rel=1e-6)
+
+
+def test_former_names_of_analyses_are_read(tmp_path: Path) -> None:
+    """`rotator` is `rod_rotator`, and `gear_torque` stands within the pumping unit."""
+    for name, asked in {
+        "rotator.transfer_max": "rod_rotator.transfer_max",
+        "gear_torque.work": "pumping_unit.gear.work",
+    }.items():
+        machine = ROTATOR[0] if name.startswith("rotator") else "pumping_unit_torque"
+        numbers = []
+        for response in (name, asked):
+            plan = lw.read_study(study(tmp_path, machine, "pumping_unit.A", f'"{response}"'))
+            rows = lw.evaluate(plan, {"entry": np.array([lw.get(plan.machine, "pumping_unit.A")])})
+            numbers.append(rows.columns["number"][0])
+        assert numbers[0] == numbers[1]
 
 
 def test_reasons_are_those_of_rows(tmp_path: Path) -> None:

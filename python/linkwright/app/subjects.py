@@ -18,5 +18,5 @@ ANALYSES = (
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
     *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, kinetostatics.FORCES),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
-    *(torsion.TORSION, torsion.FREE, torsion.FORCED, torsion.STRESS),
+    *(torsion.TORSION, torsion.FREE, torsion.DAMPED, torsion.FORCED, torsion.STRESS),
 )

@@ -33,6 +33,13 @@ FREE = Analysis(
     tangents=of("torsion.gradient.modes:mode_derivatives"),
 )
 
+DAMPED = Analysis(
+    name="damped_vibration",
+    function=of("torsion.modes.damped:damped_vibration"),
+    applies=_twists,
+    is_of_study=False,
+)
+
 FORCED = Analysis(
     name="forced_vibration",
     function=of("torsion.response.forced:forced_vibration"),
