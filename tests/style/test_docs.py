@@ -235,7 +235,7 @@ def test_a_wrong_path_is_found() -> None:
 def test_worked_examples_are_the_code() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     examples = re.findall(r"```python\n\s*# (\S+\.py)\n(.*?)```", text, re.DOTALL)
-    assert len(examples) == text.count("```python") == 3
+    assert len(examples) == text.count("```python") == 4
     for place, example in examples:
         source = (ROOT / "python" / "linkwright" / place).read_text(encoding="utf-8")
         assert " ".join(example.split()) in " ".join(source.split()), place
