@@ -31,7 +31,7 @@ HOUSE = {
     "machine": MACHINE,
     "app.subjects": STUDY,
     "app.study": STUDY,
-    "app.soundness": STUDY,
+    "app.feasibility": STUDY,
     "app.report": STUDY,
     # Studies stand above all subjects; what they draw and print stands above what they compute.
     "studies": STUDY,

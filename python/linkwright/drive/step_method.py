@@ -22,7 +22,7 @@ from typing import Annotated
 import numpy as np
 
 from linkwright.drive import evenness
-from linkwright.drive.sound_loads import require_same_turns
+from linkwright.drive.load_checks import require_same_turns
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError, require_within
 from linkwright.kernel.limits import STEPS

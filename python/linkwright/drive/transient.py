@@ -12,9 +12,9 @@ import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike
 
+from linkwright.drive.load_checks import require_half_turns, require_sound_loads, sliding
 from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
-from linkwright.drive.sound_loads import require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, StartError, SteadyStateError
 from linkwright.kernel.public import public

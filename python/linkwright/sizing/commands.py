@@ -344,7 +344,7 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
 
 def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
     """Motor and flywheel, or why no motor suffices."""
-    from linkwright.sizing.beside import lost, unjudged
+    from linkwright.sizing.warnings import lost, unjudged
 
     results = {
         "required_power": motor.required.to_dict(),
@@ -369,7 +369,7 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     """The flywheel for the motor of the file."""
     from linkwright.machine.write import dumps
-    from linkwright.sizing.beside import lost, unjudged
+    from linkwright.sizing.warnings import lost, unjudged
 
     machine = flywheel.machine
     return Answer(

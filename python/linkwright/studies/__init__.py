@@ -42,7 +42,7 @@
 | `fit` | Numbers of a machine from a measured record |
 | `fit_search` | Where that search begins, and how noise is weighed |
 | `record` | A measured record |
-| `sought` | The numbers that a record is fitted by |
+| `fit_parameters` | The numbers that a record is fitted by |
 | `predicted` | What a machine would have recorded, and its derivatives |
 | `identifiability` | What a record tells of numbers |
 | `tables`, `figures` | What is shown |

@@ -26,9 +26,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
-from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.errors import InputError
