@@ -14,7 +14,7 @@ from linkwright.app.application import application
 from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.figures.transient import orders_figure, transient_figure, waterfall_figure
+from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
 from linkwright.torsion.in_time.moving_train import combustion_weight, moving_train
 from linkwright.torsion.in_time.peak_judgement import PeakJudgement
 from linkwright.torsion.in_time.steady_start import balanced_start, mean_torques
@@ -509,5 +509,3 @@ def test_figures() -> None:
     found = waterfall(moved.time, moved.angle[0], moved.torque[0], highest=4)
     figure = waterfall_figure(found, quantity="torque [N m]")
     assert figure.axes[1].get_ylabel() == "torque [N m]"
-    (axes,) = orders_figure(found, [0.5, 2]).axes
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["order 0.5", "order 2"]

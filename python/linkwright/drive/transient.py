@@ -22,7 +22,8 @@ from linkwright.kernel.public.arguments import array, number
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, positive
+from linkwright.kernel.units.kinds import ANGLE, COUNT, SPEED, TIME
+from linkwright.kernel.units.marks import Quantity, positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine

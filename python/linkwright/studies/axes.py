@@ -12,7 +12,8 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, show
-from linkwright.kernel.units import COUNT, Kind, is_number
+from linkwright.kernel.units.kinds import COUNT, Kind
+from linkwright.kernel.units.reading import is_number
 from linkwright.machine.address import addresses, get, kind, known_place, outside
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply

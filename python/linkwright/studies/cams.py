@@ -21,7 +21,8 @@ from linkwright.cam.search import require_law, useful_entries
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, LENGTH, not_negative, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import between
 from linkwright.studies.plan import StudyPlan

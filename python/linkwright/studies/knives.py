@@ -27,7 +27,9 @@ from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity, worded
+from linkwright.kernel.units.kinds import RATIO
+from linkwright.kernel.units.marks import INSIDE_ONE, Quantity
+from linkwright.kernel.units.reading import worded
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import between

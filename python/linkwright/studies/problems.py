@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.kernel.errors import MachineError
-from linkwright.kernel.units import Kind
+from linkwright.kernel.units.kinds import Kind
 from linkwright.machine import size_limits
 
 

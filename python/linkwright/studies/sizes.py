@@ -17,7 +17,8 @@ from typing import Any
 from linkwright.drive.model.catalogue import CatalogueMotor, motors
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, LENGTH, PRESSURE, RATIO, TIME, TORQUE, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, PRESSURE, RATIO, TIME, TORQUE
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.sizing.flywheel import choose_flywheel

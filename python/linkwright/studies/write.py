@@ -8,7 +8,8 @@ from typing import Any
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import require_place, write_file
-from linkwright.kernel.units import ANGLE, LENGTH, Kind, is_number, to_text
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, Kind
+from linkwright.kernel.units.reading import is_number, to_text
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps

@@ -41,9 +41,6 @@ _AT_END = 1e-9
 # Share of the largest slope below which a condition does not move: the head is not the only one.
 _LEVEL = 1e-9
 
-# Steps of Newton's method from the head that was found by looking, which is good to 1e-8.
-_STEPS = 2
-
 _NOT_ALONE = "several heads have the same uncut share; the one shown is arbitrary"
 _ALL = "the whole head is uncut"
 

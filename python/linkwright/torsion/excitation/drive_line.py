@@ -36,7 +36,8 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import RANGES
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine

@@ -18,7 +18,6 @@ from typing import Annotated
 from pydantic import Field
 
 from linkwright.kinetostatics.model.loads.between import (
-    BetweenPoints,
     Damper,
     GasSpring,
     Spring,
@@ -31,13 +30,11 @@ from linkwright.kinetostatics.model.loads.force import (
     DryFriction,
     FormulaLoad,
     Gravity,
-    Load,
     ViscousFriction,
 )
 from linkwright.kinetostatics.model.loads.table import (
     ForceAngle,
     ForcePosition,
-    OverCrankAngle,
     TorqueAngle,
     TorqueSpeed,
     TorqueSwing,
@@ -61,27 +58,4 @@ AnyLoad = Annotated[
     | TorqueSwing
     | FormulaLoad,
     Field(discriminator="kind"),
-]
-
-__all__ = [
-    "AnyLoad",
-    "BetweenPoints",
-    "ConstantForce",
-    "ConstantTorque",
-    "Damper",
-    "DryFriction",
-    "ForceAngle",
-    "ForcePosition",
-    "FormulaLoad",
-    "GasSpring",
-    "Gravity",
-    "Load",
-    "OverCrankAngle",
-    "Spring",
-    "TorqueAngle",
-    "TorqueSpeed",
-    "TorqueSwing",
-    "TorsionalDamper",
-    "TorsionalSpring",
-    "ViscousFriction",
 ]
