@@ -18,6 +18,7 @@ from typing import Annotated
 from pydantic import Field
 
 from linkwright.kinetostatics.model.loads.between import (
+    BetweenPoints,
     Damper,
     GasSpring,
     Spring,
@@ -30,11 +31,13 @@ from linkwright.kinetostatics.model.loads.force import (
     DryFriction,
     FormulaLoad,
     Gravity,
+    Load,
     ViscousFriction,
 )
 from linkwright.kinetostatics.model.loads.table import (
     ForceAngle,
     ForcePosition,
+    OverCrankAngle,
     TorqueAngle,
     TorqueSpeed,
     TorqueSwing,
@@ -58,4 +61,27 @@ AnyLoad = Annotated[
     | TorqueSwing
     | FormulaLoad,
     Field(discriminator="kind"),
+]
+
+__all__ = [
+    "AnyLoad",
+    "BetweenPoints",
+    "ConstantForce",
+    "ConstantTorque",
+    "Damper",
+    "DryFriction",
+    "ForceAngle",
+    "ForcePosition",
+    "FormulaLoad",
+    "GasSpring",
+    "Gravity",
+    "Load",
+    "OverCrankAngle",
+    "Spring",
+    "TorqueAngle",
+    "TorqueSpeed",
+    "TorqueSwing",
+    "TorsionalDamper",
+    "TorsionalSpring",
+    "ViscousFriction",
 ]
