@@ -43,6 +43,8 @@ HOUSE = {
     "sensitivity": STUDY,
     "sensitivity.commands": COMMANDS,
     "papers": PAPERS,
+    # Tables and figures of a topper show what a published length suffices for.
+    "papers.published_lengths": COMPUTES,
     "app": APP,
     "studio": APP,
     "__main__": APP,
