@@ -7,9 +7,8 @@ import math
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from click.testing import Result
+from command_line import invoke
 
 ROOT = Path(__file__).parents[2]
 ROLLER_CAM = str(ROOT / "machines" / "roller_cam.toml")
@@ -38,7 +37,7 @@ shuttle = { mass = "3 kg" }
 
 
 def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["cam", *words])
+    return invoke("cam", *words)
 
 
 @pytest.fixture
@@ -58,9 +57,7 @@ def test_tables_and_warnings() -> None:
 
 
 def test_json_is_one_object(groove: str, tmp_path: Path) -> None:
-    result = CliRunner().invoke(
-        application(), ["cam", groove, "--json", "--out", str(tmp_path / "out"), "--tolerance", "10 um"]
-    )
+    result = invoke("cam", groove, "--json", "--out", tmp_path / "out", "--tolerance", "10 um")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     assert found["results"]["cam"]["stroke"] == pytest.approx(0.02)

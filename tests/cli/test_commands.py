@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Annotated
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
+from command_line import invoke as run
 
-from linkwright.app.application import application
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.parameter import Option, command
 from linkwright.kernel.errors import StartError
@@ -22,11 +22,6 @@ from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"
-
-
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return CliRunner().invoke(application(), [str(each) for each in arguments])
 
 
 def test_check_says_what_is_in_the_file() -> None:
@@ -214,10 +209,10 @@ def test_a_finding_is_exit_code_1_and_an_interrupt_130() -> None:
         raise KeyboardInterrupt if interrupt else StartError("the drive does not start")
 
     app = command(reports_errors(stall))
-    done = CliRunner().invoke(app, [])
+    done = CliRunner().run(app, [])
     assert done.exit_code == 1
     assert done.stderr == "the drive does not start\n"
-    assert CliRunner().invoke(app, ["--interrupt"]).exit_code == 130
+    assert CliRunner().run(app, ["--interrupt"]).exit_code == 130
 
 
 def program(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

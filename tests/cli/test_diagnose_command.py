@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.torsion.response.forced import forced_vibration
 
 ENGINE = Path(__file__).parents[2] / "examples" / "weak_cylinder" / "machine.toml"
@@ -32,7 +32,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", "diagnose", str(ENGINE), *words])
+    return invoke("torsion", "diagnose", ENGINE, *words)
 
 
 def test_json(measured: str) -> None:

@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 from tests.samples.tasks import FUNCTION, POSES
 
-from linkwright.app.application import application
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.read import read
 
@@ -24,7 +24,7 @@ TASKS = {"motion": POSES, "function": FUNCTION, "path": PATH}
 
 def run(*arguments: str | Path) -> Result:
     """Run the command line in this process."""
-    return CliRunner().invoke(application(), ["synthesise", *(str(each) for each in arguments)])
+    return invoke("synthesise", *arguments)
 
 
 @pytest.fixture
@@ -60,7 +60,7 @@ def test_dead_centre(tmp_path: Path) -> None:
     assert done.exit_code == 0
     assert re.search(r"swing of the rocker +ψ_0 +60°", done.stdout)
     assert re.search(r"length of the frame +0\.2 m", done.stdout)
-    opened = CliRunner().invoke(application(), ["run", str(out), "--json"])
+    opened = invoke("run", out, "--json")
     assert opened.exit_code == 0
     done = run("dead-centre", "--stroke", "100 mm", "--time-ratio", "1.2", "--json")
     assert json.loads(done.stdout)["results"]["slider_crank"]["stroke"] == 0.1

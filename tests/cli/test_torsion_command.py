@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
 
@@ -37,7 +37,7 @@ def file(tmp_path: Path) -> str:
 
 
 def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", *words])
+    return invoke("torsion", *words)
 
 
 BAR = """
@@ -242,13 +242,13 @@ def test_machine_without_train(tmp_path: Path) -> None:
 @pytest.mark.parametrize("command", ["run", "motion", "forces", "size"])
 def test_a_train_has_no_mechanism(file: str, command: str) -> None:
     words = ["--speed", "10 rad/s"] if command == "forces" else []
-    result = CliRunner().invoke(application(), [command, file, *words])
+    result = invoke(command, file, *words)
     assert result.exit_code == 2
     assert result.exception is None or isinstance(result.exception, SystemExit)
 
 
 def test_check_names_the_parts(file: str) -> None:
-    result = CliRunner().invoke(application(), ["check", file])
+    result = invoke("check", file)
     assert result.exit_code == 0
     assert "motor, pinion, wheel, pump" in result.stdout
 

@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from click.testing import Result
+from command_line import invoke
 
 V12 = "machines/v_diesel.toml"
 
 
 def run(*arguments: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", *arguments])
+    return invoke("torsion", *arguments)
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import excited_train
@@ -294,7 +293,7 @@ def test_limits_are_judged_in_the_manoeuvre(tmp_path: Path) -> None:
     assert "motor and loads balance" in study.balance
     path = tmp_path / "conveyor.toml"
     path.write_text(CONVEYOR.replace("BALANCE", "").replace("PERMITTED", "300"), encoding="utf-8")
-    run = CliRunner().invoke(application(), ["torsion", str(path)])
+    run = invoke("torsion", path)
     assert run.exit_code == 1
     assert "rubber: torque" in run.output
     # What counts other than given is said first.
