@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 ROOT = Path(__file__).parents[2]
@@ -36,8 +36,7 @@ shuttle = { mass = "3 kg" }
 """
 
 
-def run(*words: str) -> Result:
-    return invoke("cam", *words)
+run = partial(invoke, "cam")
 
 
 @pytest.fixture

@@ -209,10 +209,10 @@ def test_a_finding_is_exit_code_1_and_an_interrupt_130() -> None:
         raise KeyboardInterrupt if interrupt else StartError("the drive does not start")
 
     app = command(reports_errors(stall))
-    done = CliRunner().run(app, [])
+    done = CliRunner().invoke(app, [])
     assert done.exit_code == 1
     assert done.stderr == "the drive does not start\n"
-    assert CliRunner().run(app, ["--interrupt"]).exit_code == 130
+    assert CliRunner().invoke(app, ["--interrupt"]).exit_code == 130
 
 
 def program(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 import linkwright as lw
@@ -31,8 +31,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(path)
 
 
-def run(*words: str) -> Result:
-    return invoke("torsion", "diagnose", ENGINE, *words)
+run = partial(invoke, "torsion", "diagnose", ENGINE)
 
 
 def test_json(measured: str) -> None:

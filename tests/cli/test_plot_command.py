@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 import linkwright as lw
@@ -21,8 +21,7 @@ from linkwright.kernel.page.table import Table
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
 
-def run(*words: str) -> Result:
-    return invoke("plot", PRESS, *words)
+run = partial(invoke, "plot", PRESS)
 
 
 def test_a_press_from_its_top(tmp_path: Path) -> None:

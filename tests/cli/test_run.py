@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 from linkwright.drive.steady_state import steady_state
@@ -30,9 +30,7 @@ NAMES = {
 }
 
 
-def run(*arguments: str | Path) -> Result:
-    """Run the command in this process."""
-    return invoke("run", *arguments)
+run = partial(invoke, "run")
 
 
 def results(*arguments: str | Path) -> dict[str, Any]:

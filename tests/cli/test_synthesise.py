@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 from command_line import invoke
 from tests.samples.tasks import FUNCTION, POSES
 
@@ -22,9 +22,7 @@ generations = 30
 TASKS = {"motion": POSES, "function": FUNCTION, "path": PATH}
 
 
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return invoke("synthesise", *arguments)
+run = partial(invoke, "synthesise")
 
 
 @pytest.fixture

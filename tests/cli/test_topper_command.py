@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
 from command_line import invoke
 from tests.samples.topper_fields import FIELD, TOPPER
 
-
-def run(*words: str) -> Result:
-    return invoke("topper", *words)
+run = partial(invoke, "topper")
 
 
 @pytest.fixture

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 from linkwright.machine.read import loads
@@ -36,8 +36,7 @@ def file(tmp_path: Path) -> str:
     return str(path)
 
 
-def run(*words: str) -> Result:
-    return invoke("torsion", *words)
+run = partial(invoke, "torsion")
 
 
 BAR = """

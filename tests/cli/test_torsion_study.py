@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 V12 = "machines/v_diesel.toml"
 
 
-def run(*arguments: str) -> Result:
-    return invoke("torsion", *arguments)
+run = partial(invoke, "torsion")
 
 
 @pytest.fixture(scope="module")

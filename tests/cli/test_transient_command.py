@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import Result
 from command_line import invoke
 
 import linkwright as lw
@@ -17,8 +17,7 @@ import linkwright as lw
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
 
-def run(*words: str) -> Result:
-    return invoke("transient", PRESS, *words)
+run = partial(invoke, "transient", PRESS)
 
 
 def told(*words: str) -> dict[str, Any]:

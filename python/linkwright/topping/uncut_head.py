@@ -24,15 +24,7 @@ from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import NOTHING, TopperStudy
-from linkwright.topping.uncut_along import (
-    EdgeAlong,
-    Heads,
-    end_times,
-    exposed,
-    slopes,
-    uncut_slopes,
-    y_along,
-)
+from linkwright.topping.uncut_along import EdgeAlong, Heads, end_times, exposed, slopes, uncut_slopes, y_along
 from linkwright.topping.worst_head import heads_as_bad, mean_heads
 
 # An offset this near to the largest one, as a share, is that.
