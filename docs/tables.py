@@ -28,7 +28,8 @@ from linkwright.kernel.limits import ALL, grouped
 from linkwright.kernel.page.glossary import Term, glossary
 from linkwright.kernel.quantities import quantities_of
 from linkwright.kernel.result import Record, Result
-from linkwright.kernel.units import COUNT, KINDS, Quantity, QuantityList, size_words
+from linkwright.kernel.units.kinds import COUNT, KINDS, size_words
+from linkwright.kernel.units.marks import Quantity, QuantityList
 from linkwright.machine.machine import Machine
 
 PAGES = tuple(

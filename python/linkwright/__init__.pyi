@@ -90,6 +90,7 @@ from linkwright.machine.machine import Machine as Machine
 from linkwright.machine.read import loads as loads
 from linkwright.machine.read import read as read
 from linkwright.machine.write import write as write
+from linkwright.papers.published_lengths import length_verdict as length_verdict
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
 from linkwright.pumping.unit import pumping_unit as pumping_unit
@@ -120,7 +121,6 @@ from linkwright.synthesis.stroke import slider_crank as slider_crank
 from linkwright.topping.best.best_knife import best_knife as best_knife
 from linkwright.topping.field import topper_field as topper_field
 from linkwright.topping.topper import topper as topper
-from linkwright.topping.verdict import length_verdict as length_verdict
 from linkwright.torsion.damper.damper_design import design_damper as design_damper
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis as engine_diagnosis
 from linkwright.torsion.diagnosis.measured_speed import measured_speed as measured_speed

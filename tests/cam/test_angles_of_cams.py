@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.curves import chosen, curves_figure, curves_of
 from linkwright.cam.figures.captions import cam_figures
 from linkwright.cam.tables import cam_tables
@@ -174,7 +173,7 @@ def test_the_lift_of_an_arm_is_shown_as_an_angle(words: str, tmp_path: Path) -> 
     """A pose and a motion in time have the lift of a swinging arm as an angle, that of a slide in metres."""
     machine, file = cam(FOLLOWERS[words]), tmp_path / "cam.toml"
     lw.write(machine, file)
-    told = CliRunner().invoke(application(), ["motion", str(file), "--at", "80 deg"])
+    told = invoke("motion", file, "--at", "80 deg")
     assert told.exit_code == 0, told.output
     assert f"F.lift place [{'°' if 'arm' in words else 'm'}" in told.output
     found = lw.transient(machine, speed=SPEED, duration=0.1, motor=False)

@@ -20,7 +20,6 @@ ENDS = {"R": (0.0, 0.0), "G": (0.7, 0.0), "U": (0.0, -1.3), "B": (-0.4, 2.1)}
 TASKS = {
     f"{a}-{b}": Boundary(1.5, ENDS[a][0], ENDS[b][0], ENDS[a][1], ENDS[b][1]) for a, b in product(ENDS, ENDS)
 }
-SMOOTH = [name for name in SYMMETRIC if name not in ("parabolic", "harmonic")]
 
 
 def rounding(law: MotionLaw, order: int) -> float:

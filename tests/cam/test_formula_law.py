@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from command_line import invoke
 
 import linkwright as lw
 from linkwright.cam.laws.catalogue import LAWS
@@ -117,13 +118,7 @@ def test_a_kink_inside_is_told() -> None:
 def test_factors_of_laws_with_parameters(tmp_path) -> None:  # type: ignore[no-untyped-def]
     import json
 
-    from click.testing import CliRunner
-
-    from linkwright.app.application import application
-
-    result = CliRunner().invoke(
-        application(), ["cam", "laws", "--law", "modified_sine: share=0.25", "--law", "cycloidal", "--json"]
-    )
+    result = invoke("cam", "laws", "--law", "modified_sine: share=0.25", "--law", "cycloidal", "--json")
     laws = json.loads(result.stdout)["results"]["cam_laws"]
     named = laws["modified_sine: share=0.25"]
     assert named["parameters"] == {"share": 0.25}
@@ -134,5 +129,5 @@ def test_factors_of_laws_with_parameters(tmp_path) -> None:  # type: ignore[no-u
         ("modified_sine: part=1", "share"),
         ("sine", "name"),
     ):
-        result = CliRunner().invoke(application(), ["cam", "laws", "--law", words])
+        result = invoke("cam", "laws", "--law", words)
         assert (result.exit_code, said in result.stderr) == (2, True), result.output

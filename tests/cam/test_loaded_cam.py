@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.app.soundness import soundness
+from linkwright.app.feasibility import feasibility
 from linkwright.cam.dynamics.follower_load import FollowerLoad
 from linkwright.cam.dynamics.hertz import Material, line_contact
 from linkwright.cam.dynamics.lift_off import lift_off
@@ -203,7 +203,7 @@ def test_a_follower_that_floats_is_told_by_every_analysis(drive: str) -> None:
         machine = lw.loads(FLOATING.format(drive=drive.format(speed=share * FLOATS_FROM)))
         analyses = [lw.forces(machine), lw.study(machine)]
         # A check solves for no motion.
-        analyses += [] if '"dc"' in drive else [soundness(machine)]
+        analyses += [] if '"dc"' in drive else [feasibility(machine)]
         for findings in (analysis.findings for analysis in analyses):
             told = [text for text in findings if "follower leaves cam" in text]
             assert len(told) == floats

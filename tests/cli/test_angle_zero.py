@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.figure.style import panels, styled, turn_axis
 from linkwright.kernel.page.angle_zero import Zero, counted_columns, counting
 from linkwright.kernel.page.sentences import sentence
@@ -25,7 +24,7 @@ TURNED = ("--set", "mechanism.cranks.A.phase=90 deg")
 
 def printed(*words: str) -> str:
     """What a command prints; it succeeds."""
-    done = CliRunner().invoke(application(), list(words))
+    done = invoke(*words)
     assert done.exit_code == 0, done.output
     return done.stdout
 
@@ -71,7 +70,7 @@ def test_programs_get_the_angles_of_the_file() -> None:
 
 
 def test_a_dead_centre_that_is_unknown_is_refused() -> None:
-    done = CliRunner().invoke(application(), ["run", PRESS, "--zero", "left"])
+    done = invoke("run", PRESS, "--zero", "left")
     assert done.exit_code == 2
     assert "expected one of outer, inner, top, bottom" in done.stderr
 

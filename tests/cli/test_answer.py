@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 import click
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 from tests.samples.tasks import FUNCTION, POSES
 from tests.samples.topper_fields import FIELD, TOPPER
 
@@ -287,7 +288,7 @@ def ask(known: dict[str, str]) -> Callable[[str, str], Result]:
     """Asks a command with words in which files are named in braces."""
 
     def asked(command: str, words: str) -> Result:
-        return CliRunner().invoke(application(), [*call(command, words, known), "--json"])
+        return invoke(*call(command, words, known), "--json")
 
     return asked
 

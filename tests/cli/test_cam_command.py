@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from command_line import invoke
 
 ROOT = Path(__file__).parents[2]
 ROLLER_CAM = str(ROOT / "machines" / "roller_cam.toml")
@@ -37,8 +36,7 @@ shuttle = { mass = "3 kg" }
 """
 
 
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["cam", *words])
+run = partial(invoke, "cam")
 
 
 @pytest.fixture
@@ -58,9 +56,7 @@ def test_tables_and_warnings() -> None:
 
 
 def test_json_is_one_object(groove: str, tmp_path: Path) -> None:
-    result = CliRunner().invoke(
-        application(), ["cam", groove, "--json", "--out", str(tmp_path / "out"), "--tolerance", "10 um"]
-    )
+    result = invoke("cam", groove, "--json", "--out", tmp_path / "out", "--tolerance", "10 um")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     assert found["results"]["cam"]["stroke"] == pytest.approx(0.02)

@@ -11,8 +11,8 @@ from typing import Annotated
 import click
 import pytest
 from click.testing import CliRunner
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.cam.laws.catalogue import LAWS
 from linkwright.kernel.command.common import File
 from linkwright.kernel.command.group import Commands, Entry
@@ -22,7 +22,7 @@ RUNNER = CliRunner()
 
 
 def run(*words: str) -> tuple[int, str]:
-    result = RUNNER.invoke(application(), ["cam", "laws", *words])
+    result = invoke("cam", "laws", *words)
     return result.exit_code, result.output
 
 

@@ -9,9 +9,8 @@ from typing import Any
 
 import jsonschema
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from click.testing import Result
+from command_line import invoke
 
 ROLLER_CAM = Path(__file__).parents[2] / "machines" / "roller_cam.toml"
 
@@ -46,7 +45,7 @@ def valve(tmp_path: Path) -> Path:
 
 
 def command(*arguments: str | Path) -> Result:
-    done = CliRunner().invoke(application(), [str(each) for each in arguments])
+    done = invoke(*arguments)
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     return done
 

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Annotated
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
+from command_line import invoke as run
 
-from linkwright.app.application import application
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.parameter import Option, command
 from linkwright.kernel.errors import StartError
@@ -22,11 +22,6 @@ from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"
-
-
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return CliRunner().invoke(application(), [str(each) for each in arguments])
 
 
 def test_check_says_what_is_in_the_file() -> None:

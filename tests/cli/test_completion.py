@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 import pytest
 from click.shell_completion import BashComplete
-from click.testing import CliRunner
+from command_line import invoke
 
 from linkwright.app.application import application
 from linkwright.kernel.command.group import Commands
@@ -36,10 +36,10 @@ def test_a_group_goes_on_with_a_file() -> None:
 def test_the_script_calls_the_program(shell: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("USERPROFILE", str(tmp_path))
-    shown = CliRunner().invoke(application(), ["--show-completion", shell])
+    shown = invoke("--show-completion", shell)
     assert shown.exit_code == 0
     assert f"_LINKWRIGHT_COMPLETE={shell}_complete" in shown.output
-    installed = CliRunner().invoke(application(), ["--install-completion", shell])
+    installed = invoke("--install-completion", shell)
     assert installed.exit_code == 0
     written = [path for path in tmp_path.rglob("*linkwright*") if path.is_file()]
     assert [path.read_text() for path in written] == [shown.output.removesuffix("\n")]
@@ -47,7 +47,7 @@ def test_the_script_calls_the_program(shell: str, tmp_path: Path, monkeypatch: p
 
 
 def test_help_of_a_group_shows_the_options_for_a_file() -> None:
-    shown = CliRunner().invoke(application(), ["cam", "--help"]).output
+    shown = invoke("cam", "--help").output
     for words in ("cam [OPTIONS] FILE", "cam [OPTIONS] COMMAND", "--tolerance LENGTH", "--formats", "search"):
         assert words in shown
 

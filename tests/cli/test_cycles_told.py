@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.page.numbers import crank_angle
 
 FOUND = Path(__file__).parents[1] / "found"
@@ -19,7 +18,7 @@ OTHER_ZERO = ("--set", "mechanism.cranks.B.phase=200 deg", "--set", "mechanism.s
 
 
 def run(*words: str) -> str:
-    result = CliRunner().invoke(application(), list(words), catch_exceptions=False)
+    result = invoke(*words, catch_exceptions=False)
     # Beside a change point forces grow without limit, which is a finding.
     assert result.exit_code == 0 or "unbounded or indeterminate" in result.output, result.output
     return result.output

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.torsion.response.forced import forced_vibration
 
 ENGINE = Path(__file__).parents[2] / "examples" / "weak_cylinder" / "machine.toml"
@@ -31,8 +31,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(path)
 
 
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", "diagnose", str(ENGINE), *words])
+run = partial(invoke, "torsion", "diagnose", ENGINE)
 
 
 def test_json(measured: str) -> None:

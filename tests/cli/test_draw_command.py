@@ -13,11 +13,11 @@ from subprocess import PIPE, STDOUT, Popen
 import ezdxf
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 from PIL import Image
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.report.moving import gif, mp4
 from linkwright.app.report.scene import moving_scene
 
@@ -26,7 +26,7 @@ CARTS = str(ROOT / "machines" / "roller_two_carts.toml")
 
 
 def called(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["draw", *words])
+    return invoke("draw", *words)
 
 
 def test_dxf_has_the_joints_where_the_motion_has_them(tmp_path: Path) -> None:

@@ -14,10 +14,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.machine.address import addresses, kind
 
@@ -67,9 +66,7 @@ def test_at_the_ends_of_its_range_there_is_an_answer_or_a_sentence(path: Path, a
         return
     command = "torsion" if lw.read(path).is_train_alone else "run"
     for value in random.Random(address).sample(extremes(path, address), 2):
-        done = CliRunner().invoke(
-            application(), [command, str(path), "--json", "--set", f"{address}={value!r}"]
-        )
+        done = invoke(command, path, "--json", "--set", f"{address}={value!r}")
         assert done.exception is None or isinstance(done.exception, SystemExit), (value, done.exception)
         assert done.exit_code in (0, 1, 2)
         assert not _NO_NUMBER.search(done.stderr), done.stderr

@@ -8,13 +8,10 @@ import re
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.commands.check import summary
-
-RUNNER = CliRunner()
 
 FILE = """
 format = 1
@@ -40,7 +37,7 @@ def press(tmp_path: Path) -> Path:
 
 
 def run(*words: str | Path) -> tuple[int, str]:
-    result = RUNNER.invoke(application(), [str(word) for word in words])
+    result = invoke(*words)
     assert result.exception is None or isinstance(result.exception, SystemExit)
     return result.exit_code, result.output
 

@@ -11,15 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-
-from linkwright.app.application import application
+from command_line import invoke
 
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar_coupler_curve" / "machine.toml"
 
 
 def run(*args: object, file: Path = FOUR_BAR):
-    return CliRunner().invoke(application(), ["motion", str(file), *map(str, args)])
+    return invoke("motion", file, *args)
 
 
 def columns(text: str) -> dict[str, list[float]]:
@@ -150,7 +148,7 @@ def test_angles_from_a_dead_centre() -> None:
     """The ram of the press is at its top there; a revolution begins and ends with it."""
 
     def told(*words: str) -> str:
-        result = CliRunner().invoke(application(), ["motion", "press_motion", "--zero", "top", *words])
+        result = invoke("motion", "press_motion", "--zero", "top", *words)
         assert result.exit_code == 0, result.output
         return result.stdout
 

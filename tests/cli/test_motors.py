@@ -6,14 +6,13 @@ import json
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 
 
 def asked(*words: str) -> list[dict[str, Any]]:
-    done = CliRunner().invoke(application(), ["motors", *words, "--json"])
+    done = invoke("motors", *words, "--json")
     assert done.exit_code == 0, done.output
     found: list[dict[str, Any]] = json.loads(done.stdout)["results"]["motors"]
     return found
@@ -50,13 +49,13 @@ def test_what_is_asked_for_narrows_the_list() -> None:
     ],
 )
 def test_what_the_catalogue_does_not_have_is_told(words: list[str], told: str) -> None:
-    done = CliRunner().invoke(application(), ["motors", *words])
+    done = invoke("motors", *words)
     assert done.exit_code == 2
     assert told in done.stderr
 
 
 def test_a_dash_and_one_letter_ask_for_help() -> None:
     for words in (["-h"], ["run", "-h"], ["cam", "search", "-h"]):
-        done = CliRunner().invoke(application(), words)
+        done = invoke(*words)
         assert done.exit_code == 0
         assert "Usage" in done.stdout

@@ -9,10 +9,9 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from sizes import DEEP
 
-from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.page.table import csv_text
 from linkwright.kinetostatics.figures import hodograph_figure
@@ -164,7 +163,7 @@ KINDS = {
 
 def run(*words: str) -> tuple[int, str]:
     """Exit code and output of a command; anything it did not raise on purpose is raised here."""
-    result = CliRunner().invoke(application(), list(words))
+    result = invoke(*words)
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     return result.exit_code, result.output
@@ -215,7 +214,7 @@ def test_names_go_through_every_command(tmp_path: Path, kind: str, start: int) -
         if command[0] in ("size", "run") and kind != "cam":
             assert some[0] in re.sub(r"\s*\n\s*", " ", output)
     if kind == "slider":
-        shown = CliRunner().invoke(application(), ["motion", str(file), "--at", "30 deg", "--csv"]).stdout
+        shown = invoke("motion", file, "--at", "30 deg", "--csv").stdout
         rows = list(csv.reader(StringIO(shown)))
         assert {len(row) for row in rows} == {5}
         # The crank pin and the slider are reported under their own names.

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from click.testing import CliRunner
-
-from linkwright.app.application import application
+from command_line import invoke
 
 CART, CAM, DIESEL = "machines/roller_one_cart.toml", "machines/roller_cam.toml", "machines/v_diesel.toml"
 FIT = "examples/fit_from_run_down/study.toml"
@@ -56,7 +54,7 @@ NUMBERS = (
 
 @pytest.mark.parametrize(("command", "option", "value"), WRONG, ids=lambda part: str(part)[-30:])
 def test_the_option_is_named(command: tuple[str, ...], option: str, value: str) -> None:
-    told = CliRunner().invoke(application(), [*command, option, value])
+    told = invoke(*command, option, value)
     assert told.exit_code == 2, told.output
     assert told.stderr.startswith(option), told.stderr
 
@@ -66,7 +64,7 @@ def test_the_option_is_named(command: tuple[str, ...], option: str, value: str) 
 def test_a_number_that_is_none_is_shown_as_it_was_written(
     command: tuple[str, ...], option: str, value: str
 ) -> None:
-    told = CliRunner().invoke(application(), [*command, option, value])
+    told = invoke(*command, option, value)
     assert told.exit_code == 2, told.output
     assert option in told.stderr
     assert value[:60] in told.stderr

@@ -5,14 +5,14 @@ from __future__ import annotations
 import csv
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.curves import chosen, curves_figure
 from linkwright.app.study import study
 from linkwright.kernel.command.console import _head
@@ -21,8 +21,7 @@ from linkwright.kernel.page.table import Table
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
 
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["plot", str(PRESS), *words])
+run = partial(invoke, "plot", PRESS)
 
 
 def test_a_press_from_its_top(tmp_path: Path) -> None:
@@ -143,7 +142,7 @@ def test_axes_legends_and_heads_say_what_they_hold() -> None:
 def test_the_report_of_a_plot_speaks_ukrainian(tmp_path: Path) -> None:
     page = tmp_path / "ram.html"
     words = ["report", "--lang", "uk", "--to", str(page), "plot", str(PRESS), "ram.velocity", "--zero", "top"]
-    done = CliRunner().invoke(application(), words)
+    done = invoke(*words)
     assert done.exit_code == 0, done.output
     text = page.read_text(encoding="utf-8")
     for english in ("Extremes", "Values", "crank angle", "Crank angles", ", velocity", "curve<"):

@@ -21,10 +21,10 @@ from urllib.request import HTTPCookieProcessor, ProxyHandler, build_opener
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import COMMANDS, GROUPS, application
+from linkwright.app.application import COMMANDS, GROUPS
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / "README.md"
@@ -67,7 +67,7 @@ def prepared(page: Path, folder: Path) -> None:
 
 def code_and_output(words: list[str]) -> tuple[int, str]:
     """Exit code and text of a command."""
-    done = CliRunner().invoke(application(), words)
+    done = invoke(*words)
     return done.exit_code, done.output
 
 

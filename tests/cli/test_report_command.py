@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from click.testing import Result
+from command_line import invoke
 
 CARTS = str(Path(__file__).parents[2] / "machines" / "roller_two_carts.toml")
 
@@ -21,7 +20,7 @@ LOGO = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1"><rect width="1
 
 
 def called(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["report", *words])
+    return invoke("report", *words)
 
 
 @pytest.fixture
@@ -149,10 +148,7 @@ def test_digits_that_are_asked_for(folder: Path) -> None:
     for digits, text in (((), "0.08496<"), (("--digits", "7"), "0.08495914<")):
         assert called("--to", "a.html", "--force", "run", CARTS, *digits).exit_code == 0
         assert text in (folder / "a.html").read_text()
-    plain, asked = (
-        CliRunner().invoke(application(), ["run", CARTS, "--json", *more]).stdout
-        for more in ((), ("--digits", "2"))
-    )
+    plain, asked = (invoke("run", CARTS, "--json", *more).stdout for more in ((), ("--digits", "2")))
     assert plain == asked
-    refused = CliRunner().invoke(application(), ["run", CARTS, "--digits", "0"])
+    refused = invoke("run", CARTS, "--digits", "0")
     assert (refused.exit_code, "--digits" in refused.output) == (2, True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import template, templates
 from linkwright.machine.read import read
@@ -30,9 +30,7 @@ NAMES = {
 }
 
 
-def run(*arguments: str | Path) -> Result:
-    """Run the command in this process."""
-    return CliRunner().invoke(application(), ["run", *(str(each) for each in arguments)])
+run = partial(invoke, "run")
 
 
 def results(*arguments: str | Path) -> dict[str, Any]:
@@ -73,7 +71,7 @@ def test_templates_run(name: str, tmp_path: Path) -> None:
     path.write_text(template(name), encoding="utf-8")
     machine = read(path)
     if machine.train is not None:
-        done = CliRunner().invoke(application(), ["torsion", str(path), "--json"])
+        done = invoke("torsion", path, "--json")
         assert done.exit_code == 0
         assert {"scheme", "campbell", "peaks"} <= set(json.loads(done.stdout)["results"])
         return
@@ -248,7 +246,7 @@ def test_an_option_that_is_no_quantity_is_named() -> None:
 
 def test_tables_of_a_slotted_lever_name_each_output_once() -> None:
     """Link and slide of a slotted lever have one name; an angle that is constant has no place."""
-    found = CliRunner().invoke(application(), ["run", "quick_returns"])
+    found = invoke("run", "quick_returns")
     assert found.exit_code == 0
     travel = found.stdout[
         found.stdout.index("Linkage over its cycle") : found.stdout.index("Transmission angle")
@@ -262,7 +260,7 @@ def test_tables_of_a_slotted_lever_name_each_output_once() -> None:
 
 def test_what_rounding_leaves_is_not_told() -> None:
     """A parallelogram turns as its crank does: no acceleration, one revolution, extremes at 0°."""
-    found = CliRunner().invoke(application(), ["run", "change_points"]).stdout
+    found = invoke("run", "change_points").stdout
     assert "C.rocker, angular acceleration" not in found
     assert "1 revolutions" not in found
     assert "·10⁻" not in found

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.page.numbers import degrees, measured, quantity
 from linkwright.kernel.page.out_units import OutUnits, reading
 from linkwright.linkages.cycle import linkage
@@ -21,7 +20,7 @@ WIDE = {"COLUMNS": "300"}
 
 
 def told(*words: str, code: int = 0) -> str:
-    result = CliRunner().invoke(application(), list(words), env=WIDE)
+    result = invoke(*words, env=WIDE)
     assert result.exit_code == code, result.output
     return result.stdout + (result.stderr if code else "")
 
@@ -129,7 +128,7 @@ def test_a_pose_has_degrees_for_people_and_radians_in_csv() -> None:
 
 def test_a_long_name_is_whole_in_a_narrow_terminal() -> None:
     """In the 100 columns of pipes names without a space are broken, never cut by an ellipsis."""
-    result = CliRunner().invoke(application(), ["run", "pumping_unit_torque", "--units", "mm,rpm"])
+    result = invoke("run", "pumping_unit_torque", "--units", "mm,rpm")
     assert "Linkage over its cycle" in result.stdout
     assert "…" not in result.stdout
 

@@ -8,9 +8,8 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke as run
 
-from linkwright.app.application import application
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.files.library import library_path
 from linkwright.machine.read import read
@@ -25,11 +24,6 @@ def recomputed_once() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("linkwright.papers.paper.paper", cache(paper))
         yield
-
-
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return CliRunner().invoke(application(), [str(each) for each in arguments])
 
 
 def test_size_in_json() -> None:

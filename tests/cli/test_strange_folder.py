@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
+from linkwright.app.report.company import svg_fault
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineFileError
 from linkwright.kernel.files.library import template
-from linkwright.kernel.files.picture import svg_fault
 from linkwright.studio.worker import Worker
 
 # Modules of the library that children import before any of ours.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 from tests.samples.tasks import FUNCTION, POSES
 
-from linkwright.app.application import application
 from linkwright.linkages.kinematics import kinematics
 from linkwright.machine.read import read
 
@@ -22,9 +22,7 @@ generations = 30
 TASKS = {"motion": POSES, "function": FUNCTION, "path": PATH}
 
 
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return CliRunner().invoke(application(), ["synthesise", *(str(each) for each in arguments)])
+run = partial(invoke, "synthesise")
 
 
 @pytest.fixture
@@ -60,7 +58,7 @@ def test_dead_centre(tmp_path: Path) -> None:
     assert done.exit_code == 0
     assert re.search(r"swing of the rocker +ψ_0 +60°", done.stdout)
     assert re.search(r"length of the frame +0\.2 m", done.stdout)
-    opened = CliRunner().invoke(application(), ["run", str(out), "--json"])
+    opened = invoke("run", out, "--json")
     assert opened.exit_code == 0
     done = run("dead-centre", "--stroke", "100 mm", "--time-ratio", "1.2", "--json")
     assert json.loads(done.stdout)["results"]["slider_crank"]["stroke"] == 0.1

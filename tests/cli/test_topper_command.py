@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 from tests.samples.topper_fields import FIELD, TOPPER
 
-from linkwright.app.application import application
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["topper", *words])
+run = partial(invoke, "topper")
 
 
 @pytest.fixture
@@ -224,7 +221,7 @@ def test_a_measured_root_that_cannot_be(file: str, tmp_path: Path) -> None:
 
 def test_a_file_alone_is_run() -> None:
     machine = str(Path(__file__).parents[2] / "machines" / "topper.toml")
-    whole = json.loads(CliRunner().invoke(application(), ["run", machine, "--json"]).stdout)
+    whole = json.loads(invoke("run", machine, "--json").stdout)
     assert told(machine)["results"]["topper"] == whole["results"]["topper"]
 
 

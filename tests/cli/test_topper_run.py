@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-
-from linkwright.app.application import application
+from command_line import invoke
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -44,7 +42,7 @@ LENGTHS = ("length_published", "length_consistent", "length_exact_constant_speed
 
 def run(*arguments: str, file: str = "topper.toml") -> tuple[int, dict[str, Any]]:
     """Exit code and JSON, parsed strictly."""
-    done = CliRunner().invoke(application(), ["run", str(MACHINES / file), "--json", *arguments])
+    done = invoke("run", MACHINES / file, "--json", *arguments)
     assert done.exception is None or isinstance(done.exception, SystemExit)
     return done.exit_code, json.loads(done.stdout, parse_constant=pytest.fail)
 
@@ -172,6 +170,6 @@ def test_a_rod_that_is_too_short_leaves_no_topper() -> None:
 )
 def test_what_needs_a_crank_says_so(words: tuple[str, ...]) -> None:
     command, *options = words
-    done = CliRunner().invoke(application(), [command, str(MACHINES / "topper.toml"), *options])
+    done = invoke(command, MACHINES / "topper.toml", *options)
     assert done.exit_code == 2
     assert "topper without a [mechanism]: no crank moves its knife" in done.output

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.machine.read import loads
 from linkwright.machine.write import dumps
 
@@ -36,8 +36,7 @@ def file(tmp_path: Path) -> str:
     return str(path)
 
 
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", *words])
+run = partial(invoke, "torsion")
 
 
 BAR = """
@@ -242,13 +241,13 @@ def test_machine_without_train(tmp_path: Path) -> None:
 @pytest.mark.parametrize("command", ["run", "motion", "forces", "size"])
 def test_a_train_has_no_mechanism(file: str, command: str) -> None:
     words = ["--speed", "10 rad/s"] if command == "forces" else []
-    result = CliRunner().invoke(application(), [command, file, *words])
+    result = invoke(command, file, *words)
     assert result.exit_code == 2
     assert result.exception is None or isinstance(result.exception, SystemExit)
 
 
 def test_check_names_the_parts(file: str) -> None:
-    result = CliRunner().invoke(application(), ["check", file])
+    result = invoke("check", file)
     assert result.exit_code == 0
     assert "motor, pinion, wheel, pump" in result.stdout
 

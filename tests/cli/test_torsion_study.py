@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from command_line import invoke
 
 V12 = "machines/v_diesel.toml"
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(application(), ["torsion", *arguments])
+run = partial(invoke, "torsion")
 
 
 @pytest.fixture(scope="module")

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import csv
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 
 PRESS = Path(__file__).parents[2] / "examples" / "press_with_flywheel" / "machine.toml"
 
 
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["transient", str(PRESS), *words])
+run = partial(invoke, "transient", PRESS)
 
 
 def told(*words: str) -> dict[str, Any]:
@@ -97,7 +96,7 @@ def test_a_long_motion_has_a_short_table_of_events() -> None:
     assert f"Events, 2 of {len(events)}" in shown
     assert "kink" not in shown
     rod = str(Path(__file__).parents[1] / "found" / "tangent_rod.toml")
-    shown = CliRunner().invoke(application(), ["transient", rod, "--revolutions", "60"]).stdout
+    shown = invoke("transient", rod, "--revolutions", "60").stdout
     table = shown[shown.index("Events, 24 of ") : shown.index("Motion in time")]
     assert table.count("jump of") == 22
     assert "end of the" in table

@@ -7,18 +7,12 @@ import re
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke as run
 
-from linkwright.app.application import application
 from linkwright.machine.read import loads
 from linkwright.pumping.model.unit_catalogue import pumping_units
 
 MACHINES = Path(__file__).parents[2] / "machines"
-
-
-def run(*arguments: str | Path) -> Result:
-    """Run the command line in this process."""
-    return CliRunner().invoke(application(), [str(each) for each in arguments])
 
 
 @pytest.mark.parametrize("known", pumping_units(), ids=lambda known: known.designation)

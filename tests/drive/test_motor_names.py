@@ -7,9 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.drive.model.catalogue import motor, motors
 from linkwright.kernel.errors import MachineError
 
@@ -44,7 +43,7 @@ def test_a_number_of_poles_that_no_motor_has() -> None:
 def test_a_screw_that_ends_is_no_finding() -> None:
     """The lift closes over 300 revolutions of its screw, and no crank is asked to rotate."""
     for command in ("run", "check"):
-        result = CliRunner().invoke(application(), [command, LIFT, "--json"])
+        result = invoke(command, LIFT, "--json")
         assert result.exit_code == 0, result.stdout
         said = json.loads(result.stdout)
         assert said["findings"] == []
@@ -55,9 +54,9 @@ def test_a_screw_that_ends_is_no_finding() -> None:
 
 def test_a_screw_has_no_crank(tmp_path: Path) -> None:
     """Tables, warnings and report of the lift speak of its drive; only keys say crank."""
-    CliRunner().invoke(application(), ["run", LIFT, "--out", str(tmp_path / "out")])
+    invoke("run", LIFT, "--out", tmp_path / "out")
     for command in ("run", "check", "motion"):
-        said = CliRunner().invoke(application(), [command, LIFT]).stdout
+        said = invoke(command, LIFT).stdout
         assert said
         assert "crank" not in said.replace("crank_angle", ""), command
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")

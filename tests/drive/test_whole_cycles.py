@@ -12,11 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from samples.sizes import cases
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import SteadyStateError
 from linkwright.machine.machine import Machine
 
@@ -276,7 +275,7 @@ def test_masses_and_loads_that_never_repeat_are_told(tmp_path: Path) -> None:
     assert not lw.study(lw.replace(machine, {"loads.s.stiffness": 0.0})).findings
     path = tmp_path / "never.toml"
     path.write_text(NEVER, encoding="utf-8")
-    result = CliRunner().invoke(application(), ["forces", str(path), "--speed", "3 rad/s", "--json"])
+    result = invoke("forces", path, "--speed", "3 rad/s", "--json")
     assert told in json.loads(result.stdout)["warnings"]
     driven = lw.loads(NEVER + 'drive.motor = { kind = "dc", speed_no_load = 30, torque_stall = 60 }\n')
     (finding,) = [text for text in lw.study(driven).findings if text.startswith(words)]

@@ -13,7 +13,7 @@ import pytest
 
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.kernel.files.points import read_columns
-from linkwright.kernel.units import ANGLE, TIME
+from linkwright.kernel.units.kinds import ANGLE, TIME
 from linkwright.linkages.law import read_law_table
 from linkwright.machine.read import read
 

@@ -9,7 +9,7 @@ import pytest
 
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.files.points import read_columns
-from linkwright.kernel.units import ANGLE, SPEED
+from linkwright.kernel.units.kinds import ANGLE, SPEED
 from linkwright.machine.read import read
 
 KINDS = {"angle": ANGLE, "speed": SPEED}

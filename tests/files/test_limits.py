@@ -25,7 +25,8 @@ from linkwright.kernel.limits import (
     RESPONSE,
     ROWS,
 )
-from linkwright.kernel.units import ANGLE, LENGTH, MASS, SPEED, Kind, parse
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, MASS, SPEED, Kind
+from linkwright.kernel.units.reading import parse
 from linkwright.machine.read import loads, read
 from linkwright.machine.write import dumps
 
@@ -149,7 +150,7 @@ def test_powers_of_units_are_not_worked_out(text: str, kind: Kind) -> None:
 
 @pytest.mark.parametrize("text", ["1 m^2 kg/s^2", "1 kg m² s⁻²", "1 lbf^1 ft", "1 (N m)", "3 N/(m^-1)"])
 def test_usual_powers_are_read(text: str) -> None:
-    from linkwright.kernel.units import ENERGY
+    from linkwright.kernel.units.kinds import ENERGY
 
     assert parse(text, ENERGY) > 0
 

@@ -15,7 +15,7 @@ from linkwright.drive.model.catalogue import motor, motors
 from linkwright.drive.model.motor import DcMotor, InductionMotor
 from linkwright.kernel.errors import MachineError
 from linkwright.kernel.files.library import template
-from linkwright.kernel.units import ANGLE, LENGTH
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.address import addresses, get, kind, replace
 from linkwright.machine.machine import Machine

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import MachineFileError
 from linkwright.kernel.files.library import library, library_path
 
@@ -30,7 +29,7 @@ def test_machines_and_examples_have_names_of_their_own() -> None:
 
 def test_a_command_takes_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(application(), ["check", "roller_two_carts"])
+    done = invoke("check", "roller_two_carts")
     assert done.exit_code == 0, done.output
 
 

@@ -9,10 +9,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineFileError
 
 ROOT = Path(__file__).parents[2]
@@ -90,7 +89,7 @@ def test_a_logo_that_is_no_picture(data: bytes, tmp_path: Path) -> None:
     (tmp_path / "company.toml").write_text('logo = "logo.svg"', encoding="utf-8")
     page, sheet = tmp_path / "page.html", tmp_path / "page.pdf"
     words = ["report", "--to", page, "--to", sheet, "--company", tmp_path / "company.toml"]
-    done = CliRunner().invoke(application(), [*map(str, words), "check", "press_motion"])
+    done = invoke(*words, "check", "press_motion")
     assert done.exit_code == 2
     assert "logo" in done.stderr
     # Both or none.
@@ -104,7 +103,7 @@ def test_files_of_a_study_lie_in_its_folder(tmp_path: Path) -> None:
     (folder / "run_down.csv").rename(tmp_path / "run_down.csv")
     text = (folder / "study.toml").read_text(encoding="utf-8")
     (folder / "study.toml").write_text(text.replace("run_down.csv", "../run_down.csv"), encoding="utf-8")
-    done = CliRunner().invoke(application(), ["fit", str(folder / "study.toml")])
+    done = invoke("fit", folder / "study.toml")
     assert done.exit_code == 2
     assert "--allow-outside" in done.stderr
     listed = text.split("[fit]")[0].replace('range = ["20 kg m^2", "500 kg m^2"]', "values = [1, 2]")

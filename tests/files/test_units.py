@@ -15,20 +15,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from linkwright.kernel import units
 from linkwright.kernel.errors import UnitError
+from linkwright.kernel.units import kinds, marks, reading, spellings
 from linkwright.kernel.units.spellings import factor_of, unknown
 
 REGISTRY: pint.UnitRegistry[Any] = pint.UnitRegistry()
 REGISTRY.define("@alias turn = rev")
 SPELLINGS = [
-    (text, f, units.Dimension.of(unit)) for unit, row in units.COMMON.items() for text, f in row.items()
+    (text, f, kinds.Dimension.of(unit)) for unit, row in spellings.COMMON.items() for text, f in row.items()
 ]
 
 
 def test_quantities_have_their_plural() -> None:
     """Lists are of velocities, masses per length and moments of inertia."""
-    plurals = {kind.noun: kind.plural for kind in units.KINDS}
+    plurals = {kind.noun: kind.plural for kind in kinds.KINDS}
     assert plurals["velocity"] == "velocities"
     assert plurals["mass per length"] == "masses per length"
     assert plurals["moment of inertia"] == "moments of inertia"
@@ -36,7 +36,7 @@ def test_quantities_have_their_plural() -> None:
 
 
 @pytest.mark.parametrize(("text", "factor", "dimension"), SPELLINGS, ids=[each[0] for each in SPELLINGS])
-def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: units.Dimension) -> None:
+def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: kinds.Dimension) -> None:
     parsed = REGISTRY.parse_units(text.replace("%", "percent"))
     theirs, base = REGISTRY.get_base_units(parsed)
     # Some of pint's factors are products of rounded ones.
@@ -49,67 +49,67 @@ def test_common_spellings_agree_with_pint(text: str, factor: float, dimension: u
 @pytest.mark.parametrize(
     ("text", "kind", "value"),
     [
-        ("0.2 m", units.LENGTH, 0.2),
-        ("20cm", units.LENGTH, 0.2),
-        (" 1e3 kg ", units.MASS, 1000.0),
-        ("−5 mm", units.LENGTH, -0.005),
-        (".5 µm", units.LENGTH, 0.5e-6),
-        ("90 deg", units.ANGLE, math.pi / 2),
-        ("90°", units.ANGLE, math.pi / 2),
-        ("1 turn", units.ANGLE, 2 * math.pi),
-        ("1000 rpm", units.SPEED, 1000 * 2 * math.pi / 60),
-        ("2 rev/s", units.SPEED, 4 * math.pi),
-        ("5.5 kW", units.POWER, 5500.0),
-        ("48.4 kg m^2", units.INERTIA, 48.4),
-        ("48.4 kg·m²", units.INERTIA, 48.4),
-        ("48.4 kg*m**2", units.INERTIA, 48.4),
-        ("3 N·m", units.TORQUE, 3.0),
-        ("3 N*m", units.TORQUE, 3.0),
-        ("3 N m/rad", units.TORSIONAL_STIFFNESS, 3.0),
-        ("3 N m", units.TORSIONAL_STIFFNESS, 3.0),
-        ("9.81 m s⁻²", units.ACCELERATION, 9.81),
-        ("330 K", units.TEMPERATURE, 330.0),
-        ("5 delta_degC", units.TEMPERATURE, 5.0),
-        ("90 %", units.RATIO, 0.9),
-        ("0.9", units.RATIO, 0.9),
+        ("0.2 m", kinds.LENGTH, 0.2),
+        ("20cm", kinds.LENGTH, 0.2),
+        (" 1e3 kg ", kinds.MASS, 1000.0),
+        ("−5 mm", kinds.LENGTH, -0.005),
+        (".5 µm", kinds.LENGTH, 0.5e-6),
+        ("90 deg", kinds.ANGLE, math.pi / 2),
+        ("90°", kinds.ANGLE, math.pi / 2),
+        ("1 turn", kinds.ANGLE, 2 * math.pi),
+        ("1000 rpm", kinds.SPEED, 1000 * 2 * math.pi / 60),
+        ("2 rev/s", kinds.SPEED, 4 * math.pi),
+        ("5.5 kW", kinds.POWER, 5500.0),
+        ("48.4 kg m^2", kinds.INERTIA, 48.4),
+        ("48.4 kg·m²", kinds.INERTIA, 48.4),
+        ("48.4 kg*m**2", kinds.INERTIA, 48.4),
+        ("3 N·m", kinds.TORQUE, 3.0),
+        ("3 N*m", kinds.TORQUE, 3.0),
+        ("3 N m/rad", kinds.TORSIONAL_STIFFNESS, 3.0),
+        ("3 N m", kinds.TORSIONAL_STIFFNESS, 3.0),
+        ("9.81 m s⁻²", kinds.ACCELERATION, 9.81),
+        ("330 K", kinds.TEMPERATURE, 330.0),
+        ("5 delta_degC", kinds.TEMPERATURE, 5.0),
+        ("90 %", kinds.RATIO, 0.9),
+        ("0.9", kinds.RATIO, 0.9),
         # Products run together, and what other trades write.
-        ("120 Nm", units.TORQUE, 120.0),
-        ("1.2kNm", units.TORQUE, 1200.0),
-        ("500 Nmm", units.TORQUE, 0.5),
-        ("3 Nm/rad", units.TORSIONAL_STIFFNESS, 3.0),
-        ("3 Nmm/rad", units.TORSIONAL_STIFFNESS, 0.003),
-        ("300 Ns/m", units.DAMPING, 300.0),
-        ("4 Nms/rad", units.TORSIONAL_DAMPING, 4.0),
-        ("0.14 kgm^2", units.INERTIA, 0.14),
-        ("0.14 kgm²", units.INERTIA, 0.14),
-        ("1400 kgcm²", units.INERTIA, 0.14),
-        ("2 kWh", units.ENERGY, 7.2e6),
-        ("960 RPM", units.SPEED, 32 * math.pi),
-        ("960 r/min", units.SPEED, 32 * math.pi),
-        ("960 U/min", units.SPEED, 32 * math.pi),
-        ("10 ft lb", units.TORQUE, 13.558179483314004),
-        ("10 ft-lb", units.TORQUE, 13.558179483314004),
-        ("10 lb·ft", units.TORQUE, 13.558179483314004),
-        ("10 ft lbf", units.TORQUE, 13.558179483314004),
-        ("10 in lb", units.TORQUE, 1.129848290276167),
-        ("100 lbf", units.FORCE, 444.82216152605),
-        ("100 lbf/in", units.STIFFNESS, 17512.683524647636),
+        ("120 Nm", kinds.TORQUE, 120.0),
+        ("1.2kNm", kinds.TORQUE, 1200.0),
+        ("500 Nmm", kinds.TORQUE, 0.5),
+        ("3 Nm/rad", kinds.TORSIONAL_STIFFNESS, 3.0),
+        ("3 Nmm/rad", kinds.TORSIONAL_STIFFNESS, 0.003),
+        ("300 Ns/m", kinds.DAMPING, 300.0),
+        ("4 Nms/rad", kinds.TORSIONAL_DAMPING, 4.0),
+        ("0.14 kgm^2", kinds.INERTIA, 0.14),
+        ("0.14 kgm²", kinds.INERTIA, 0.14),
+        ("1400 kgcm²", kinds.INERTIA, 0.14),
+        ("2 kWh", kinds.ENERGY, 7.2e6),
+        ("960 RPM", kinds.SPEED, 32 * math.pi),
+        ("960 r/min", kinds.SPEED, 32 * math.pi),
+        ("960 U/min", kinds.SPEED, 32 * math.pi),
+        ("10 ft lb", kinds.TORQUE, 13.558179483314004),
+        ("10 ft-lb", kinds.TORQUE, 13.558179483314004),
+        ("10 lb·ft", kinds.TORQUE, 13.558179483314004),
+        ("10 ft lbf", kinds.TORQUE, 13.558179483314004),
+        ("10 in lb", kinds.TORQUE, 1.129848290276167),
+        ("100 lbf", kinds.FORCE, 444.82216152605),
+        ("100 lbf/in", kinds.STIFFNESS, 17512.683524647636),
         # Spellings that only pint knows.
-        ("2 inch", units.LENGTH, 0.0508),
-        ("1 metre", units.LENGTH, 1.0),
-        ("10 N/(m s)", units.STIFFNESS, None),
-        ("10 kg/(m s^2)", units.STIFFNESS, None),
-        ("10 newton/meter", units.STIFFNESS, 10.0),
-        ("1 W h", units.ENERGY, 3600.0),
-        (3, units.FORCE, 3.0),
+        ("2 inch", kinds.LENGTH, 0.0508),
+        ("1 metre", kinds.LENGTH, 1.0),
+        ("10 N/(m s)", kinds.STIFFNESS, None),
+        ("10 kg/(m s^2)", kinds.STIFFNESS, None),
+        ("10 newton/meter", kinds.STIFFNESS, 10.0),
+        ("1 W h", kinds.ENERGY, 3600.0),
+        (3, kinds.FORCE, 3.0),
     ],
 )
-def test_texts_give_si(text: object, kind: units.Kind, value: float | None) -> None:
+def test_texts_give_si(text: object, kind: kinds.Kind, value: float | None) -> None:
     if value is None:
         with pytest.raises(UnitError):
-            units.parse(text, kind)
+            reading.parse(text, kind)
     else:
-        assert units.parse(text, kind) == pytest.approx(value, rel=1e-15)
+        assert reading.parse(text, kind) == pytest.approx(value, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -161,55 +161,55 @@ def test_spellings_of_one_unit(given: str, same: str) -> None:
 @pytest.mark.parametrize(
     ("value", "kind", "word"),
     [
-        ("0.2 kg", units.LENGTH, "unit of mass"),
-        ("0.2", units.LENGTH, '0.2 m"'),
-        ("0,2 m", units.LENGTH, "point"),
-        ("0,5 kN m", units.TORQUE, "point"),
-        ("1,500 rpm", units.SPEED, "thousands"),
-        ("1,500.5 mm", units.LENGTH, "thousands"),
-        ("20 lb", units.FORCE, "lbf"),
-        ("20 lb/in", units.STIFFNESS, "lbf"),
-        ("4 Nms", units.TORSIONAL_DAMPING, "N m s"),
-        ("", units.LENGTH, "a length"),
-        ("m", units.LENGTH, "a length"),
-        ("1 m m", units.LENGTH, "something else"),
-        ("1 kg m22", units.INERTIA, "not a known unit"),
-        ("1 NM", units.TORQUE, "did you mean N m?"),
-        ("1 KG M2", units.INERTIA, "did you mean kg m^2?"),
-        ("3000 min-1", units.SPEED, "revolutions or radians"),
-        ("1 000 mm", units.LENGTH, "thousands"),
-        ("1'000 mm", units.LENGTH, "thousands"),
-        ("1 кг", units.LENGTH, "unit of mass"),
-        ("1 обертань", units.SPEED, "not a known unit"),
-        ("1 wobble", units.LENGTH, "not a known unit"),
-        ("0.2 m ± 0.2 mm", units.LENGTH, "into [study.variables.NAME]"),
-        ("25 H7", units.LENGTH, "into [study.variables.NAME]"),
-        ("1 N/m s", units.STIFFNESS, "two ways"),
-        ("50 Hz", units.SPEED, "revolutions or radians"),
-        ("3000 1/min", units.SPEED, "revolutions or radians"),
-        ("1 rad", units.RATIO, "unit of angle"),
-        ("1", units.ANGLE, "rad"),
-        ("1e999 m", units.LENGTH, "finite"),
-        ("1e308 km", units.LENGTH, "finite"),
-        ("nan m", units.LENGTH, "a length"),
-        ("20 degC", units.LENGTH, "absolute zero"),
-        ("60 degC", units.TEMPERATURE, "273.15"),
-        ("60 °C", units.TEMPERATURE, "273.15"),
-        ("3 N m K", units.TORSIONAL_STIFFNESS, "something else"),
-        ("1 m**99999", units.LENGTH, ""),
-        ("1 " + "m" * 5000, units.LENGTH, ""),
-        ("1 __import__('os')", units.LENGTH, "not a known unit"),
-        (True, units.LENGTH, "true"),
-        (math.nan, units.LENGTH, "finite"),
-        (math.inf, units.LENGTH, "finite"),
-        (10**400, units.LENGTH, "between 1e-9 and 1e6 m"),
-        (None, units.LENGTH, "a length"),
-        ([1], units.LENGTH, "a length"),
+        ("0.2 kg", kinds.LENGTH, "unit of mass"),
+        ("0.2", kinds.LENGTH, '0.2 m"'),
+        ("0,2 m", kinds.LENGTH, "point"),
+        ("0,5 kN m", kinds.TORQUE, "point"),
+        ("1,500 rpm", kinds.SPEED, "thousands"),
+        ("1,500.5 mm", kinds.LENGTH, "thousands"),
+        ("20 lb", kinds.FORCE, "lbf"),
+        ("20 lb/in", kinds.STIFFNESS, "lbf"),
+        ("4 Nms", kinds.TORSIONAL_DAMPING, "N m s"),
+        ("", kinds.LENGTH, "a length"),
+        ("m", kinds.LENGTH, "a length"),
+        ("1 m m", kinds.LENGTH, "something else"),
+        ("1 kg m22", kinds.INERTIA, "not a known unit"),
+        ("1 NM", kinds.TORQUE, "did you mean N m?"),
+        ("1 KG M2", kinds.INERTIA, "did you mean kg m^2?"),
+        ("3000 min-1", kinds.SPEED, "revolutions or radians"),
+        ("1 000 mm", kinds.LENGTH, "thousands"),
+        ("1'000 mm", kinds.LENGTH, "thousands"),
+        ("1 кг", kinds.LENGTH, "unit of mass"),
+        ("1 обертань", kinds.SPEED, "not a known unit"),
+        ("1 wobble", kinds.LENGTH, "not a known unit"),
+        ("0.2 m ± 0.2 mm", kinds.LENGTH, "into [study.variables.NAME]"),
+        ("25 H7", kinds.LENGTH, "into [study.variables.NAME]"),
+        ("1 N/m s", kinds.STIFFNESS, "two ways"),
+        ("50 Hz", kinds.SPEED, "revolutions or radians"),
+        ("3000 1/min", kinds.SPEED, "revolutions or radians"),
+        ("1 rad", kinds.RATIO, "unit of angle"),
+        ("1", kinds.ANGLE, "rad"),
+        ("1e999 m", kinds.LENGTH, "finite"),
+        ("1e308 km", kinds.LENGTH, "finite"),
+        ("nan m", kinds.LENGTH, "a length"),
+        ("20 degC", kinds.LENGTH, "absolute zero"),
+        ("60 degC", kinds.TEMPERATURE, "273.15"),
+        ("60 °C", kinds.TEMPERATURE, "273.15"),
+        ("3 N m K", kinds.TORSIONAL_STIFFNESS, "something else"),
+        ("1 m**99999", kinds.LENGTH, ""),
+        ("1 " + "m" * 5000, kinds.LENGTH, ""),
+        ("1 __import__('os')", kinds.LENGTH, "not a known unit"),
+        (True, kinds.LENGTH, "true"),
+        (math.nan, kinds.LENGTH, "finite"),
+        (math.inf, kinds.LENGTH, "finite"),
+        (10**400, kinds.LENGTH, "between 1e-9 and 1e6 m"),
+        (None, kinds.LENGTH, "a length"),
+        ([1], kinds.LENGTH, "a length"),
     ],
 )
-def test_nonsense_gives_a_message(value: object, kind: units.Kind, word: str) -> None:
+def test_nonsense_gives_a_message(value: object, kind: kinds.Kind, word: str) -> None:
     with pytest.raises(UnitError) as caught:
-        units.parse(value, kind)
+        reading.parse(value, kind)
     assert word in str(caught.value)
     assert kind.noun in str(caught.value)
 
@@ -217,73 +217,73 @@ def test_nonsense_gives_a_message(value: object, kind: units.Kind, word: str) ->
 @given(st.text(max_size=30))
 def test_any_text_is_a_number_or_a_unit_error(text: str) -> None:
     with contextlib.suppress(UnitError):
-        assert math.isfinite(units.parse(text, units.LENGTH))
+        assert math.isfinite(reading.parse(text, kinds.LENGTH))
 
 
-@given(st.floats(-1, 1), st.sampled_from(units.KINDS))
-def test_si_texts_read_back_as_the_same_float(share: float, kind: units.Kind) -> None:
+@given(st.floats(-1, 1), st.sampled_from(kinds.KINDS))
+def test_si_texts_read_back_as_the_same_float(share: float, kind: kinds.Kind) -> None:
     value = share * kind.most
-    assert units.parse(units.to_text(value, kind), kind) == value
+    assert reading.parse(reading.to_text(value, kind), kind) == value
 
 
-@pytest.mark.parametrize("kind", [*units.KINDS, units.COUNT], ids=lambda kind: kind.noun)
+@pytest.mark.parametrize("kind", [*kinds.KINDS, kinds.COUNT], ids=lambda kind: kind.noun)
 @pytest.mark.parametrize("sign", [1, -1])
-def test_the_range_of_a_kind_is_held_by_every_reader(kind: units.Kind, sign: int) -> None:
-    assert units.parse(sign * kind.most, kind) == sign * kind.most
+def test_the_range_of_a_kind_is_held_by_every_reader(kind: kinds.Kind, sign: int) -> None:
+    assert reading.parse(sign * kind.most, kind) == sign * kind.most
     beyond = sign * kind.most * 1.001
     for value in (beyond, f"{beyond!r} {kind.unit}", sign * 1e300, np.float64(beyond)):
         with pytest.raises(UnitError, match="in size") as caught:
-            units.parse(value, kind)
-        assert units.range_words(kind) in str(caught.value)
+            reading.parse(value, kind)
+        assert kinds.range_words(kind) in str(caught.value)
     with pytest.raises(UnitError, match="in size"):
-        units.parse_list([0, beyond], kind)
+        reading.parse_list([0, beyond], kind)
 
 
-@pytest.mark.parametrize("kind", [*units.KINDS, units.COUNT], ids=lambda kind: kind.noun)
-def test_specks_are_zero_where_zero_may_stand_and_no_size_where_it_may_not(kind: units.Kind) -> None:
-    marks = (units.Quantity(kind), units.positive(kind), units.not_negative(kind))
-    signed, positive, not_negative = (TypeAdapter(Annotated[float, mark]) for mark in marks)
+@pytest.mark.parametrize("kind", [*kinds.KINDS, kinds.COUNT], ids=lambda kind: kind.noun)
+def test_specks_are_zero_where_zero_may_stand_and_no_size_where_it_may_not(kind: kinds.Kind) -> None:
+    allowed = (marks.Quantity(kind), marks.positive(kind), marks.not_negative(kind))
+    signed, positive, not_negative = (TypeAdapter(Annotated[float, mark]) for mark in allowed)
     for value in (1e-320, 1e-300, 0.999 * kind.least):
         assert signed.validate_python(value) == value
         assert signed.validate_python(-value) == -value
         assert not_negative.validate_python(value) == 0.0
         with pytest.raises(ValidationError) as caught:
             positive.validate_python(value)
-        assert caught.value.errors()[0]["ctx"]["remedy"] == units.range_words(kind)
+        assert caught.value.errors()[0]["ctx"]["remedy"] == kinds.range_words(kind)
     assert positive.validate_python(kind.least) == not_negative.validate_python(kind.least) == kind.least
 
 
-@pytest.mark.parametrize("kind", units.KINDS, ids=lambda kind: kind.noun)
-def test_examples_and_units_of_the_kinds_are_valid(kind: units.Kind) -> None:
-    units.parse(kind.example, kind)
-    assert units.parse(f"1 {kind.unit}".strip(), kind) == 1.0
+@pytest.mark.parametrize("kind", kinds.KINDS, ids=lambda kind: kind.noun)
+def test_examples_and_units_of_the_kinds_are_valid(kind: kinds.Kind) -> None:
+    reading.parse(kind.example, kind)
+    assert reading.parse(f"1 {kind.unit}".strip(), kind) == 1.0
 
 
 def test_lists() -> None:
     for value in (["0 m", "10 cm"], [0, 0.1], (0, "0.1 m"), "0, 10 cm", "0 10 cm", "0; 10 cm"):
-        assert units.parse_list(value, units.LENGTH) == pytest.approx([0.0, 0.1])
+        assert reading.parse_list(value, kinds.LENGTH) == pytest.approx([0.0, 0.1])
     for value in ("0, x", {"a": 1}, 3, None, [[1]], "0, 1"):
         with pytest.raises(UnitError):
-            units.parse_list(value, units.LENGTH)
+            reading.parse_list(value, kinds.LENGTH)
 
 
 @pytest.mark.parametrize("text", ["0,2 m", "1,5; 2,5 mm", "1,5, 2,5 mm", "0,2; 3 m"])
 def test_a_comma_that_may_be_decimal_is_no_list(text: str) -> None:
     with pytest.raises(UnitError, match="decimal point"):
-        units.parse_list(text, units.LENGTH)
-    assert units.parse_list("0,100,200 mm", units.LENGTH) == [0.0, 0.1, 0.2]
+        reading.parse_list(text, kinds.LENGTH)
+    assert reading.parse_list("0,100,200 mm", kinds.LENGTH) == [0.0, 0.1, 0.2]
 
 
 @pytest.mark.parametrize("text", ["0,2 m", "1,000.5 m", "1.000,5 m", "1.000.000,5 m", "-1.000,5 m"])
 def test_a_comma_in_a_number_is_named(text: str) -> None:
     with pytest.raises(UnitError, match="decimal point"):
-        units.parse(text, units.LENGTH)
+        reading.parse(text, kinds.LENGTH)
 
 
 def test_common_spellings_do_not_load_pint() -> None:
     code = (
-        "import sys\nfrom linkwright.kernel import units\n"
-        "units.parse('48.4 kg·m²', units.INERTIA), units.parse('90 deg', units.ANGLE)\n"
+        "import sys\nfrom linkwright.kernel.units import kinds, reading\n"
+        "reading.parse('48.4 kg·m²', kinds.INERTIA), reading.parse('90 deg', kinds.ANGLE)\n"
         "assert not {'pint', 'numpy'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -11,10 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "llms.txt").read_text(encoding="utf-8")
@@ -37,7 +36,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def output(line: str) -> str:
     """What a command that succeeds prints on standard output."""
-    done = CliRunner().invoke(application(), shlex.split(line)[1:])
+    done = invoke(*shlex.split(line)[1:])
     assert done.exit_code == 0, f"{line}\n{done.output}"
     return done.stdout
 

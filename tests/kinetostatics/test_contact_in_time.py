@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from zoo import animal
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.drive.model.drive import Drive, Flywheel
 from linkwright.drive.motion_events import states
 from linkwright.kinetostatics.contact_in_time import contact_losses
@@ -126,7 +125,7 @@ def test_a_cable_becomes_slack_where_its_body_falls_faster() -> None:
 def test_the_command_finds_it(tmp_path: Path) -> None:
     (tmp_path / "valve.toml").write_text(text_of(85), encoding="utf-8")
     words = ["transient", str(tmp_path / "valve.toml"), "--revolutions", "5", "--json"]
-    done = CliRunner().invoke(application(), words)
+    done = invoke(*words)
     assert done.exit_code == 1
     answer = json.loads(done.stdout)
     (loss,) = answer["results"]["transient"]["contact_losses"]

@@ -7,17 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 
 FOUND = Path(__file__).parents[1] / "found" / "use"
 SERVO = str(FOUND / "servo_carriage.toml")
 
 
 def shown(*words: str) -> str:
-    return " ".join(CliRunner().invoke(application(), list(words)).stdout.split())
+    return " ".join(invoke(*words).stdout.split())
 
 
 def test_the_shaft_in_front_of_a_law() -> None:
@@ -36,7 +35,7 @@ def test_every_output_names_it() -> None:
     table = shown("forces", SERVO)
     assert "torque on the input shaft of the" in table
     assert "torque of the drive A 25.9" in table
-    results = json.loads(CliRunner().invoke(application(), ["forces", SERVO, "--json"]).stdout)["results"]
+    results = json.loads(invoke("forces", SERVO, "--json").stdout)["results"]
     text = json.dumps(results)
     assert "input shaft of the law of A, at constant speed" in text
     assert '"A drive"' in text

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
 
@@ -30,20 +29,18 @@ def fast() -> Machine:
 def test_derivatives(tmp_path: Path, fast: Machine) -> None:
     (tmp_path / "fast.toml").write_text(dumps(fast))
     for of in ("steady_state.speed_mean_time", "forces.torque_drive_max"):
-        done = CliRunner().invoke(application(), ["sensitivity", str(tmp_path / "fast.toml"), "--of", of])
+        done = invoke("sensitivity", tmp_path / "fast.toml", "--of", of)
         assert done.exit_code == 1, done.output
         assert LEAVES in done.output
     slow = ["--set", "drive.motor.speed_no_load=100"]
-    done = CliRunner().invoke(
-        application(), ["sensitivity", str(tmp_path / "fast.toml"), "--of", "forces.torque_drive_max", *slow]
-    )
+    done = invoke("sensitivity", tmp_path / "fast.toml", "--of", "forces.torque_drive_max", *slow)
     assert LEAVES not in done.output
 
 
 def test_sizing(tmp_path: Path, fast: Machine) -> None:
     (tmp_path / "fast.toml").write_text(dumps(fast))
     words = ["size", str(tmp_path / "fast.toml"), "--keep-motor", "--unevenness", "0.01"]
-    done = CliRunner().invoke(application(), words)
+    done = invoke(*words)
     assert done.exit_code == 1, done.output
     assert LEAVES in done.output
 

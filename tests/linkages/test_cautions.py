@@ -7,10 +7,9 @@ import re
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.linkages.cautions import linkage_cautions
 
 RHOMBUS = """
@@ -44,10 +43,10 @@ def test_a_rhombus_and_its_neighbours(radius: float, is_near: bool) -> None:
 def test_motion_tells_of_it(way: list[str], tmp_path: Path) -> None:
     file = tmp_path / "rhombus.toml"
     file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
-    told = CliRunner().invoke(application(), ["motion", str(file), *way])
+    told = invoke("motion", file, *way)
     assert told.exit_code == 0
     assert "close to a change point" in told.output
-    found = json.loads(CliRunner().invoke(application(), ["motion", str(file), *way, "--json"]).output)
+    found = json.loads(invoke("motion", file, *way, "--json").output)
     assert "close to a change point" in found["warnings"][0]
 
 
@@ -55,6 +54,6 @@ def test_motion_tells_the_angle_as_it_counts_it(tmp_path: Path) -> None:
     """The links are in line at 0° of the file, a quarter of a revolution behind the outer dead centre."""
     file = tmp_path / "rhombus.toml"
     file.write_text(RHOMBUS.replace("radius = 0.3", "radius = 0.29999"))
-    told = CliRunner().invoke(application(), ["motion", str(file), "--steps", "4", "--zero", "B outer"])
+    told = invoke("motion", file, "--steps", "4", "--zero", "B outer")
     angle = re.findall(r"of a straight line at a crank angle of ([\d.]+)°", told.output)
     assert float(angle[0]) == pytest.approx(90.0, abs=0.01)

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_cautions, law_jumps
@@ -21,7 +20,7 @@ MACHINES = Path(__file__).parents[2] / "machines"
 
 
 def answer(*words: str) -> tuple[int, Any]:
-    result = CliRunner().invoke(application(), [*words, "--json"])
+    result = invoke(*words, "--json")
     return result.exit_code, json.loads(result.stdout)
 
 

@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from random_drives import random_drive
 from sizes import cases
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, LinkwrightError
 from linkwright.linkages.gradient import linkage_tangents
 from linkwright.machine.address import exchanged
@@ -165,6 +164,6 @@ def test_what_has_no_derivative_says_why() -> None:
 def test_from_the_command_line(tmp_path: Path) -> None:
     (tmp_path / "slider.toml").write_text(SLIDER)
     given = ["sensitivity", str(tmp_path / "slider.toml"), "--of", "linkage.S.stroke"]
-    said = CliRunner().invoke(application(), given)
+    said = invoke(*given)
     assert said.exit_code == 0, said.output
     assert "stroke of the slide of S" in said.output

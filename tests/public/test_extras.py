@@ -13,10 +13,9 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.report.moving import mp4
 from linkwright.kernel import extras, system
 from linkwright.kernel.errors import InputError
@@ -68,7 +67,7 @@ def test_what_is_missing_is_told(
 def test_the_studio_tells_each_package(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """websockets too, which the server would ask for only once a page is open."""
     hide(monkeypatch, package)
-    done = CliRunner().invoke(application(), ["studio", "--no-browser"])
+    done = invoke("studio", "--no-browser")
     assert done.exit_code == 2
     assert f"the studio needs {package}, which is not installed" in done.output
     assert "pip install '.[studio]'" in done.output

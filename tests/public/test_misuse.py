@@ -23,7 +23,7 @@ from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
 from linkwright.kernel.public.arguments import checks_of
 from linkwright.machine.write import dumps as lw_dumps
-from linkwright.topping.verdict import PAPER
+from linkwright.papers.published_lengths import PAPER
 
 TURN = np.linspace(0.0, 6.0, 7)
 

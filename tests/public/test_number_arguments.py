@@ -180,7 +180,7 @@ def _cart_masses() -> dict[str, Any]:
 
 
 def paper() -> Any:
-    from linkwright.topping.verdict import PAPER
+    from linkwright.papers.published_lengths import PAPER
 
     return PAPER
 

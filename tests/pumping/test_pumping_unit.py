@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError
 from linkwright.pumping.model.unit import PumpingUnit
 from linkwright.pumping.model.unit_catalogue import catalogue_unit, pumping_units
@@ -360,13 +359,13 @@ def test_no_unit() -> None:
 def test_an_overloaded_gearbox_is_a_finding() -> None:
     """110 % of the designation ends with exit code 1, as a limit of torsion does; below it there is none."""
     path = str(EXAMPLE)
-    result = CliRunner().invoke(application(), ["run", path, "--json"])
+    result = invoke("run", path, "--json")
     assert result.exit_code == 1
     (finding,) = json.loads(result.stdout)["findings"]
     assert "The gearbox is overloaded" in finding
     assert "110 % of its rating" in finding
     lighter = ["--set", 'pumping_unit.load.up=["26.6 kN", "37 kN", "35 kN"]']
-    result = CliRunner().invoke(application(), ["run", path, "--json", *lighter])
+    result = invoke("run", path, "--json", *lighter)
     assert (result.exit_code, json.loads(result.stdout)["findings"]) == (0, [])
 
 
@@ -381,6 +380,6 @@ def test_counterbalance_effect_of_weights() -> None:
     factor = gear.torque_rod[at] / (gear.rod_load[at] - machine.pumping_unit.structural_unbalance)  # type: ignore[union-attr]
     free = gear.torque_rod[at] + gear.torque_counterbalance[at]
     assert gear.counterbalance_effect == pytest.approx(gear.rod_load[at] - free / factor, rel=1e-9)
-    table = CliRunner().invoke(application(), ["run", str(EXAMPLE)]).stdout
+    table = invoke("run", EXAMPLE).stdout
     assert "counterbalance effect" in table
     assert "maximum moment of the counterweights" in table

@@ -18,10 +18,9 @@ from typing import Any
 
 import pytest
 import tomlkit
-from click.testing import CliRunner
+from command_line import invoke
 from tests.cli.test_answer import FILES, TEXTS
 
-from linkwright.app.application import application
 from linkwright.kernel.figure.svg import identifier
 from linkwright.kernel.page.html import _policy
 
@@ -171,7 +170,7 @@ def test_names_and_texts_are_words(name: str, command: str, tmp_path: Path) -> N
     page = tmp_path / "page.html"
     given = [known.get(word, word) for option in options for word in f"--{option}".split()]
     call = ["report", "--to", str(page), *words.split(), str(tmp_path / "machine.toml"), *given]
-    done = CliRunner().invoke(application(), call)
+    done = invoke(*call)
     assert done.exit_code in (0, 1), done.output
     assert page.is_file(), done.output
     require_sound(page.read_text(encoding="utf-8"))

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.app.commands.report import _content
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.for_reader import _said
@@ -221,7 +220,7 @@ def test_reports_of_commands_have_no_english(words: str, tmp_path: Path) -> None
     """Texts of the product; names, keys, types of motors and sources stay as they are."""
     page = tmp_path / "page.html"
     command = ["report", "--lang", "uk", "--to", str(page), *words.split()]
-    done = CliRunner().invoke(application(), command)
+    done = invoke(*command)
     assert done.exit_code == 0, done.output
     written = page.read_text("utf-8")
     assert '<html lang="uk">' in written

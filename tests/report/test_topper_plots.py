@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from linkwright.machine.read import read
+from linkwright.papers.published_lengths import Stroke
 from linkwright.topping.charts import length_chart, verdict_chart
 from linkwright.topping.edge import edges_of
 from linkwright.topping.figures.lengths import (
@@ -21,7 +22,6 @@ from linkwright.topping.figures.view import top_view_figure
 from linkwright.topping.head_pass import HeadPass, head_pass
 from linkwright.topping.required_length import constant_speed_lengths
 from linkwright.topping.topper import TopperStudy, topper
-from linkwright.topping.verdict import Stroke
 
 MACHINE = Path(__file__).parents[2] / "machines" / "topper.toml"
 

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
-from linkwright.app.application import application
 from linkwright.app.commands.check import summary
 from linkwright.app.report.page import report_html
 from linkwright.app.study import Study, study
@@ -168,7 +167,7 @@ def test_hatched_area_is_in_the_picture_of_a_short_edge() -> None:
 
 def test_run_writes_the_same_page_with_a_finding(tmp_path: Path) -> None:
     arguments = ["run", str(MACHINES / "topper.toml"), "--set", *SHORT, "--out", str(tmp_path)]
-    result = CliRunner().invoke(application(), arguments)
+    result = invoke(*arguments)
     assert result.exit_code == 1
     assert "FINDING" in result.output
     assert "exact, every phase" in result.output

@@ -22,6 +22,28 @@ kind = "harmonic"
 stroke = "60 mm"
 """
 
+CRANK = """
+format = 1
+name = "Crank"
+[drive]
+speed = "275 rpm"
+[mechanism.cranks.crank]
+radius = "30 mm"
+[mechanism.sliders.knife]
+crank = "crank"
+rod = "150 mm"
+[topper]
+root_diameter = "110 mm"
+cut_height = "30 mm"
+offset = "20 mm"
+edge_angle = "20 deg"
+edge_length = "0.18 m"
+forward_speed = "1.9 m/s"
+[topper.motion]
+kind = "member"
+of = "knife"
+"""
+
 FIELD = """
 [topper.field]
 kind = "random"

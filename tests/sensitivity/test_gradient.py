@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
 from linkwright.machine.address import exchanged
@@ -336,7 +335,7 @@ def test_a_motor_without_load_has_no_torque() -> None:
 
 def test_what_an_analysis_has_without_a_derivative_is_told() -> None:
     """The largest torque of this motor is that at breakdown, between its extreme speeds."""
-    done = CliRunner().invoke(application(), ["sensitivity", "roller_one_cart", "--json"])
+    done = invoke("sensitivity", "roller_one_cart", "--json")
     answer = json.loads(done.stdout)
     name = "steady_state.torque_motor_max"
     assert "breakdown" in answer["results"]["missing"][name]
@@ -361,15 +360,12 @@ def test_an_analysis_without_any_derivative_is_said() -> None:
     ],
 )
 def test_the_command_names_its_option(of, by, told):
-    from click.testing import CliRunner
-
-    from linkwright.app.application import application
 
     asked = [
         *(word for name in of for word in ("--of", name)),
         *(word for name in by for word in ("--by", name)),
     ]
-    found = CliRunner().invoke(application(), ["sensitivity", TWO_CARTS, *asked])
+    found = invoke("sensitivity", TWO_CARTS, *asked)
     assert found.exit_code == 2
     assert told in " ".join(found.output.split())
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
@@ -24,7 +24,7 @@ DAMPER = EXAMPLES / "viscous_damper" / "machine.toml"
 
 
 def size(*words: str) -> Result:
-    return CliRunner().invoke(application(), ["size", *words])
+    return invoke("size", *words)
 
 
 def test_the_smallest_cam_within_a_pressure_angle() -> None:

@@ -149,27 +149,9 @@ def test_limits_that_no_knife_keeps(limits: str, limit: str, words: str) -> None
 
 
 def test_a_crank_is_told_its_speed() -> None:
-    text = """
-format = 1
-name = "Crank"
-[drive]
-speed = "275 rpm"
-[mechanism.cranks.crank]
-radius = "30 mm"
-[mechanism.sliders.knife]
-crank = "crank"
-rod = "150 mm"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-motion = { kind = "member", of = "knife" }
-field = { kind = "random", roots = 200, rows = 10 }
-limits = { knife_speed_min = 0.5, knife_speed_max = 0.5, slicing_min = 0.4 }
-"""
-    found = best_knife(lw.loads(text))
+    limits = {"knife_speed_min": 0.5, "knife_speed_max": 0.5, "slicing_min": 0.4}
+    field = {"kind": "random", "roots": 200, "rows": 10}
+    found = best_knife(lw.loads(topper_fields.CRANK, {"topper.field": field, "topper.limits": limits}))
     assert found.best is not None
     # Two strokes of 60 mm a revolution.
     assert found.best.crank_speed == pytest.approx(2 * math.pi * 0.5 / 0.12, rel=1e-6)

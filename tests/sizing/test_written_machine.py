@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.sizing.checks import motion_checks
 
 FOUND = Path(__file__).parents[1] / "found" / "use"
@@ -18,12 +17,12 @@ PRESS = str(FOUND / "punch_press.toml")
 
 
 def size(*words: str) -> tuple[int, str]:
-    result = CliRunner().invoke(application(), ["size", *words])
+    result = invoke("size", *words)
     return result.exit_code, " ".join(result.stdout.split())
 
 
 def sized(*words: str) -> Any:
-    return json.loads(CliRunner().invoke(application(), ["size", *words, "--json"]).stdout)["results"]
+    return json.loads(invoke("size", *words, "--json").stdout)["results"]
 
 
 @pytest.mark.parametrize(

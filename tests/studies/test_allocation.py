@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
 
 # At the outer dead centre the cart stands at r + l: a chain of two lengths.
@@ -69,7 +68,7 @@ def test_what_cannot_be_had(tmp_path: Path) -> None:
 def test_the_command(tmp_path: Path) -> None:
     chain(tmp_path)
     words = ["tolerance", str(tmp_path / "study.toml"), "--allocate", "0.9", "--rows", "500", "--json"]
-    result = CliRunner().invoke(application(), words)
+    result = invoke(*words)
     assert result.exit_code == 0, result.output
     told = json.loads(result.stdout)["results"]["allocation"]
     assert told["share_within"] >= 0.9

@@ -8,19 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke as run
 from sizes import cases
 from tests.samples.topper_fields import TOPPER
 
 import linkwright as lw
-from linkwright.app.application import application
 
 FIELD = f'[topper.field]\nkind = "random"\nroots = {cases(100, 400)}\nrows = 20\n'
 LIMITS = "[topper.limits]\ncomplete_min = 0.9\nslicing_min = 0.4\nhaulm_max = 0.05\n"
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), list(words))
 
 
 def searched(folder: Path, *words: str) -> tuple[dict[str, Any], lw.StudyPlan]:

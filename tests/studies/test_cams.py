@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke as run
 from sizes import cases
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.cam.laws.catalogue import LAWS
 from linkwright.cam.profile.check import cam_check
 from linkwright.kernel.errors import InputError
@@ -38,10 +37,6 @@ sections = [
   { angle = "40 deg" },
 ]
 """
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), list(words))
 
 
 @pytest.fixture

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from tests.samples.fast_starts import FILE
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.drive.batch import FAST_STARTS
 from linkwright.studies.parquet import columns_of
 
@@ -47,7 +46,7 @@ def file_of(folder: Path, study: str, response: str = AT_ONCE) -> Path:
 
 
 def warnings(*arguments: str) -> list[str]:
-    done = CliRunner().invoke(application(), [*arguments, "--json"])
+    done = invoke(*arguments, "--json")
     assert done.exit_code == 0, done.output
     told: list[str] = json.loads(done.stdout)["warnings"]
     return told
@@ -65,7 +64,7 @@ def test_a_row_that_runs_away_from_fast_starts_is_told(response: str, tmp_path: 
     assert table["fast_starts"].tolist() == [1, 1, 1, 0, 0]
     assert swept.fast_starts == swept.to_dict()["fast_starts"] == {RUNS_AWAY: 3}
     assert f"3 rows: {RUNS_AWAY}" in warnings("sweep", "show", str(folder))
-    text = CliRunner().invoke(application(), ["sweep", "show", str(folder)]).output
+    text = invoke("sweep", "show", folder).output
     assert "runs away" in text
 
 

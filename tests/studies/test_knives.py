@@ -8,42 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
-from tests.samples.topper_fields import FIELD, TOPPER, machine
+from command_line import invoke as run
+from tests.samples.topper_fields import CRANK, FIELD, TOPPER, machine
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import InputError, MachineFileError
 from linkwright.machine.address import get
 from linkwright.studies.knives import field_study, sweep_field
 
 SMALL = '[topper.field]\nkind = "random"\nroots = 300\nspacing = "0.31 m"\n'
-
-CRANK = """
-format = 1
-name = "Crank"
-[drive]
-speed = "275 rpm"
-[mechanism.cranks.crank]
-radius = "30 mm"
-[mechanism.sliders.knife]
-crank = "crank"
-rod = "150 mm"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_angle = "20 deg"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-[topper.motion]
-kind = "member"
-of = "knife"
-"""
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), list(words))
 
 
 def rows_of(study: Path, folder: Path) -> dict[str, np.ndarray]:

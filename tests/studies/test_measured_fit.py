@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.studies.fit_search import STEP, begun
 
@@ -209,10 +208,10 @@ def test_the_command(tmp_path: Path) -> None:
     vary = [word for name in names for word in ("--vary", name)]
     record = ["--record", str(tmp_path / "record.csv"), "--motion", "coast", "--json"]
     words = ["fit", str(tmp_path / "disc.toml"), *vary, *record, "--out", str(tmp_path / "out")]
-    twice = CliRunner().invoke(application(), [*words, "--vary", "loads.dry.torque=1:2"])
+    twice = invoke(*words, "--vary", "loads.dry.torque=1:2")
     assert twice.exit_code == 2
     assert "found loads.dry.torque twice" in twice.output
-    result = CliRunner().invoke(application(), words)
+    result = invoke(*words)
     assert result.exit_code == 0, result.output
     told = json.loads(result.stdout)["results"]["fit"]
     assert told["values"]["loads_dry_torque"] == pytest.approx(3.0, rel=1e-6)
@@ -243,7 +242,7 @@ def test_samples_that_go_back_are_refused() -> None:
 
 
 def test_an_example_is_fitted_by_its_name() -> None:
-    done = CliRunner().invoke(application(), ["fit", "fit_from_run_down", "--json"])
+    done = invoke("fit", "fit_from_run_down", "--json")
     assert done.exit_code == 0, done.output
 
 
@@ -270,7 +269,7 @@ def test_a_sample_with_a_slipped_exponent_is_no_warning(tmp_path: Path) -> None:
         """,
         "utf-8",
     )
-    done = CliRunner().invoke(application(), ["fit", str(tmp_path / "study.toml")])
+    done = invoke("fit", tmp_path / "study.toml")
     assert done.exception is None or isinstance(done.exception, SystemExit)
     assert done.exit_code in (0, 1)
 

@@ -8,11 +8,10 @@ from typing import Any, Literal
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from sizes import cases
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies import engine, search_log, slopes
 from linkwright.studies.optimise import Optimum, searched
@@ -63,9 +62,7 @@ def test_tables_among_choices_are_shown_as_in_a_file(tmp_path: Path) -> None:
     text = TEXT.replace('"mechanism.cranks.A1.radius"', '"mechanism.cranks.A1"')
     text = text.replace('range = ["0.1 m", "0.3 m"]', "values = [{ radius = 0.1 }, { radius = 0.2 }]")
     (tmp_path / "study.toml").write_text(text.replace("A1.phase", "A2.phase"))
-    told = CliRunner().invoke(
-        application(), ["optimise", str(tmp_path / "study.toml"), "--evaluations", "20"]
-    )
+    told = invoke("optimise", tmp_path / "study.toml", "--evaluations", "20")
     assert "radius = 0.1" in told.stdout
     assert "{" not in told.stdout
 
@@ -80,7 +77,7 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_search(
     (tmp_path / "taken.toml").write_text("mine")
     (tmp_path / "link.toml").symlink_to(tmp_path / "taken.toml")
     words = ["optimise", str(tmp_path / "study.toml"), "--out", str(tmp_path / place)]
-    told = CliRunner().invoke(application(), words)
+    told = invoke(*words)
     assert told.exit_code == 2, told.output
     assert place in told.output
     assert (tmp_path / "taken.toml").read_text() == "mine"
@@ -91,9 +88,7 @@ def test_a_goal_that_nothing_changes_is_told(tmp_path: Path) -> None:
     text = TEXT.replace("[goals]\nfar", 'fixed = { entry = "drive.gearbox.ratio" }\n[goals]\nfixed')
     found = optimum(tmp_path, text, 100)
     assert found.is_flat
-    told = CliRunner().invoke(
-        application(), ["optimise", str(tmp_path / "study.toml"), "--evaluations", "100"]
-    )
+    told = invoke("optimise", tmp_path / "study.toml", "--evaluations", "100")
     assert "fixed is 9.8 for all machines" in " ".join(told.stdout.split())
     assert not optimum(tmp_path, TEXT, 100).is_flat
 

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from command_line import invoke as run
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError, MachineFileError
 from linkwright.linkages.nearest_places import ClosedCurves, disorder, nearest_in_order
 from linkwright.studies.slopes import _differences, slopes
@@ -61,10 +60,6 @@ def text(*, is_timed: bool, noise: float = 2e-3) -> str:
 def plan_of(tmp_path: Path, study: str) -> lw.StudyPlan:
     (tmp_path / "study.toml").write_text(study, encoding="utf-8")
     return lw.read_study(tmp_path / "study.toml")
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), list(words))
 
 
 def test_timed_errors_are_distances_at_the_crank_angles() -> None:

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import MachineError, MachineFileError
 from linkwright.studies.responses import ANALYSES, analysis
 from linkwright.studies.slopes import slopes
@@ -228,7 +227,7 @@ def test_rows_that_are_computed_one_by_one_say_so(tmp_path: Path) -> None:
 
 
 def _warnings(*arguments: str) -> str:
-    done = CliRunner().invoke(application(), [*arguments, "--json"])
+    done = invoke(*arguments, "--json")
     return "\n".join(json.loads(done.stdout)["warnings"])
 
 

@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
-
-from linkwright.app.application import application
+from command_line import invoke as run
 
 VALVE = """
 format = 1
@@ -24,10 +22,6 @@ sections = [
   { angle = "140 deg" },
 ]
 """
-
-
-def run(*words: str) -> Result:
-    return CliRunner().invoke(application(), list(words))
 
 
 def optimum(*words: str) -> dict[str, Any]:

@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from matplotlib.text import Text
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.points import place_of
 from linkwright.studies.choices import choice_names
@@ -245,7 +244,7 @@ def test_a_file_that_is_cut_off_is_computed_anew(study_file: Files, tmp_path: Pa
     wanted = contents(tmp_path / "rows")
     part = tmp_path / "rows" / "part-000002.parquet"
     part.write_bytes(part.read_bytes()[:-100])
-    told = CliRunner().invoke(application(), ["sweep", "show", str(tmp_path / "rows")])
+    told = invoke("sweep", "show", tmp_path / "rows")
     assert "part-000002.parquet is truncated" in told.stdout
     found = lw.sweep(plan, tmp_path / "rows")
     assert found.repaired == ("part-000002.parquet",)

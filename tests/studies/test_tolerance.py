@@ -9,11 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from scipy.stats import norm
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.studies.axes import axis
@@ -239,7 +238,7 @@ def test_the_result_echoes_the_limits(tmp_path: Path) -> None:
     assert (found["a"]["low"], found["a"]["high"]) == pytest.approx((0.792, 0.808), rel=1e-12)
     assert found["a"]["mean"] == pytest.approx(0.8, rel=1e-12)
     assert found["b"]["deviation"] == pytest.approx(2e-3, rel=2e-3)
-    told = CliRunner().invoke(application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "100"])
+    told = invoke("tolerance", tmp_path / "study.toml", "--rows", "100")
     (row,) = (line.split() for line in told.stdout.splitlines() if line.split()[:1] == ["a"])
     assert row[1:3] + row[5:] == ["0.8", "m", "−0.008", "m", "0.008", "m"]
 
@@ -314,7 +313,7 @@ def test_what_is_not_linear_is_told(tmp_path: Path) -> None:
     """A square at its bottom scatters, and to first order does not; a sum is linear."""
     found = lw.tolerance(plan_of(tmp_path), 2000)
     assert found.bent == ("square",)
-    told = CliRunner().invoke(application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "2000"])
+    told = invoke("tolerance", tmp_path / "study.toml", "--rows", "2000")
     assert "square is not linear within the tolerances" in " ".join(told.stdout.split())
     fixed = TEXT.replace("1e6*(a - 0.8)^2", "2 + 0*a")
     assert lw.tolerance(plan_of(tmp_path, fixed), 2000).bent == ()
@@ -331,9 +330,7 @@ def test_indices_of_failures(tmp_path: Path) -> None:
     first, total = found.failure_indices["a"]
     assert (first, total) == pytest.approx((1.0, 1.0), abs=0.12)
     assert found.failure_indices["b"] == pytest.approx((0.0, 0.0), abs=0.12)
-    told = CliRunner().invoke(
-        application(), ["tolerance", str(tmp_path / "study.toml"), "--rows", "500", "--indices", "200"]
-    )
+    told = invoke("tolerance", tmp_path / "study.toml", "--rows", "500", "--indices", "200")
     assert "of 200 blocks are omitted" in " ".join(told.stdout.split())
     assert "a has the most influence on whether it has one" in " ".join(told.stdout.split())
 
@@ -421,9 +418,9 @@ def test_blocks_with_a_failed_row_are_dropped_whole(tmp_path: Path) -> None:
 def test_the_table_gives_half_the_intervals(tmp_path: Path) -> None:
     plan_of(tmp_path, TEXT)
     words = ["tolerance", str(tmp_path / "study.toml"), "--rows", "100", "--indices", "500"]
-    told = CliRunner().invoke(application(), words)
+    told = invoke(*words)
     assert "at a level of 95 %" in told.stdout
     assert re.search(r"0\.\d+ ± 0\.\d+ +0\.\d+ ± 0\.\d+", told.stdout), told.stdout
-    found = json.loads(CliRunner().invoke(application(), [*words, "--json"]).stdout)["results"]["tolerance"]
+    found = json.loads(invoke(*words, "--json").stdout)["results"]["tolerance"]
     (low, high), _ = found["index_intervals"]["sum"]["a"]
     assert low < found["indices"]["sum"]["a"][0] < high

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 from docs_scripts import docs_script
 
 import linkwright as lw
@@ -97,7 +97,7 @@ def test_shown_message_is_the_real_one(tmp_path: Path, monkeypatch: pytest.Monke
     words = shlex.split(command.removeprefix("$ linkwright "))
     monkeypatch.chdir(tmp_path)
     Path("press.toml").write_text(template("slider-crank"), encoding="utf-8")
-    result = CliRunner().invoke(application(), words)
+    result = invoke(*words)
     assert result.output.strip().splitlines() == message
 
 

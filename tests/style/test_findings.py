@@ -69,7 +69,7 @@ def test_a_study_has_one_collector_of_findings() -> None:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Findings"
     ]
     assert sorted(made) == [
-        "app/soundness.py",
+        "app/feasibility.py",
         "app/study.py",
         "drive/commands.py",
         "kernel/findings.py",

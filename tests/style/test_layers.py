@@ -31,7 +31,7 @@ HOUSE = {
     "machine": MACHINE,
     "app.subjects": STUDY,
     "app.study": STUDY,
-    "app.soundness": STUDY,
+    "app.feasibility": STUDY,
     "app.report": STUDY,
     # Studies stand above all subjects; what they draw and print stands above what they compute.
     "studies": STUDY,
@@ -43,6 +43,8 @@ HOUSE = {
     "sensitivity": STUDY,
     "sensitivity.commands": COMMANDS,
     "papers": PAPERS,
+    # Tables and figures of a topper show what a published length suffices for.
+    "papers.published_lengths": COMPUTES,
     "app": APP,
     "studio": APP,
     "__main__": APP,

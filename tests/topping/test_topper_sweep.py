@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from topper_fields import machine
+from topper_fields import CRANK, machine
 
 import linkwright as lw
 from linkwright.kernel.errors import FindingError, InputError
@@ -15,29 +15,9 @@ from linkwright.topping.sweep import edges_with
 
 RANDOM = '[topper.field]\nkind = "random"\nroots = 2000\nspacing = "0.31 m"\n'
 
-CRANK = """
-[drive]
-speed = "275 rpm"
-[mechanism.cranks.crank]
-radius = "30 mm"
-[mechanism.sliders.knife]
-crank = "crank"
-rod = "150 mm"
-[topper]
-root_diameter = "110 mm"
-cut_height = "30 mm"
-offset = "20 mm"
-edge_angle = "20 deg"
-edge_length = "0.18 m"
-forward_speed = "1.9 m/s"
-[topper.motion]
-kind = "member"
-of = "knife"
-"""
-
 
 def on_a_crank(text: str = RANDOM, **entries: float) -> lw.Machine:
-    return lw.loads('format = 1\nname = "Crank"\n' + CRANK + text, entries)
+    return lw.loads(CRANK + text, entries)
 
 
 def test_each_variant_is_the_field_of_its_own_machine() -> None:

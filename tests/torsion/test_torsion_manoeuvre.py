@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command_line import invoke
 
 import linkwright as lw
-from linkwright.app.application import application
 from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.figures.transient import orders_figure, transient_figure, waterfall_figure
+from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
 from linkwright.torsion.in_time.moving_train import combustion_weight, moving_train
 from linkwright.torsion.in_time.peak_judgement import PeakJudgement
 from linkwright.torsion.in_time.steady_start import balanced_start, mean_torques
@@ -294,7 +293,7 @@ def test_limits_are_judged_in_the_manoeuvre(tmp_path: Path) -> None:
     assert "motor and loads balance" in study.balance
     path = tmp_path / "conveyor.toml"
     path.write_text(CONVEYOR.replace("BALANCE", "").replace("PERMITTED", "300"), encoding="utf-8")
-    run = CliRunner().invoke(application(), ["torsion", str(path)])
+    run = invoke("torsion", path)
     assert run.exit_code == 1
     assert "rubber: torque" in run.output
     # What counts other than given is said first.
@@ -509,5 +508,3 @@ def test_figures() -> None:
     found = waterfall(moved.time, moved.angle[0], moved.torque[0], highest=4)
     figure = waterfall_figure(found, quantity="torque [N m]")
     assert figure.axes[1].get_ylabel() == "torque [N m]"
-    (axes,) = orders_figure(found, [0.5, 2]).axes
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["order 0.5", "order 2"]

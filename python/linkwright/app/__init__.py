@@ -8,10 +8,10 @@ time.
 | `application` | All commands, one a file |
 | `commands/` | Commands that are of no single subject |
 | `curves` | Curves of a study by name: those of all its results, and of its motion over the cycle |
+| `feasibility` | What a machine can be seen to be unable to do without solving for its motion |
 | `plotted` | What `plot` of machines, studies and sweeps draws |
 | `quantities` | What quantities there are: of a result, and of a whole study |
 | `report/` | The report of a study: page, tables, figures, moving sketch, assumptions |
-| `soundness` | What a machine can be seen to be unable to do without solving for its motion |
 | `study` | A study |
 | `subjects` | All analyses, as their rooms declare them |
 """

@@ -15,15 +15,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.angle_marks import mark_angles
-from linkwright.kernel.figure.style import (
-    LINES,
-    legend_above,
-    named,
-    panels,
-    roomy,
-    styled,
-    zero_line,
-)
+from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.quantities import Label, declared, over
 from linkwright.kernel.result import Result

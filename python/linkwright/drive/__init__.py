@@ -10,19 +10,18 @@
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |
 | `cycle_motion` | Position, velocity, acceleration of everything over the cycle, with exact extremes |
 | `evenness` | Coefficients δ, H and k_p; their limit at constant energy |
+| `fallback` | Where does a machine come to in time whose steady motion was not found? |
 | `figures` | Figures of a drive over angle and time, and of its motor, with their captions |
 | `figures_of_cycle` | Figures of sliders, rockers and coupler points over the cycle |
-| `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `gradient` | Derivatives of steady motion by entries of the machine |
 | `gradient_at_constant_energy` | Derivatives of δ, H and k_p at constant energy |
 | `gradient_in_time` | Derivatives of run-up and run-down by entries of the machine |
+| `load_checks` | Whether the loads of a machine can be computed all round, and repeat every revolution |
+| `model/` | Motors, gearbox, coupling, brake, flywheel |
 | `motion_events` | What happens during a motion in time, and the extremes of its speed and acceleration |
 | `obstacles` | What stands in the way of its analyses, and the entries that would mend it |
-| `words` | Formulas and assumptions of a report |
 | `reduction` | What inertia and what load does the crank feel? |
 | `run_up` | Run-up from rest, and run-down with the motor off |
-| `settling` | Where does a machine come to in time whose steady motion was not found? |
-| `sound_loads` | Whether the loads of a machine can be computed all round, and repeat every revolution |
 | `steady_state` | How does it turn in the long run? |
 | `step_method` | What does the published step method give instead? |
 | `study` | What is known of a drive: reduction to the crank, steady motion, run-up, run-down |
@@ -30,4 +29,5 @@
 | `tables_in_time` | A motion in time as tables of text |
 | `tables_of_cycle` | Extremes of sliders, rockers and coupler points over the cycle as a table |
 | `transient` | How does it move from here on? |
+| `words` | Formulas and assumptions of a report |
 """

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkwright.drive import evenness
+from linkwright.drive.load_checks import require_same_turns
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.sound_loads import require_same_turns
 from linkwright.drive.steady_state import START_WORDS, known_start_limits
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError

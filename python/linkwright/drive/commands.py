@@ -115,7 +115,7 @@ def transient(
     from linkwright.drive.transient import transient as follow
     from linkwright.kernel.findings import Findings
     from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kernel.units import ANGLE, SPEED, TIME
+    from linkwright.kernel.units.kinds import ANGLE, SPEED, TIME
     from linkwright.kinetostatics.contact_in_time import contact_losses
     from linkwright.linkages.zero import zero_angle
     from linkwright.machine.read import read

@@ -34,7 +34,7 @@ class CrankSpeed(NamedTuple):
 def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
     """The speed for a motion at constant speed: that of the option, else the machine's own."""
     from linkwright.drive.model.motor import ConstantSpeedMotor
-    from linkwright.kernel.units import SPEED
+    from linkwright.kernel.units.kinds import SPEED
 
     if text is not None:
         return CrankSpeed(option_value(_OPTION, text, SPEED), _OPTION)

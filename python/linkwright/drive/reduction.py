@@ -17,7 +17,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.drive.sound_loads import require_turn
+from linkwright.drive.load_checks import require_turn
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public

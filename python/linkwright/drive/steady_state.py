@@ -15,10 +15,10 @@ from typing import Annotated, Any, Literal, NamedTuple
 import numpy as np
 
 from linkwright.drive import evenness
+from linkwright.drive.fallback import in_time
+from linkwright.drive.load_checks import require_same_turns, require_sound_loads, sliding
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import NO_INERTIA, mean_laws, mean_over_turn
-from linkwright.drive.settling import in_time
-from linkwright.drive.sound_loads import require_same_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.numerics.tangent import primal

@@ -22,7 +22,7 @@ from typing import Annotated
 import numpy as np
 
 from linkwright.drive import evenness
-from linkwright.drive.sound_loads import require_same_turns
+from linkwright.drive.load_checks import require_same_turns
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError, require_within
 from linkwright.kernel.limits import STEPS
@@ -30,7 +30,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, positive
+from linkwright.kernel.units.kinds import ANGLE
+from linkwright.kernel.units.marks import positive
 from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine

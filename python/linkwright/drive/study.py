@@ -19,10 +19,10 @@ import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, cycle_motion_of
 from linkwright.drive.evenness import ConstantEnergy, constant_energy_of
+from linkwright.drive.load_checks import require_same_turns, require_turn
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import Reduction, has_inertia, reduction
 from linkwright.drive.run_up import RunDown, RunUp, run_down, run_up, start_of
-from linkwright.drive.sound_loads import require_same_turns, require_turn
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.step_method import StepMotion, step_method
 from linkwright.drive.transient import Transient, transient

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike
 
+from linkwright.drive.load_checks import require_half_turns, require_sound_loads, sliding
 from linkwright.drive.model.motor import ConstantSpeedMotor, ConstantTorqueMotor
 from linkwright.drive.reduction import NO_INERTIA
-from linkwright.drive.sound_loads import require_half_turns, require_sound_loads, sliding
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, StartError, SteadyStateError
 from linkwright.kernel.public import public
@@ -22,7 +22,8 @@ from linkwright.kernel.public.arguments import array, number
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, COUNT, SPEED, TIME, Quantity, positive
+from linkwright.kernel.units.kinds import ANGLE, COUNT, SPEED, TIME
+from linkwright.kernel.units.marks import Quantity, positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine

@@ -27,7 +27,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import LENGTH, MASS, RATIO, SHARE, SPEED, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import LENGTH, MASS, RATIO, SPEED
+from linkwright.kernel.units.marks import SHARE, Quantity, not_negative, positive
 from linkwright.kinetostatics.couple import couple_of
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body

@@ -144,7 +144,7 @@ def forces(
 
 def _angle_at(machine: Machine, at: str, zero: str | None) -> float:
     """The crank angle of --at [rad], as the file counts it."""
-    from linkwright.kernel.units import ANGLE
+    from linkwright.kernel.units.kinds import ANGLE
     from linkwright.linkages.zero import zero_angle
 
     start = zero_angle(machine, zero).angle if zero is not None else 0.0
@@ -267,7 +267,7 @@ def _motion(
     speed: str | None, acceleration: str | None, span: str | None, pressure_angle: str, *, is_pose: bool
 ) -> dict[str, Any]:
     """What the options say about motion and teeth."""
-    from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED
+    from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED
 
     options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
     if speed is not None:
@@ -322,7 +322,7 @@ def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
 
 def _friction(entries: str, *, is_pin: bool) -> Friction:
     """Friction from its entries."""
-    from linkwright.kernel.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
+    from linkwright.kernel.units.kinds import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
     from linkwright.kinetostatics.friction import Friction
 
     kinds = {"coefficient": RATIO, "radius": LENGTH, "length": LENGTH}
@@ -483,7 +483,7 @@ def _counterweights(
     speed: str | None,
 ) -> Balance:
     """The counterweights that the options ask for."""
-    from linkwright.kernel.units import LENGTH, SPEED
+    from linkwright.kernel.units.kinds import LENGTH, SPEED
     from linkwright.kinetostatics.balancing import balance as fit
     from linkwright.kinetostatics.balancing import partial_balance
 

@@ -23,7 +23,8 @@ from linkwright.drive.transient import Transient
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, Bound, Quantity
+from linkwright.kernel.units.kinds import ANGLE
+from linkwright.kernel.units.marks import Bound, Quantity
 from linkwright.kinetostatics.applied import AppliedLoad, applied, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.couple import has_axial, inertia_force_and_couple

@@ -9,7 +9,8 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING, not_negative
+from linkwright.kernel.units.kinds import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
+from linkwright.kernel.units.marks import not_negative
 from linkwright.linkages.model.structure import Pair
 
 

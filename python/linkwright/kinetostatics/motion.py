@@ -18,7 +18,8 @@ from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.kernel.units.kinds import ANGULAR_ACCELERATION, SPEED
+from linkwright.kernel.units.marks import Quantity
 from linkwright.linkages.closure import closure, closure_error, turn_angles
 from linkwright.linkages.kinematics import crank_angles
 from linkwright.linkages.law_jumps import require_finite_accelerations

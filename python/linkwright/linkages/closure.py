@@ -23,7 +23,7 @@ from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import ANGLE
+from linkwright.kernel.units.kinds import ANGLE
 from linkwright.linkages.dyads import dyads_of
 from linkwright.linkages.obstacle import change_point, describe
 from linkwright.linkages.period import turns_to_repeat

@@ -122,7 +122,7 @@ def _pose(
     """One pose as a table, CSV or JSON."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
-    from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION
+    from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION
     from linkwright.linkages.pose import pose
 
     epsilon = option_value("--acceleration", acceleration, ANGULAR_ACCELERATION)
@@ -241,7 +241,7 @@ def _zero_data(zero: Zero) -> dict[str, Any]:
 
 def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
-    from linkwright.kernel.units import TIME
+    from linkwright.kernel.units.kinds import TIME
     from linkwright.linkages.closure import driver_word
     from linkwright.linkages.law import constant_speed
 
@@ -264,7 +264,7 @@ def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: b
     import numpy as np
 
     from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kernel.units import ANGLE, TIME
+    from linkwright.kernel.units.kinds import ANGLE, TIME
 
     driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
     if hasattr(driver, "times"):

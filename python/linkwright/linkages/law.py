@@ -23,15 +23,17 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS, FormulaError, names, parse
-from linkwright.kernel.errors import InputError, MachineFileError, Problem, ShapeError, UnitError
+from linkwright.kernel.errors import InputError, MachineFileError, Problem, ShapeError, UnitError, show
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES
 from linkwright.kernel.numerics.formula_value import OPERATIONS, value
 from linkwright.kernel.numerics.taylor import Taylor
 from linkwright.kernel.public.arguments import rows, shown
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, NUMBER, TIME, Kind, Quantity, show
-from linkwright.kernel.units import parse as parse_quantity
+from linkwright.kernel.units.kinds import ANGLE, TIME, Kind
+from linkwright.kernel.units.marks import Quantity
+from linkwright.kernel.units.reading import NUMBER
+from linkwright.kernel.units.reading import parse as parse_quantity
 
 
 class Law(Protocol):

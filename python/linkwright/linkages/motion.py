@@ -22,7 +22,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record, Result
-from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME, Quantity
+from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME
+from linkwright.kernel.units.marks import Quantity
 from linkwright.linkages.closure import Closure, closure_of, require_closed
 from linkwright.linkages.kinematics import (
     checked_angles,

@@ -15,7 +15,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, SPEED, Quantity
+from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED
+from linkwright.kernel.units.marks import Quantity
 from linkwright.linkages.closure import has_levers, require_closed, require_finite_rates, turn_angles
 from linkwright.linkages.dyads import dyads_of, transmission, transmission_channels
 from linkwright.linkages.kinematics import everything, kinematics_of, motion_arrays

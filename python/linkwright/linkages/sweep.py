@@ -12,13 +12,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.linkages.closure import Closure
-from linkwright.linkages.dyads import (
-    Dyad,
-    dyads_of,
-    transmission,
-    transmission_channels,
-    transmission_slope,
-)
+from linkwright.linkages.dyads import Dyad, dyads_of, transmission, transmission_channels, transmission_slope
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element

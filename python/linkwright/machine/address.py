@@ -23,7 +23,9 @@ from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, number, shown
 from linkwright.kernel.public.immutable import held
-from linkwright.kernel.units import COUNT, Kind, Quantity, QuantityList, is_number
+from linkwright.kernel.units.kinds import COUNT, Kind
+from linkwright.kernel.units.marks import Quantity, QuantityList
+from linkwright.kernel.units.reading import is_number
 from linkwright.machine.machine import Machine
 
 

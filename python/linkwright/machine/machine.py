@@ -12,7 +12,8 @@ from linkwright.kernel.description.base import Description, Name, Title, fault, 
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.place import look
 from linkwright.kernel.description.problems import WholeDescription
-from linkwright.kernel.units import INSIDE_ONE, RATIO, SPEED, Angle, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import RATIO, SPEED
+from linkwright.kernel.units.marks import INSIDE_ONE, Angle, Quantity, not_negative, positive
 from linkwright.kinetostatics.model.body import Body, body_faults
 from linkwright.kinetostatics.model.loads import AnyLoad
 from linkwright.kinetostatics.model.loads.references import load_faults

@@ -11,9 +11,8 @@ from pydantic import BaseModel
 
 from linkwright.kernel.description.place import keys, split
 from linkwright.kernel.description.schema_walk import key_as_written
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.files.text_file import deep_line
-from linkwright.kernel.units import show
 from linkwright.machine.address import resolve
 from linkwright.machine.machine import Machine
 

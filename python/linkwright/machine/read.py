@@ -15,14 +15,13 @@ from pydantic import BaseModel
 
 from linkwright.drive.model.motor_file import with_motor_of_file
 from linkwright.kernel.description.place import split
-from linkwright.kernel.errors import MachineError, MachineFileError, Problem
+from linkwright.kernel.errors import MachineError, MachineFileError, Problem, show
 from linkwright.kernel.files.library import library, library_path
 from linkwright.kernel.files.lines import key_lines, line_of
 from linkwright.kernel.files.points import Column, with_points
 from linkwright.kernel.files.text_file import TextError, deep_line, long_number_line, size_problems, text_of
 from linkwright.kernel.limits import DEPTH, FILE_BYTES
 from linkwright.kernel.public import public
-from linkwright.kernel.units import show
 from linkwright.linkages.model.dxf_points import with_dxf_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all

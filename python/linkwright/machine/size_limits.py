@@ -9,8 +9,8 @@ import math
 import re
 
 from linkwright.kernel.errors import MachineError, Problem, UnitError, show
-from linkwright.kernel.units import LENGTH, NUMBER, RATIO, Kind, parse, worded
-from linkwright.kernel.units.kinds import Dimension
+from linkwright.kernel.units.kinds import LENGTH, RATIO, Dimension, Kind
+from linkwright.kernel.units.reading import NUMBER, parse, worded
 from linkwright.kernel.units.spellings import factor_of
 from linkwright.machine import iso286
 

@@ -14,7 +14,9 @@ import numpy as np
 from linkwright.kernel.description.place import join
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import MachineError, Problem, show
-from linkwright.kernel.units import LENGTH, Kind, Quantity, worded
+from linkwright.kernel.units.kinds import LENGTH, Kind
+from linkwright.kernel.units.marks import Quantity
+from linkwright.kernel.units.reading import worded
 from linkwright.machine.address import get, kind, known_place, outside
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply

@@ -9,11 +9,13 @@ from pydantic import BaseModel
 
 from linkwright.kernel.description.place import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
-from linkwright.kernel.errors import InputError, UnitError
+from linkwright.kernel.errors import InputError, UnitError, show
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.page.out_units import OutUnits
 from linkwright.kernel.public import public
-from linkwright.kernel.units import Kind, Quantity, parse, parse_list, show, to_text
+from linkwright.kernel.units.kinds import Kind
+from linkwright.kernel.units.marks import Quantity
+from linkwright.kernel.units.reading import parse, parse_list, to_text
 from linkwright.kernel.units.spellings import normal
 from linkwright.machine.machine import Machine
 

@@ -14,4 +14,5 @@ package.
 | `paper3/` | Paper 3: torsional vibration of V-type engines |
 | `paper4/` | Paper 4: the lever mechanism of a sucker-rod rotator |
 | `paper5/` | Paper 5: the knife of a root-crop topper |
+| `published_lengths` | For which heads published lengths of a knife suffice: paper 5's claim |
 """

@@ -18,7 +18,7 @@ from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
-    from linkwright.kernel.units import Kind
+    from linkwright.kernel.units.kinds import Kind
     from linkwright.machine.machine import Machine
     from linkwright.sizing.checks import Check
     from linkwright.sizing.flywheel import FlywheelChoice
@@ -226,7 +226,7 @@ class _Prices(NamedTuple):
 
     def given(self) -> dict[str, float]:
         """Arguments of the study, in SI."""
-        from linkwright.kernel.units import LENGTH
+        from linkwright.kernel.units.kinds import LENGTH
 
         named = {"per_kilowatt": self.per_kilowatt, "per_kilogram": self.per_kilogram}
         if self.flywheel_radius is not None:
@@ -249,7 +249,7 @@ def _study(
     machine: Machine, limits: _Limits, prices: _Prices | None, unevenness: float, part: str | None
 ) -> StudyPlan | None:
     """The study that sizes for a cost or within limits; None where motor and flywheel are chosen."""
-    from linkwright.kernel.units import ANGLE, PRESSURE, TIME, TORQUE
+    from linkwright.kernel.units.kinds import ANGLE, PRESSURE, TIME, TORQUE
     from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
     def read(name: str, kind: Kind) -> float | None:
@@ -310,7 +310,7 @@ def _require_together(limits: _Limits, prices: _Prices, minimum_cost: bool, part
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
     """Type → inertia, of ``TYPE=VALUE``."""
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.units import INERTIA
+    from linkwright.kernel.units.kinds import INERTIA
 
     inertias = {}
     for text in texts:
@@ -344,7 +344,7 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
 
 def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
     """Motor and flywheel, or why no motor suffices."""
-    from linkwright.sizing.beside import lost, unjudged
+    from linkwright.sizing.warnings import lost, unjudged
 
     results = {
         "required_power": motor.required.to_dict(),
@@ -370,7 +370,7 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     """The flywheel for the motor of the file."""
     from linkwright.machine.write import dumps
-    from linkwright.sizing.beside import lost, unjudged
+    from linkwright.sizing.warnings import lost, unjudged
 
     machine = flywheel.machine
     return Answer(
@@ -568,7 +568,8 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
     from linkwright.drive.model.catalogue import motors
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.units import POWER, not_negative
+    from linkwright.kernel.units.kinds import POWER
+    from linkwright.kernel.units.marks import not_negative
 
     power, known = option_value("--power-min", power_min, not_negative(POWER)), motors()
     names = list(dict.fromkeys(motor.series for motor in known))

@@ -32,7 +32,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import RATIO, Bound, Quantity
+from linkwright.kernel.units.kinds import RATIO
+from linkwright.kernel.units.marks import Bound, Quantity
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.whole_cycle import force_turns, over_whole_cycle
 from linkwright.machine.machine import Machine

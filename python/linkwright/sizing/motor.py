@@ -16,7 +16,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
-from linkwright.kernel.units import INERTIA, RATIO, not_negative, positive
+from linkwright.kernel.units.kinds import INERTIA, RATIO
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.sizing.checks import (
     DECISIVE,

@@ -6,7 +6,6 @@
 | `read` | A study and its machine from files |
 | `write` | Write a study as a file, beside a machine file |
 | `plan` | A study checked against its machine, ready to run |
-| `problems` | Values of variables as quantities of their entries |
 | `distributions` | Distributions: the value below which a share lies |
 | `axes` | Variables: the value of each share between 0 and 1 |
 | `choices` | Names of the values of a list |
@@ -42,7 +41,7 @@
 | `fit` | Numbers of a machine from a measured record |
 | `fit_search` | Where that search begins, and how noise is weighed |
 | `record` | A measured record |
-| `sought` | The numbers that a record is fitted by |
+| `fit_parameters` | The numbers that a record is fitted by |
 | `predicted` | What a machine would have recorded, and its derivatives |
 | `identifiability` | What a record tells of numbers |
 | `tables`, `figures` | What is shown |

@@ -12,7 +12,9 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, show
-from linkwright.kernel.units import COUNT, Kind, is_number
+from linkwright.kernel.units.kinds import COUNT, Kind
+from linkwright.kernel.units.reading import is_number
+from linkwright.machine import size_limits
 from linkwright.machine.address import addresses, get, kind, known_place, outside
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply
@@ -21,7 +23,6 @@ from linkwright.machine.tolerances import require_limits
 from linkwright.studies.choices import choice_names
 from linkwright.studies.distributions import loosened, normal_shares, scattered
 from linkwright.studies.model import Distribution, Variable
-from linkwright.studies.problems import parsed, problem
 
 # Standard deviations between the limits of a tolerance: a centred process with a capability index of 1, of
 # which 0.27 % lie beyond and are sorted out (ISO 22514-2).
@@ -162,7 +163,7 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
         return replace(named, choices=_choices(machine, name, variable, kind))
     if kind is None:
         expected = "values, for an entry without numbers"
-        raise problem(name, "address", f"{show(variable.address[0])}, which is no number", expected)
+        raise _problem(name, "address", f"{show(variable.address[0])}, which is no number", expected)
     if variable.tolerance is not None or variable.clearance is not None:
         return _made(machine, named, variable, kind)
     if variable.distribution is not None:
@@ -172,7 +173,7 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
         return cut
     if variable.range is None:
         return replace(named, low=-math.inf, high=math.inf)
-    low, high = (parsed(name, f"range.{i}", value, kind) for i, value in enumerate(variable.range))
+    low, high = (_parsed(name, f"range.{i}", value, kind) for i, value in enumerate(variable.range))
     _check_range(name, variable, low, high)
     return replace(named, low=low, high=high, is_log=variable.scale == "log", is_whole=variable.whole)
 
@@ -204,7 +205,7 @@ def _require_possible_truncation(machine: Machine, cut: Axis, given: Distributio
         end = getattr(given, key)
         expected = "" if end is None else _impossible(machine, cut, [near])
         if expected:
-            raise problem(cut.name, f"distribution.{key}", show(end), expected)
+            raise _problem(cut.name, f"distribution.{key}", show(end), expected)
 
 
 def _impossible(machine: Machine, axis: Axis, values: list[float]) -> str:
@@ -222,7 +223,7 @@ def _common_kind(machine: Machine, name: str, variable: Variable) -> Kind | None
     kind = units[0]
     if any(unit is not None and kind is not None and unit.unit != kind.unit for unit in units):
         words = " and ".join(unit.word for unit in units if unit is not None)
-        raise problem(name, "address", words, "entries of one quantity")
+        raise _problem(name, "address", words, "entries of one quantity")
     return kind
 
 
@@ -234,7 +235,7 @@ def _kind(machine: Machine, name: str, address: str) -> Kind | None:
         wrong = error.problems[0]
         # An entry that has its usual value, or that follows from others, has an address too.
         remedy = wrong.remedy or suggestion(address, addresses(machine))
-        raise problem(name, "address", show(address), "the address of an entry", remedy) from None
+        raise _problem(name, "address", show(address), "the address of an entry", remedy) from None
     mark = kind(machine, address)
     if mark is not None:
         return mark
@@ -265,7 +266,7 @@ def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None)
         for nth, value in enumerate(given):
             _require_possible(machine, name, variable, nth, value)
         return given
-    return tuple(parsed(name, f"values.{i}", value, kind) for i, value in enumerate(given))
+    return tuple(_parsed(name, f"values.{i}", value, kind) for i, value in enumerate(given))
 
 
 def _require_possible(machine: Machine, name: str, variable: Variable, nth: int, value: object) -> None:
@@ -276,25 +277,25 @@ def _require_possible(machine: Machine, name: str, variable: Variable, nth: int,
         for wrong in error.problems:
             if any(f"{wrong.key}.".startswith(f"{address}.") for address in variable.address):
                 key = f"values.{nth}"
-                raise problem(name, key, wrong.found, wrong.expected, wrong.remedy) from None
+                raise _problem(name, key, wrong.found, wrong.expected, wrong.remedy) from None
 
 
 def _check_range(name: str, variable: Variable, low: float, high: float) -> None:
     ends = " to ".join(map(show, variable.range or ()))
     if not low < high:
-        raise problem(name, "range", ends, "a minimum below the maximum")
+        raise _problem(name, "range", ends, "a minimum below the maximum")
     if variable.scale == "log" and low <= 0:
-        raise problem(name, "range", ends, "numbers above 0 for a logarithmic scale")
+        raise _problem(name, "range", ends, "numbers above 0 for a logarithmic scale")
     if variable.whole and not (low.is_integer() and high.is_integer()):
-        raise problem(name, "range", ends, "whole numbers")
+        raise _problem(name, "range", ends, "whole numbers")
     if variable.whole and variable.steps is not None:
-        raise problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
+        raise _problem(name, "steps", str(variable.steps), "nothing: a range of whole numbers has its own")
 
 
 def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, float, float], float, float]:
     """Kind, mean, deviation; and the ends of a distribution."""
     read = {
-        key: parsed(name, f"distribution.{key}", value, kind)
+        key: _parsed(name, f"distribution.{key}", value, kind)
         for key in ("mean", "deviation", "min", "max")
         if (value := getattr(given, key)) is not None
     }
@@ -303,17 +304,17 @@ def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, flo
     mean, deviation = read.get("mean", math.nan), read.get("deviation", math.nan)
     if not low < high:
         least = lowest if given.min is None else given.min
-        raise problem(name, "distribution.max", show(given.max), f"more than `min`, {show(least)}")
+        raise _problem(name, "distribution.max", show(given.max), f"more than `min`, {show(least)}")
     if given.kind in ("normal", "lognormal") and not deviation > 0:
-        raise problem(name, "distribution.deviation", show(given.deviation), "more than 0")
+        raise _problem(name, "distribution.deviation", show(given.deviation), "more than 0")
     if given.kind == "lognormal" and not mean > 0:
-        raise problem(name, "distribution.mean", show(given.mean), "more than 0")
+        raise _problem(name, "distribution.mean", show(given.mean), "more than 0")
     if given.kind == "triangular" and not low <= mean <= high:
         ends = f"{show(given.min)} to {show(given.max)}"
-        raise problem(name, "distribution.mean", show(given.mean), ends)
+        raise _problem(name, "distribution.mean", show(given.mean), ends)
     start, end = normal_shares(given.kind, mean, deviation, low, high)
     if given.kind in ("normal", "lognormal") and end - start < 1e-9:
-        raise problem(name, "distribution", "ends that leave nothing of it", "ends within 6 deviations")
+        raise _problem(name, "distribution", "ends that leave nothing of it", "ends within 6 deviations")
     return (given.kind, mean, deviation), low, high
 
 
@@ -321,3 +322,13 @@ def _middles(n: int) -> Floats:
     """Middles of n equal parts from 0 to 1."""
     middles: Floats = (np.arange(n) + 0.5) / max(n, 1)
     return middles
+
+
+def _problem(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:
+    """What is wrong at a key of a variable."""
+    return size_limits.problem(f"variables.{name}.{key}", found, expected, remedy)
+
+
+def _parsed(name: str, key: str, value: object, kind: Kind) -> float:
+    """A value as the quantity of its entry."""
+    return size_limits.parsed(f"variables.{name}.{key}", value, kind)

@@ -29,29 +29,10 @@ _LONGER, _SHORTER = 2.0, 0.01
 def best_knife_study(
     machine: Machine, *, objective: Literal["shortest", "fastest"] = "shortest", seed: int | None = None
 ) -> StudyPlan:
-    """Make a study of the best knife within its limits, for `optimise`.
+    """A study of the best knife within its limits, for `optimise`.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a topper and its limits.
-    objective : {"shortest", "fastest"}
-        The shortest edge at the forward speed of the file; or the maximum forward speed, with an edge of at
-        most ``length_max``, without it that of the file.
-    seed : int, optional
-        Seed of the random generator, in place of that of the field.
-
-    Returns
-    -------
-    StudyPlan
-        Variables ``edge_angle``, ``edge_length``, ``knife_speed`` or that of its crank, ``crank_speed``, and
-        for the fastest ``forward_speed``; constraints of the shares, the draw-cut ratio and the advance of
-        the edge, which does not retreat; goal ``length`` or ``speed``.
-
-    Raises
-    ------
-    InputError
-        No topper.
+    The shortest edge at the forward speed of the file; or the maximum forward speed, with an edge of at most
+    ``length_max``, without it that of the file. `seed` replaces that of the field.
     """
     fitted = with_field(machine, seed, needed=False)
     topper = require_topper(fitted)

@@ -21,7 +21,8 @@ from linkwright.cam.search import require_law, useful_entries
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, LENGTH, not_negative, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import between
 from linkwright.studies.plan import StudyPlan
@@ -50,34 +51,11 @@ def cam_search_study(
     pressure_angle: float,
     curvature_radius: float = 0.0,
 ) -> StudyPlan:
-    """Make a study of the smallest cam of a grid within its limits, for `sweep` and `optimise`.
+    """A study of the smallest cam of a grid within its limits, for `sweep` and `optimise`.
 
-    Parameters
-    ----------
-    machine : Machine
-        A machine with cams.
-    name : str, optional
-        Which; left out if there is one.
-    over : mapping of str to Levels
-        What varies, by the names of `linkwright.cam.search.ENTRIES` without ``distance``.
-    laws : sequence of str
-        Names of laws, one of which all moving sections follow; without them, the sections as they are.
-    pressure_angle : float
-        Permitted pressure angle [rad].
-    curvature_radius : float
-        Permitted convex radius of the profile [m].
-
-    Returns
-    -------
-    StudyPlan
-        Variables ``law``, with laws, which varies slowest, and those of `over`, where ``lift`` stands for
-        ``lift_factor``; constraints of the pressure angle, the convex radius and the faults; goal ``size``,
-        the base radius.
-
-    Raises
-    ------
-    InputError
-        There is no such cam, entry or law, or the cam has no lift to be varied.
+    `over`: what varies, by the names of `linkwright.cam.search.ENTRIES` without ``distance``; `laws`: names
+    of laws, one of which all moving sections follow, and which vary slowest. Permitted are a pressure angle
+    [rad] and a convex radius [m]. Raises `InputError` where there is no such cam, entry, law or lift.
     """
     in_range(
         pressure_angle=(pressure_angle, positive(ANGLE)),

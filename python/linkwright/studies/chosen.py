@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.units import is_number
+from linkwright.kernel.units.reading import is_number
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import Axis, variant

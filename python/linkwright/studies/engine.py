@@ -7,6 +7,7 @@ of the study stands in front of every batch, so that they are the same however r
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -64,7 +65,8 @@ def evaluate(plan: StudyPlan, variables: Mapping[str, Floats]) -> Rows:
     entries = _entries(plan, columns)
     _refuse_impossible(plan.machine, entries, rows)
     for machine, members in _machines(plan, rows):
-        _solve(plan, machine, entries, rows, members)
+        own = {address: column[members] for address, column in entries.items()}
+        _solve(plan, _Members(machine, own, rows, members))
     _require_finite(rows, plan)
     _add_formulas(rows, plan.formulas, FAILED)
     failed = rows.status != SOLVED
@@ -131,28 +133,26 @@ def _machines(plan: StudyPlan, rows: Rows) -> Any:
             rows.fail(own, IMPOSSIBLE, _sentence(error))
 
 
-def _solve(
-    plan: StudyPlan, machine: Machine, entries: dict[str, Floats], rows: Rows, members: Indices
-) -> None:
+def _solve(plan: StudyPlan, part: _Members) -> None:
     """All responses of the rows of one machine."""
-    if not len(members):
+    if not len(part.members):
         return
-    batch = [asked for asked in plan.asked if asked.is_batch and entries]
+    batch = [asked for asked in plan.asked if asked.is_batch and part.entries]
     single = [asked for asked in plan.asked if asked not in batch]
-    own = {address: column[members] for address, column in entries.items()}
-    for names, solve in ((("steady_state",), _steady), ((MOTION, PATH), _points), ((ENTRY,), _entry_numbers)):
+    solved = ((("steady_state",), part.steady), ((MOTION, PATH), part.points), ((ENTRY,), part.entry_numbers))
+    for names, solve in solved:
         wanted = [asked for asked in batch if asked.analysis in names]
         if wanted:
             try:
-                solve(machine, own, wanted, rows, members)
+                solve(wanted)
             except (InputError, FindingError) as error:
                 # A batch is refused as a whole where entries of one row do not go together, or where the
                 # machine of the study, which leads it, does not move. Alone, each row that cannot be computed
                 # says why, and what was refused for no row of them is refused by all.
                 single += wanted
-                rows.one_by_one[_sentence(error)] += len(members)
+                part.rows.one_by_one[_sentence(error)] += len(part.members)
     if single:
-        _one_by_one(machine, own, single, rows, members)
+        part.one_by_one(single)
 
 
 def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -165,77 +165,63 @@ def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Fl
     return columns
 
 
-def _steady(
-    machine: Machine,
-    entries: dict[str, Floats],
-    wanted: list[StudyResponse],
-    rows: Rows,
-    members: Indices,
-) -> None:
-    """Steady motion of all rows at once."""
-    states = steady_states(machine, _with_first(machine, entries))
-    status = states.status[1:]
-    rows.fast_starts[members] = states.fast_starts[1:]
-    for asked in wanted:
-        rows.columns[asked.name][members] = getattr(states, asked.quantity)[1:]
-    for code in np.unique(status[status != 0]):
-        rows.fail(members[status == code], FAILED, STATUS[int(code)])
+@dataclass(frozen=True)
+class _Members:
+    """Rows of one machine."""
 
+    machine: Machine
+    entries: dict[str, Floats]  # address → its values in these rows
+    rows: Rows
+    members: Indices  # which rows they are
 
-def _points(
-    machine: Machine,
-    entries: dict[str, Floats],
-    wanted: list[StudyResponse],
-    rows: Rows,
-    members: Indices,
-) -> None:
-    """Points of all rows at once, so many at a time as fit into memory."""
-    for start in range(0, len(members), _TOGETHER):
-        part = slice(start, start + _TOGETHER)
-        own = {address: column[part] for address, column in entries.items()}
-        table = point_numbers(replace(machine, _with_first(machine, own)), wanted)
+    def steady(self, wanted: list[StudyResponse]) -> None:
+        """Steady motion of all rows at once."""
+        states = steady_states(self.machine, _with_first(self.machine, self.entries))
+        status = states.status[1:]
+        self.rows.fast_starts[self.members] = states.fast_starts[1:]
         for asked in wanted:
-            values = table[asked.name][1:]
-            rows.columns[asked.name][members[part]] = values
-            rows.fail(members[part][~np.isfinite(values)], FAILED, why_open(asked))
+            self.rows.columns[asked.name][self.members] = getattr(states, asked.quantity)[1:]
+        for code in np.unique(status[status != 0]):
+            self.rows.fail(self.members[status == code], FAILED, STATUS[int(code)])
 
+    def points(self, wanted: list[StudyResponse]) -> None:
+        """Points of all rows at once, so many at a time as fit into memory."""
+        for start in range(0, len(self.members), _TOGETHER):
+            part = slice(start, start + _TOGETHER)
+            own = {address: column[part] for address, column in self.entries.items()}
+            table = point_numbers(replace(self.machine, _with_first(self.machine, own)), wanted)
+            for asked in wanted:
+                values = table[asked.name][1:]
+                self.rows.columns[asked.name][self.members[part]] = values
+                self.rows.fail(self.members[part][~np.isfinite(values)], FAILED, why_open(asked))
 
-def _entry_numbers(
-    machine: Machine,
-    entries: dict[str, Floats],
-    wanted: list[StudyResponse],
-    rows: Rows,
-    members: Indices,
-) -> None:
-    """Entries of all rows at once."""
-    for asked in wanted:
-        (address,) = asked.of
-        varied = entries.get(address)
-        rows.columns[asked.name][members] = entry_number(machine, address) if varied is None else varied
+    def entry_numbers(self, wanted: list[StudyResponse]) -> None:
+        """Entries of all rows at once."""
+        for asked in wanted:
+            (address,) = asked.of
+            varied = self.entries.get(address)
+            self.rows.columns[asked.name][self.members] = (
+                entry_number(self.machine, address) if varied is None else varied
+            )
 
-
-def _one_by_one(
-    machine: Machine,
-    entries: dict[str, Floats],
-    wanted: list[StudyResponse],
-    rows: Rows,
-    members: Indices,
-) -> None:
-    """Analyses of each row by itself."""
-    for nth, row in enumerate(members):
-        if rows.status[row] != SOLVED:
-            continue
-        try:
-            own = sound_variant(machine, {address: float(c[nth]) for address, c in entries.items()})
-            for asked, number in zip(wanted, numbers(own, wanted), strict=True):
-                rows.columns[asked.name][row] = number
-            if own.has_crank:
-                # The batch may have found them already, where no single analysis solves the steady motion.
-                rows.fast_starts[row] = max(rows.fast_starts[row], fast_starts(own))
-        except FindingError as error:
-            rows.fail(row, FAILED, _sentence(error))
-        except InputError as error:
-            rows.fail(row, IMPOSSIBLE, _sentence(error))
+    def one_by_one(self, wanted: list[StudyResponse]) -> None:
+        """Analyses of each row by itself."""
+        for nth, row in enumerate(self.members):
+            if self.rows.status[row] != SOLVED:
+                continue
+            try:
+                own = sound_variant(
+                    self.machine, {address: float(c[nth]) for address, c in self.entries.items()}
+                )
+                for asked, number in zip(wanted, numbers(own, wanted), strict=True):
+                    self.rows.columns[asked.name][row] = number
+                if own.has_crank:
+                    # The batch may have found them, where no single analysis solves the steady motion.
+                    self.rows.fast_starts[row] = max(self.rows.fast_starts[row], fast_starts(own))
+            except FindingError as error:
+                self.rows.fail(row, FAILED, _sentence(error))
+            except InputError as error:
+                self.rows.fail(row, IMPOSSIBLE, _sentence(error))
 
 
 def sound_variant(machine: Machine, entries: Mapping[str, float]) -> Machine:

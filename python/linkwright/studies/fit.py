@@ -28,12 +28,12 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
+from linkwright.studies.fit_parameters import Number
 from linkwright.studies.fit_search import STEP, begun, solved
 from linkwright.studies.identifiability import Direction, covariance, singular_directions
 from linkwright.studies.plan import StudyPlan, require_variables
 from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
-from linkwright.studies.sought import Number
 
 # Singular values below this share of the largest are rounding of the motion.
 _ROUNDING = 1e-8

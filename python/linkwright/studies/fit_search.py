@@ -8,11 +8,11 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError
+from linkwright.studies.fit_parameters import numbers_of_record
 from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.predicted import RecordModel
 from linkwright.studies.record import MeasuredRecord
-from linkwright.studies.sought import numbers_of_record
 
 # Steps of differences as a share of the scale of a number.
 STEP = 1e-4

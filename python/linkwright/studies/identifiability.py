@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.studies.sought import Number
+from linkwright.studies.fit_parameters import Number
 
 # A combination that the record knows no better than to its own size is not determined.
 _WEAK = 1.0

@@ -27,7 +27,9 @@ from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import INSIDE_ONE, RATIO, Quantity, worded
+from linkwright.kernel.units.kinds import RATIO
+from linkwright.kernel.units.marks import INSIDE_ONE, Quantity
+from linkwright.kernel.units.reading import worded
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import between
@@ -73,30 +75,10 @@ class Knob:
 def field_study(
     machine: Machine, over: Mapping[str, ArrayLike], *, seed: int | None = None, level: float = 0.95
 ) -> StudyPlan:
-    """Make a study of one or two entries of a knife over a field of roots, for `sweep`.
+    """A study of one or two entries of a knife over a field of roots, for `sweep`.
 
-    Parameters
-    ----------
-    machine : Machine
-        With a topper.
-    over : mapping of str to array_like, shape (k,)
-        Values of one or two entries of `ENTRIES` in SI; the grid combines them, the last fastest.
-    seed : int, optional
-        Seed of the random generator, in place of that of the field.
-    level : float
-        Confidence level of the intervals [–].
-
-    Returns
-    -------
-    StudyPlan
-        A variable for each entry; responses by the names of a `FieldSweep`. Its machine has a field with the
-        seed.
-
-    Raises
-    ------
-    InputError
-        No topper, no such entry, values that are none of it, too many of them; a knife on a mechanism that
-        is to rest.
+    `over`: values of entries of `ENTRIES` in SI, whose grid varies the last one fastest; `seed` replaces
+    that of the field; `level` is the confidence of the intervals. Raises `InputError` for what cannot vary.
     """
     axes = _axes(over)
     return _plan(machine, axes, seed, level)[0]

@@ -16,7 +16,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault, formerly
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import SWEEP_ROWS
-from linkwright.kernel.units import Angle, Speed
+from linkwright.kernel.units.marks import Angle, Speed
 from linkwright.linkages.model.path_points import PathPoints
 
 # A number, or a text with a unit, read when it is known what it stands for.

@@ -51,23 +51,10 @@ _OF_LENGTHS = {
 
 
 def path_study(task: PathTask, generator: PathGenerator) -> StudyPlan:
-    """Make a study of path generation about the linkage of a task, for `optimise`, `sweep` and `tolerance`.
+    """A study of path generation about the linkage that was found, for `optimise`, `sweep` and `tolerance`.
 
-    Parameters
-    ----------
-    task : PathTask
-        Points, timing and limits.
-    generator : PathGenerator
-        The linkage that `path_generator` found for it; its assembly mode is kept.
-
-    Returns
-    -------
-    StudyPlan
-        Variables ``crank``, ``coupler``, ``rocker``, ``along``, ``across``, those of the pivots ``A0_x`` to
-        ``B0_y`` where they are free, and with crank angles ``phase``; responses ``error_rms`` [m],
-        ``error_max`` [m], ``transmission_angle_min`` [rad], the cosine of this angle, by which it is
-        limited, ``length_ratio``, ``rotation_margin`` and ``crank_over_frame`` [–]; limits of the task; goal
-        ``error_rms``.
+    Its assembly mode is kept. Variables are the lengths, the coupler point, the pivots ``A0_x`` to ``B0_y``
+    where they are free and, with crank angles, ``phase``; goal is ``error_rms`` [m] within the task's limits.
     """
     path = {key: getattr(task, key) for key in PathPoints.model_fields if getattr(task, key) is not None}
     tables: dict[str, Any] = {

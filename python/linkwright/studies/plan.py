@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -22,8 +22,9 @@ from linkwright.kernel.errors import (
 )
 from linkwright.kernel.limits import LATIN_ROWS, LEVELS, SWEEP_ROWS
 from linkwright.kernel.public.arguments import array, integer
-from linkwright.kernel.units import KINDS, Kind, parse_any
-from linkwright.kernel.units import parse as parse_quantity
+from linkwright.kernel.units.kinds import KINDS, Kind
+from linkwright.kernel.units.reading import parse as parse_quantity
+from linkwright.kernel.units.reading import parse_any
 from linkwright.machine.address import get, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -33,8 +34,6 @@ from linkwright.studies.axes import Axis, axis, require_places
 from linkwright.studies.model import WAYS, StudyFile, Sweep, Variable
 from linkwright.studies.responses import asked, require_place
 from linkwright.studies.study_response import StudyResponse
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)

@@ -21,11 +21,11 @@ from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.tangents import directions
+from linkwright.studies.fit_parameters import OWN, Number, number_of
 from linkwright.studies.model import FitOptions
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.record import MeasuredRecord
 from linkwright.studies.slopes import entries_at, machine_at
-from linkwright.studies.sought import OWN, Number, number_of
 
 # Of motions whose differences are taken over steps of 1e-4.
 _ACCURACY = 1e-11

@@ -20,7 +20,8 @@ from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import FILE_BYTES
 from linkwright.kernel.public import public
-from linkwright.kernel.units import COUNT, is_number
+from linkwright.kernel.units.kinds import COUNT
+from linkwright.kernel.units.reading import is_number
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.overrides import Override, apply, parse_all

@@ -14,7 +14,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public, public_type
-from linkwright.kernel.units import ANGLE, CURRENT, SPEED, TIME, TORQUE, Kind
+from linkwright.kernel.units.kinds import ANGLE, CURRENT, SPEED, TIME, TORQUE, Kind
 from linkwright.machine.machine import Machine
 
 # What may be along the record, and what may have been measured of a drive.

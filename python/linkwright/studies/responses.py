@@ -24,7 +24,7 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, LinkwrightError, MachineError
 from linkwright.kernel.quantities import Label, declared, is_array
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import is_number
+from linkwright.kernel.units.reading import is_number
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine

@@ -17,7 +17,8 @@ from typing import Any
 from linkwright.drive.model.catalogue import CatalogueMotor, motors
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, LENGTH, PRESSURE, RATIO, TIME, TORQUE, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, PRESSURE, RATIO, TIME, TORQUE
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.sizing.flywheel import choose_flywheel
@@ -67,30 +68,11 @@ def drive_study(
     per_kilogram: float = _PER_KILOGRAM,
     flywheel_radius: float = _RADIUS,
 ) -> StudyPlan:
-    """Make a study of motor, gear ratio and flywheel for the minimum cost, for `optimise`.
+    """A study of motor, gear ratio and flywheel for the minimum cost, for `optimise`.
 
-    Parameters
-    ----------
-    machine : Machine
-        The machine with its design speed, loads and a motor.
-    unevenness : float
-        Permitted coefficient of speed fluctuation [–].
-    run_up_time : float, optional
-        Permitted time of the run-up [s].
-    per_kilowatt, per_kilogram : float
-        Prices of a motor by its rated power and of a flywheel by its mass, in one currency.
-    flywheel_radius : float
-        Of the disc that the flywheel is [m].
-
-    Returns
-    -------
-    StudyPlan
-        Variables ``motor``, ``ratio``, ``flywheel``; goal ``cost``.
-
-    Raises
-    ------
-    InputError
-        The machine has no design speed or no motor, or no motor of the catalogue has its power.
+    Permitted are `unevenness` δ [–] and the time of the run-up [s]; a motor is priced by its rated power, a
+    flywheel by its mass as a disc of `flywheel_radius` [m]. Raises `InputError` without a design speed or a
+    motor, or if no motor of the catalogue has the power.
     """
     prices = {
         "per_kilowatt": (per_kilowatt, positive(RATIO)),
@@ -138,29 +120,10 @@ def cam_study(
     pressure_angle: float,
     contact_stress: float | None = None,
 ) -> StudyPlan:
-    """Make a study of the smallest cam within its limits, for `optimise`.
+    """A study of the smallest cam within its limits, for `optimise`; goal is the radius of its prime circle.
 
-    Parameters
-    ----------
-    machine : Machine
-        A machine with cams.
-    name : str, optional
-        Which; left out if there is one.
-    pressure_angle : float
-        Permitted pressure angle [rad].
-    contact_stress : float, optional
-        Permitted contact pressure [Pa]; the cam needs a width, the machine loads.
-
-    Returns
-    -------
-    StudyPlan
-        Variable ``base`` and, of a roller with a permitted contact pressure, ``roller``; goal ``size``, the
-        radius of the prime circle.
-
-    Raises
-    ------
-    InputError
-        There is no such cam, or it has no base circle; no width or no speed for a contact pressure.
+    Permitted are a pressure angle [rad] and a contact pressure [Pa], for which the roller varies too.
+    Raises `InputError` where there is no such cam, base circle, or width and speed for a contact pressure.
     """
     in_range(
         pressure_angle=(pressure_angle, positive(ANGLE)), contact_stress=(contact_stress, positive(PRESSURE))
@@ -201,28 +164,10 @@ def damper_study(
     stress: float | None = None,
     torque: float | None = None,
 ) -> StudyPlan:
-    """Make a study of the smallest ring of a damper that keeps a shaft within its limit, for `optimise`.
+    """A study of the smallest ring of a damper that keeps a shaft within its limit, for `optimise`.
 
-    Parameters
-    ----------
-    machine : Machine
-        A train with a damper and the speeds of its run.
-    name : str, optional
-        Which damper; left out if there is one.
-    shaft : str
-        The shaft that is to last.
-    stress, torque : float, optional
-        Permitted vibratory shear stress [Pa], of a shaft with a section, or torque [N m]; one of them.
-
-    Returns
-    -------
-    StudyPlan
-        Variables ``ring``, ``damping`` and, of a tuned damper, ``stiffness``; goal ``size``, the ring.
-
-    Raises
-    ------
-    InputError
-        There is no such damper or shaft, or neither limit or both are given.
+    Permitted is a vibratory shear stress [Pa], of a shaft with a section, or a torque [N m]. Raises
+    `InputError` where there is no such damper or shaft, or neither limit or both are given.
     """
     in_range(stress=(stress, positive(PRESSURE)), torque=(torque, positive(TORQUE)))
     train = machine.train

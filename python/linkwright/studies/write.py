@@ -8,7 +8,8 @@ from typing import Any
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.output import require_place, write_file
-from linkwright.kernel.units import ANGLE, LENGTH, Kind, is_number, to_text
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, Kind
+from linkwright.kernel.units.reading import is_number, to_text
 from linkwright.machine.address import kind
 from linkwright.machine.machine import Machine
 from linkwright.machine.write import dumps
@@ -47,31 +48,11 @@ def study_text(plan: StudyPlan, machine: str) -> str:
 def write_study(
     plan: StudyPlan, place: Path, source: Path, described: Machine | None, *, force: bool
 ) -> list[Path]:
-    """Write the study file of a plan, and its machine beside it if the file that it is from is another.
+    """Write the study file of a plan, and its machine beside it if its source describes another one.
 
-    Parameters
-    ----------
-    plan : StudyPlan
-        A study of a machine.
-    place : Path
-        The file.
-    source : Path
-        The machine file that the machine was read from, or the name of one of the library.
-    described : Machine or None
-        The machine as that file describes it; None if it was read with other entries.
-    force : bool
-        Whether files that exist are replaced.
-
-    Returns
-    -------
-    list of Path
-        What was written: the study, and the machine if the source describes another one or lies elsewhere.
-
-    Raises
-    ------
-    InputError
-        One of the files exists and is not to be replaced, is the machine file, a link or a folder, or cannot
-        be written.
+    `source`: the file or the name in the library that the machine is from; `described`: the machine as that
+    file describes it, None if it was read with other entries. Returns what was written. Raises `InputError`
+    where a file exists and is not to be replaced, or cannot be written.
     """
     require_place(place, replace=force)
     named = _source(place, source) if described is not None and _alike(described, plan.machine) else ""

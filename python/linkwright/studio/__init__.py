@@ -15,7 +15,6 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `analyses` | What can be computed, and which data are missing |
 | `shown` | Results for the page, from declared quantities |
 | `drawing` | The drawing with rates, forces and handles |
-| `transfer` | Transfer functions of the outputs as plots |
 | `views` | Pictures beside it: trains in their modes, the knife of a topper; what the gallery shows |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
 | `building` | Elements that are added, links that are drawn |

@@ -16,7 +16,8 @@ from pydantic_core import PydanticUndefined
 from linkwright.kernel.description.place import field_names, join
 from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, mark_of, model_of, words_of
 from linkwright.kernel.errors import UnitError
-from linkwright.kernel.units import Quantity, QuantityList, parse
+from linkwright.kernel.units.marks import Quantity, QuantityList
+from linkwright.kernel.units.reading import parse
 from linkwright.machine.machine import Machine
 from linkwright.machine.size_limits import size_and_limits
 

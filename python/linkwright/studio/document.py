@@ -15,7 +15,8 @@ from tomlkit.items import InlineTable, Item, Table
 from linkwright.kernel.description.place import join
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import Quantity, is_number, to_text
+from linkwright.kernel.units.marks import Quantity
+from linkwright.kernel.units.reading import is_number, to_text
 from linkwright.kernel.units.spellings import factor_of
 from linkwright.linkages.model.topology import Topology
 from linkwright.machine.address import resolve

@@ -25,7 +25,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import split
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.kernel.units import Quantity
+from linkwright.kernel.units.marks import Quantity
 from linkwright.linkages.closure import Closure, closure, closure_error
 from linkwright.linkages.kinematics import kinematics, kinematics_along, motions
 from linkwright.machine.address import get, replace

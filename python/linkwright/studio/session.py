@@ -21,7 +21,7 @@ from anyio import to_thread
 from linkwright.kernel.description.place import split
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, Problem
-from linkwright.kernel.units import Quantity
+from linkwright.kernel.units.marks import Quantity
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.read import loads

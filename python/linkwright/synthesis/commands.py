@@ -68,7 +68,7 @@ def dead_centre(
     force: Force = False,
 ) -> None:
     """Crank-rocker for a swing, or slider-crank for a stroke, and a time ratio; best transmission angle."""
-    from linkwright.kernel.units import ANGLE, LENGTH
+    from linkwright.kernel.units.kinds import ANGLE, LENGTH
     from linkwright.synthesis.dead_centre import crank_rocker
     from linkwright.synthesis.stroke import slider_crank
 
@@ -182,7 +182,7 @@ def line(
     force: Force = False,
 ) -> None:
     """Straight-line linkage from the catalogue, exact or approximate."""
-    from linkwright.kernel.units import LENGTH
+    from linkwright.kernel.units.kinds import LENGTH
     from linkwright.synthesis.line_kinds import KINDS
     from linkwright.synthesis.straight_line import straight_line, straight_lines
     from linkwright.synthesis.tables import catalogue_table

@@ -27,7 +27,8 @@ from linkwright.kernel.errors import SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.units import ANGLE, LENGTH, RATIO, Bound, Quantity, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO
+from linkwright.kernel.units.marks import Bound, Quantity, positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import FourBar, cross, turn_spare, worst_transmission
 from linkwright.synthesis.verification import (

@@ -19,8 +19,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import close_match
-from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import show
+from linkwright.kernel.errors import InputError, show
 from linkwright.synthesis.task import FunctionTask
 
 FUNCTIONS: dict[str, Callable[[Any], Any]] = {

@@ -45,9 +45,6 @@ _MARGIN = 1e-8
 # Damping at the beginning, what it is multiplied by after a failure and divided by after a success.
 _DAMPING, _HARDER, _EASIER = 1e-2, 3.0, 5.0
 
-# Sine of β and cosine of μ at the minimum: beyond, the linkage is not assembled, and rates have no limit.
-_FLAT = 1e-9
-
 # Rounds of Lawson's method, which converges linearly, and steps of a round; what a weight keeps at least, so
 # that an error that happens to be zero is seen again.
 _LEVELLINGS, _STEPS_OF_LEVELLING = 40, 20

@@ -35,14 +35,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Bools, Complexes, Floats, Indices
 from linkwright.kernel.numerics.least_squares import damped_step
-from linkwright.synthesis.path_model import (
-    MARGIN,
-    Linkages,
-    PathModel,
-    free_numbers,
-    pin_and_coupler,
-    shape,
-)
+from linkwright.synthesis.path_model import MARGIN, Linkages, PathModel, free_numbers, pin_and_coupler, shape
 
 # Shapes and timings that are judged for each start that is refined.
 TRIALS = 160

@@ -21,7 +21,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import LENGTH, positive
+from linkwright.kernel.units.kinds import LENGTH
+from linkwright.kernel.units.marks import positive
 from linkwright.linkages.kinematics import motions
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import machine_of

@@ -19,7 +19,8 @@ from linkwright.kernel.errors import InputError, SynthesisError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.units import LENGTH, RATIO, positive
+from linkwright.kernel.units.kinds import LENGTH, RATIO
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.machine import Machine
 from linkwright.synthesis.dead_centre import SOURCE, best, delta_of, joints, slow_over_quick
 from linkwright.synthesis.four_bar import cross, machine_of

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.kernel.page.numbers import degrees, measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import Label, declared
-from linkwright.kernel.units import is_number
+from linkwright.kernel.units.reading import is_number
 
 if TYPE_CHECKING:
     from linkwright.kernel.result import Result

@@ -15,10 +15,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import Description, Whole, fault, raise_faults
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.limits import PATH_POINTS, TRIALS
-from linkwright.kernel.units import (
-    ANGLE,
-    LENGTH,
-    RATIO,
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO
+from linkwright.kernel.units.marks import (
     Angle,
     Angles,
     Length,

@@ -30,6 +30,5 @@
 | `topper` | The knife of a topper over the heads of a row |
 | `uncut_along` | Derivatives of the area that an edge leaves of heads |
 | `uncut_head` | The head of which most is left, and the mean that is left, with derivatives |
-| `verdict` | For which heads lengths that are said to do for ranges of speeds do |
 | `worst_head` | The worst place of a head, and all heads of the range |
 """

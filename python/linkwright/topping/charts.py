@@ -19,6 +19,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.papers.published_lengths import PAPER, WAYS, Stroke, bands_of, lengths_over
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
@@ -29,7 +30,6 @@ from linkwright.topping.required_length import (
     length_published,
 )
 from linkwright.topping.roots import head_diameter
-from linkwright.topping.verdict import PAPER, WAYS, Stroke, bands_of, lengths_over
 from linkwright.topping.worst_head import worst_head
 
 # Forward speeds of the chart over that of the machine; its ends along both axes likewise.

@@ -11,7 +11,7 @@ from typing import Annotated
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, LENGTH, VELOCITY, Kind
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, VELOCITY, Kind
 from linkwright.machine.machine import Machine
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.knife import knives

@@ -24,15 +24,7 @@ from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import NOTHING, TopperStudy
-from linkwright.topping.uncut_along import (
-    EdgeAlong,
-    Heads,
-    end_times,
-    exposed,
-    slopes,
-    uncut_slopes,
-    y_along,
-)
+from linkwright.topping.uncut_along import EdgeAlong, Heads, end_times, exposed, slopes, uncut_slopes, y_along
 from linkwright.topping.worst_head import heads_as_bad, mean_heads
 
 # An offset this near to the largest one, as a share, is that.
@@ -40,9 +32,6 @@ _AT_END = 1e-9
 
 # Share of the largest slope below which a condition does not move: the head is not the only one.
 _LEVEL = 1e-9
-
-# Steps of Newton's method from the head that was found by looking, which is good to 1e-8.
-_STEPS = 2
 
 _NOT_ALONE = "several heads have the same uncut share; the one shown is arbitrary"
 _ALL = "the whole head is uncut"

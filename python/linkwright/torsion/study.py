@@ -12,7 +12,8 @@ from linkwright.kernel.errors import FindingError, InputError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord, Result
-from linkwright.kernel.units import FREQUENCY, not_negative
+from linkwright.kernel.units.kinds import FREQUENCY
+from linkwright.kernel.units.marks import not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.excitation.engine_torques import EngineData, engine_data

@@ -20,12 +20,12 @@ def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Js
     Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
     be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
     """
-    from linkwright.app.soundness import soundness
+    from linkwright.app.feasibility import feasibility
     from linkwright.machine.read import read
     from linkwright.machine.table import part_names
 
     machine = read(file, set or (), allow_outside=allow_outside)
-    judged = soundness(machine)
+    judged = feasibility(machine)
     count = len(judged.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
     answer = Answer(

@@ -73,7 +73,7 @@ def draw(
 
 def _lasting(text: str | None) -> float:
     """How long a moving picture lasts [s]."""
-    from linkwright.kernel.units import TIME
+    from linkwright.kernel.units.kinds import TIME
 
     seconds = _USUAL if text is None else option_value("--seconds", text, TIME)
     if not 0.1 <= seconds <= _LONGEST:
@@ -87,7 +87,7 @@ def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
 
     from linkwright.app.report.scene import moving_scene
     from linkwright.drive.steady_state import steady_state
-    from linkwright.kernel.units import ANGLE
+    from linkwright.kernel.units.kinds import ANGLE
     from linkwright.linkages.closure import closure, in_cycle, require_full_turn
     from linkwright.linkages.model.topology import DRIVERS
     from linkwright.machine.program.compiled import compile_machine

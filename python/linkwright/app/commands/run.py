@@ -68,7 +68,7 @@ def run(
 def _studied(file: Path, sets: list[str], accuracy: float, step: str | None, *, allow_outside: bool) -> Study:
     """Read the file and study the machine."""
     from linkwright.app.study import study
-    from linkwright.kernel.units import ANGLE
+    from linkwright.kernel.units.kinds import ANGLE
     from linkwright.machine.read import read
 
     angle = None if step is None else option_value("--step", step, ANGLE)

@@ -82,7 +82,8 @@ def _options(tolerance: str, step: str, by: str, form: str, formats: str) -> dic
     """What the drawings shall be; what makes no sense is reported before anything is computed."""
     from linkwright.cam.manufacture.fit import FORMS
     from linkwright.cam.manufacture.write import ALL_FORMATS
-    from linkwright.kernel.units import ANGLE, LENGTH, positive
+    from linkwright.kernel.units.kinds import ANGLE, LENGTH
+    from linkwright.kernel.units.marks import positive
 
     wanted = tuple(ending.strip() for ending in formats.split(",") if ending.strip())
     for option, values, known in (

@@ -146,7 +146,7 @@ def _axis(text: str) -> tuple[str, Levels]:
     """Name and values of one ``NAME=LOW:HIGH:N``."""
     from linkwright.cam.search import ENTRIES
     from linkwright.kernel.description.base import suggestion
-    from linkwright.kernel.units import ANGLE, LENGTH, RATIO
+    from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO
     from linkwright.studies.cams import Levels
 
     name, _, values = text.partition("=")

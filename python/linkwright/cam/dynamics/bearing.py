@@ -36,7 +36,8 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import LENGTH, RATIO, not_negative, positive
+from linkwright.kernel.units.kinds import LENGTH, RATIO
+from linkwright.kernel.units.marks import not_negative, positive
 
 
 class Push(NamedTuple):

@@ -32,7 +32,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import LENGTH, RATIO, not_negative
+from linkwright.kernel.units.kinds import LENGTH, RATIO
+from linkwright.kernel.units.marks import not_negative
 
 Closure = Literal["force", "form"]
 

@@ -21,7 +21,7 @@ from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord
-from linkwright.kernel.units import (
+from linkwright.kernel.units.kinds import (
     ANGLE,
     ANGULAR_ACCELERATION,
     DAMPING,
@@ -30,10 +30,8 @@ from linkwright.kernel.units import (
     MASS,
     SPEED,
     STIFFNESS,
-    Quantity,
-    not_negative,
-    positive,
 )
+from linkwright.kernel.units.marks import Quantity, not_negative, positive
 
 
 def alike(**values: ArrayLike) -> dict[str, Floats]:

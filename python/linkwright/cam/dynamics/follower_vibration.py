@@ -38,7 +38,8 @@ from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import COUNT, SPEED, positive
+from linkwright.kernel.units.kinds import COUNT, SPEED
+from linkwright.kernel.units.marks import positive
 
 # Values and their first two derivatives by the cam angle or the time, (m,) each.
 Derivatives = tuple[Floats, Floats, Floats]

@@ -29,7 +29,8 @@ from linkwright.kernel.public import public, public_type
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FORCE, LENGTH, PRESSURE, Quantity, positive
+from linkwright.kernel.units.kinds import FORCE, LENGTH, PRESSURE
+from linkwright.kernel.units.marks import Quantity, positive
 
 # Depth of the largest shear: τ(ζ) = ζ − ζ²/√(1+ζ²) has its extreme where (1+q)³ = q(2+q)² with q = ζ²,
 # that is q² + q − 1 = 0, the golden section.

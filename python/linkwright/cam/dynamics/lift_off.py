@@ -35,7 +35,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FORCE, MASS, SPEED, not_negative, positive
+from linkwright.kernel.units.kinds import FORCE, MASS, SPEED
+from linkwright.kernel.units.marks import not_negative, positive
 
 # Steps to the minimum speed: each about doubles the number of digits.
 _ROUNDS = 60

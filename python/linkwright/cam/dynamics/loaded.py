@@ -38,7 +38,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.kinetostatics.collect import LEAVES
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.result import Forces

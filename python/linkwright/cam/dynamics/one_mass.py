@@ -21,7 +21,8 @@ from linkwright.cam.model.follower_motion import FollowerTrain
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public_type
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import FORCE, MASS, RATIO, STIFFNESS, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import FORCE, MASS, RATIO, STIFFNESS
+from linkwright.kernel.units.marks import Quantity, not_negative, positive
 
 
 @public_type

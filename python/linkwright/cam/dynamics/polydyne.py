@@ -21,7 +21,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 
 # Share of the lift below which the cam's reaching under its base circle is rounding.
 _ROUNDING = 1e-12

@@ -32,7 +32,8 @@ from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FRACTION, RATIO, SPEED, Quantity, positive
+from linkwright.kernel.units.kinds import RATIO, SPEED
+from linkwright.kernel.units.marks import FRACTION, Quantity, positive
 
 # Grid on which minima of the residual are bracketed: they are about 1 apart in τ.
 _GRID = 0.02

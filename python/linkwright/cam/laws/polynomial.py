@@ -21,7 +21,6 @@ from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
 from linkwright.kernel.numerics.tangent import Tangent, primal
 
-Number = Fraction | int | float
 Row = list[Fraction]
 
 

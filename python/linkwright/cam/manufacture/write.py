@@ -22,7 +22,8 @@ from linkwright.kernel.errors import ExchangeError, InputError
 from linkwright.kernel.files.output import file_name, trial, unwritable
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import ANGLE, LENGTH, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
+from linkwright.kernel.units.marks import positive
 
 # How far a row of a table may be from its curve, over the curve's size: a table holds the curve itself, and
 # an error of 1e-15 of the cam angle moves places of a steep curve by some times that.

@@ -24,18 +24,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.cam.model.follower_motion import FollowerMotion, FollowerTrain, follower_motion
 from linkwright.cam.model.motion_section import MotionSection, section_faults
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
-from linkwright.kernel.units import (
-    ACUTE,
-    ANGLE,
-    PRESSURE,
-    RATIO,
-    Angle,
-    Bound,
-    Length,
-    Quantity,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import ANGLE, PRESSURE, RATIO
+from linkwright.kernel.units.marks import ACUTE, Angle, Bound, Length, Quantity, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.cam.model.cam import Cam
 from linkwright.kernel.description.base import fault
-from linkwright.kernel.units import LENGTH
+from linkwright.kernel.units.kinds import LENGTH
 from linkwright.linkages.model.element import Crank, FixedPoint, Guide, LinearDriver
 
 if TYPE_CHECKING:

@@ -27,7 +27,8 @@ from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
 from linkwright.kernel.numerics.tangent import sqrt
-from linkwright.kernel.units import FORCE, MASS, RATIO, SPEED, STIFFNESS, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import FORCE, MASS, RATIO, SPEED, STIFFNESS
+from linkwright.kernel.units.marks import Quantity, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.motion_law import MotionLaw

@@ -24,18 +24,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.errors import LawError, Problem
-from linkwright.kernel.units import (
-    LIFT_D1,
-    LIFT_D2,
-    LIFT_D3,
-    RATIO,
-    SWING_D2,
-    SWING_D3,
-    Bound,
-    Quantity,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import LIFT_D1, LIFT_D2, LIFT_D3, RATIO, SWING_D2, SWING_D3
+from linkwright.kernel.units.marks import Bound, Quantity, not_negative, positive
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.boundary import Boundary

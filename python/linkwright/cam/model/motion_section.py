@@ -36,19 +36,9 @@ from linkwright.cam.model.motion_law import (
 from linkwright.cam.model.point_law import FormulaLaw, SplineLaw, TableLaw
 from linkwright.kernel.description.base import Description, fault, wrong
 from linkwright.kernel.errors import LawError
-from linkwright.kernel.units import (
-    ANGLE,
-    LENGTH,
-    LIFT_D1,
-    LIFT_D2,
-    RATIO,
-    SWING_D2,
-    Angle,
-    Length,
-    Quantity,
-    positive,
-    to_text,
-)
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, LIFT_D1, LIFT_D2, RATIO, SWING_D2
+from linkwright.kernel.units.marks import Angle, Length, Quantity, positive
+from linkwright.kernel.units.reading import to_text
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.programme import Programme, Section

@@ -20,7 +20,7 @@ from linkwright.kernel.errors import LawError, Problem
 from linkwright.kernel.limits import LAW_POINTS
 from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.numerics.taylor import Taylor
-from linkwright.kernel.units import Angles, AnyQuantity, Lengths
+from linkwright.kernel.units.marks import Angles, AnyQuantity, Lengths
 
 if TYPE_CHECKING:
     from linkwright.cam.laws.boundary import Boundary

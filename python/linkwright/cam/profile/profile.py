@@ -21,11 +21,10 @@ from linkwright.cam.model.motion_section import MotionSection
 from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts, opposite
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import show
 from linkwright.machine.machine import Machine
 
 # Angles per revolution at which a cam is looked at; between them extremes are found exactly.

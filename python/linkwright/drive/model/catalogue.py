@@ -13,8 +13,7 @@ from functools import cache
 from typing import Any
 
 from linkwright.kernel.description.base import suggestion, wrong
-from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.units import show
+from linkwright.kernel.errors import MachineError, Problem, show
 
 _RPM = 2 * math.pi / 60
 

@@ -16,18 +16,10 @@ from pydantic_core import InitErrorDetails
 from linkwright.drive.model.motor import AnyMotor
 from linkwright.kernel.description.base import CheckedDescription, Description, fault, wrong
 from linkwright.kernel.description.deferred_model import deferred_model
-from linkwright.kernel.units import (
-    FRACTION,
-    INERTIA,
-    RATIO,
-    SPEED,
-    TORQUE,
-    Quantity,
-    is_number,
-    not_negative,
-    positive,
-    show,
-)
+from linkwright.kernel.errors import show
+from linkwright.kernel.units.kinds import INERTIA, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.marks import FRACTION, Quantity, not_negative, positive
+from linkwright.kernel.units.reading import is_number
 from linkwright.torsion.model.train_base import PositiveStiffness
 
 if TYPE_CHECKING:

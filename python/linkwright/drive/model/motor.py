@@ -30,18 +30,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import Description, fault, raise_faults
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.place import keys, look
-from linkwright.kernel.units import (
-    INERTIA,
-    POWER,
-    RATIO,
-    SPEED,
-    TORQUE,
-    Speeds,
-    Torque,
-    Torques,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.marks import Speeds, Torque, Torques, not_negative, positive
 
 Values = dict[str, Any]
 PositiveSpeed = Annotated[float, positive(SPEED)]

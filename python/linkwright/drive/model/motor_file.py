@@ -21,17 +21,9 @@ from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
 from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.points import lines_of
 from linkwright.kernel.public import public
-from linkwright.kernel.units import (
-    INERTIA,
-    POWER,
-    RATIO,
-    SPEED,
-    TORQUE,
-    Quantity,
-    not_negative,
-    parse,
-    positive,
-)
+from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.marks import Quantity, not_negative, positive
+from linkwright.kernel.units.reading import parse
 
 _KEY = "drive.motor.file"
 

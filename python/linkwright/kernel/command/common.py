@@ -31,7 +31,8 @@ from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, printable
 
 if TYPE_CHECKING:
-    from linkwright.kernel.units import Kind, Quantity
+    from linkwright.kernel.units.kinds import Kind
+    from linkwright.kernel.units.marks import Quantity
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -171,7 +172,9 @@ def option_value(option: str, text: str, of: Kind | Quantity) -> float:
     Raises `InputError`, which names the option, for anything else, for what is beyond the bound of a mark,
     and for an angle, a speed or a power without its unit.
     """
-    from linkwright.kernel.units import ANGLE, POWER, SPEED, Quantity, parse
+    from linkwright.kernel.units.kinds import ANGLE, POWER, SPEED
+    from linkwright.kernel.units.marks import Quantity
+    from linkwright.kernel.units.reading import parse
 
     mark = of if isinstance(of, Quantity) else Quantity(of)
     kind = mark.kind

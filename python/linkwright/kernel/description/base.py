@@ -14,11 +14,10 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.limits import NAME, TITLE
 from linkwright.kernel.public.arguments import shown
 from linkwright.kernel.public.immutable import held, refuse
-from linkwright.kernel.units import show
 
 
 class Description(BaseModel):

@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
-from linkwright.kernel.units import worded
+from linkwright.kernel.units.reading import worded
 
 
 def curve_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:

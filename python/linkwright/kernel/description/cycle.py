@@ -9,7 +9,8 @@ from typing import Annotated
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
-from linkwright.kernel.units import ANGLE, positive
+from linkwright.kernel.units.kinds import ANGLE
+from linkwright.kernel.units.marks import positive
 
 CycleAngle = Annotated[float, positive(ANGLE)]
 

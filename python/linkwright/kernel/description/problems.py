@@ -17,8 +17,7 @@ from linkwright.kernel.description.schema_walk import (
     model_of,
     words_of,
 )
-from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.units import show
+from linkwright.kernel.errors import MachineError, Problem, show
 
 
 def problems(

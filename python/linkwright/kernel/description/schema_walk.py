@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from linkwright.kernel.description.deferred_model import DeferredModel
 from linkwright.kernel.description.place import field_names, former_keys, look
-from linkwright.kernel.units import Quantity, QuantityList
+from linkwright.kernel.units.marks import Quantity, QuantityList
 
 Mark = Quantity | QuantityList
 

@@ -7,7 +7,8 @@ from pydantic import Field
 from pydantic_core import CoreSchema, core_schema
 
 from linkwright.kernel.description.base import Description, wrong
-from linkwright.kernel.units import (
+from linkwright.kernel.errors import show
+from linkwright.kernel.units.kinds import (
     ACCELERATION,
     ANGLE,
     ANGULAR_ACCELERATION,
@@ -26,7 +27,6 @@ from linkwright.kernel.units import (
     TORSIONAL_STIFFNESS,
     VELOCITY,
     Kind,
-    show,
 )
 from linkwright.kernel.units.spellings import factor_of, fits, is_energy, other_quantity, unknown
 

@@ -7,7 +7,6 @@
 | `lines` | Where each key stands |
 | `named_file` | Files that a document names: those of its folder |
 | `output` | Files that are whole or not there, and never over those of others |
-| `picture` | Pictures without scripts and links |
 | `points` | Columns of files of comma-separated values: points of a machine file, measurements |
 | `text_file` | The text of a file, up to a limit, and sizes of what it holds |
 """

@@ -23,11 +23,12 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
-from linkwright.kernel.errors import MachineFileError, Problem, UnitError
+from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
 from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES, ROWS
-from linkwright.kernel.units import NUMBER, Kind, parse, show
+from linkwright.kernel.units.kinds import Kind
+from linkwright.kernel.units.reading import NUMBER, parse
 
 # Kinds of tables whose points may be in a file, and a head for each.
 _EXAMPLES = {

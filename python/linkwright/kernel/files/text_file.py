@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.kernel.description.place import join
-from linkwright.kernel.errors import Problem
+from linkwright.kernel.errors import Problem, show
 from linkwright.kernel.limits import DEPTH, ENTRIES, LIST, NAME, TEXT, Limit, grouped
-from linkwright.kernel.units import show
 
 
 class TextError(Exception):

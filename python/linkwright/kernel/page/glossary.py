@@ -52,11 +52,6 @@ def glossary(language: str = "en") -> tuple[Term, ...]:
     )
 
 
-def allowed() -> tuple[str, ...]:
-    """Regular expressions of phrases in which a retired word is right, as "at least"."""
-    return tuple(_data()["allowed"]["phrases"])
-
-
 def matching(word: str) -> tuple[Term, ...]:
     """Terms in which a word occurs, in either case: in the term, its names, symbol, words it replaces."""
     wanted = word.casefold()

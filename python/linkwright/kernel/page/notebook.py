@@ -13,7 +13,7 @@ from linkwright.kernel.page.html import with_index
 from linkwright.kernel.page.numbers import parted
 from linkwright.kernel.page.out_units import with_units_of
 from linkwright.kernel.quantities import quantities_of
-from linkwright.kernel.units import is_number
+from linkwright.kernel.units.reading import is_number
 
 
 def table_html(title: str, rows: Iterable[Sequence[str]]) -> str:

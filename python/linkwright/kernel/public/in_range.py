@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import Quantity, show
+from linkwright.kernel.errors import InputError, show
+from linkwright.kernel.units.marks import Quantity
 
 
 def in_range(**arguments: tuple[Any, Quantity]) -> None:

@@ -20,7 +20,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
 from linkwright.kernel.description.place import keys, look
-from linkwright.kernel.units import INERTIA, MASS, MASS_PER_LENGTH, Length, not_negative
+from linkwright.kernel.units.kinds import INERTIA, MASS, MASS_PER_LENGTH
+from linkwright.kernel.units.marks import Length, not_negative
 from linkwright.linkages.model.topology import Topology
 
 

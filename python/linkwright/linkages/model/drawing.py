@@ -28,7 +28,9 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import Description, fault, suggestion
 from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.errors import UnitError
-from linkwright.kernel.units import ANGLE, LENGTH, Kind, Lengths, parse, parse_list, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, Kind
+from linkwright.kernel.units.marks import Lengths, positive
+from linkwright.kernel.units.reading import parse, parse_list
 from linkwright.linkages.model.dxf_points import Layers
 from linkwright.linkages.model.topology import ORIGIN, Topology
 

@@ -15,7 +15,8 @@ from linkwright.kernel.files.dxf import read_document
 from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, data_of
 from linkwright.kernel.limits import POINT_BYTES
-from linkwright.kernel.units import LENGTH, parse
+from linkwright.kernel.units.kinds import LENGTH
+from linkwright.kernel.units.reading import parse
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document

@@ -25,11 +25,11 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
-from linkwright.kernel.units import COUNT, LENGTH, Angle, AnyQuantity, Length, Quantity, positive
+from linkwright.kernel.units.kinds import COUNT, LENGTH
+from linkwright.kernel.units.marks import Angle, AnyQuantity, Length, positive
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(COUNT)]
-Number = Annotated[float, Quantity(COUNT)]
 
 # Sine of the angle between two directions below which they are parallel.
 _PARALLEL = 1e-9

@@ -10,7 +10,7 @@ from pydantic import Field, ModelWrapValidatorHandler, ValidationError, model_va
 
 from linkwright.kernel.description.base import Description, Name, faults_of, raise_faults
 from linkwright.kernel.description.deferred_model import deferred_model
-from linkwright.kernel.units import Angle
+from linkwright.kernel.units.marks import Angle
 from linkwright.linkages.model.assembly import Step
 from linkwright.linkages.model.element import (
     Bar,

@@ -8,7 +8,7 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault
-from linkwright.kernel.units import Angles, Lengths
+from linkwright.kernel.units.marks import Angles, Lengths
 
 
 class PathPoints(Description):

@@ -40,7 +40,6 @@ MESH_STEPS_MAX = _core.MESH_STEPS_MAX
 
 # What of a machine is asked for, and what the core answers.
 Channel = _core.Channel
-Reductions = _core.Reductions
 SteadyMotion = _core.SteadyMotion
 SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves

@@ -20,10 +20,10 @@ from linkwright.kernel.figure.style import (
     styled,
 )
 from linkwright.papers.paper5.steps import factors
+from linkwright.papers.published_lengths import WAYS, bands_of, lengths_over
 from linkwright.topping.figures.lengths import COLOURS
 from linkwright.topping.required_length import constant_speed_lengths, length_consistent, length_published
 from linkwright.topping.roots import head_diameter
-from linkwright.topping.verdict import WAYS, bands_of, lengths_over
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -27,9 +27,7 @@ from linkwright.papers.paper5.steps import (
     step_checks,
     surfaces,
 )
-from linkwright.topping.required_length import length_published
-from linkwright.topping.roots import head_diameter
-from linkwright.topping.verdict import (
+from linkwright.papers.published_lengths import (
     WAYS,
     Claim,
     Demand,
@@ -39,6 +37,8 @@ from linkwright.topping.verdict import (
     length_verdict,
     lengths_over,
 )
+from linkwright.topping.required_length import length_published
+from linkwright.topping.roots import head_diameter
 
 # Angles of the scans: hundredths of a degree.
 _ANGLES = np.radians(np.arange(0.0, 85.0, 0.01))

@@ -36,6 +36,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.papers.published_lengths import Claim
 from linkwright.topping.required_length import (
     PublishedLengths,
     constant_speed_lengths,
@@ -44,7 +45,6 @@ from linkwright.topping.required_length import (
     published_lengths,
 )
 from linkwright.topping.roots import cap_volume, head_diameter
-from linkwright.topping.verdict import Claim
 
 # Points of the scan over v_h/v, α and the share of the offsets in the band.
 _RATIOS, _ANGLES, _SHARES = 141, 281, 21

@@ -11,20 +11,10 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault, raise_faults, wrong
 from linkwright.kernel.description.curve import curve_faults
-from linkwright.kernel.errors import UnitError
-from linkwright.kernel.units import (
-    FORCE,
-    FRACTION,
-    RATIO,
-    TORQUE,
-    Angle,
-    Angles,
-    Forces,
-    Quantity,
-    QuantityList,
-    parse,
-    show,
-)
+from linkwright.kernel.errors import UnitError, show
+from linkwright.kernel.units.kinds import FORCE, RATIO, TORQUE
+from linkwright.kernel.units.marks import FRACTION, Angle, Angles, Forces, Quantity, QuantityList
+from linkwright.kernel.units.reading import parse
 
 _OPTIMAL = '"optimal", or a torque (N m) such as "20 kN m"'
 

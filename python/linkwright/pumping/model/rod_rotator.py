@@ -34,7 +34,8 @@ from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault, raise_faults
-from linkwright.kernel.units import ANGLE, FRACTION, RATIO, TORQUE, Bound, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import ANGLE, RATIO, TORQUE
+from linkwright.kernel.units.marks import FRACTION, Bound, Quantity, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.pumping.model.unit import PumpingUnit
 

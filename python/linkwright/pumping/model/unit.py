@@ -40,7 +40,8 @@ from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import Description, fault, raise_faults
-from linkwright.kernel.units import LENGTH, Force, Length, not_negative
+from linkwright.kernel.units.kinds import LENGTH
+from linkwright.kernel.units.marks import Force, Length, not_negative
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
 

@@ -10,9 +10,8 @@ from functools import cache
 from typing import Any
 
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.kernel.errors import InputError, MachineError, Problem, show
 from linkwright.kernel.public import public
-from linkwright.kernel.units import show
 from linkwright.pumping.model.unit import INCH, POUND_FORCE, PumpingUnit, Rating, rating_of
 
 

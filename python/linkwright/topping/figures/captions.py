@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.numbers import degrees, number
 from linkwright.machine.machine import Machine
+from linkwright.papers.published_lengths import PAPER, WAYS, length_verdict
 from linkwright.topping.charts import length_chart, verdict_chart
 from linkwright.topping.edge import Edge, edges_of
 from linkwright.topping.figures.lengths import (
@@ -27,7 +28,6 @@ from linkwright.topping.model.topper import Topper
 from linkwright.topping.slicing import slicing_over_phase
 from linkwright.topping.tables.topper import mm, percent, shown_head, stroke_of
 from linkwright.topping.topper import TopperStudy, leaves
-from linkwright.topping.verdict import PAPER, WAYS, length_verdict
 
 # Phases of a curve.
 _PHASES = 361

@@ -26,8 +26,8 @@ from linkwright.kernel.figure.style import (
     turn_axis,
 )
 from linkwright.kernel.page.numbers import quantity
+from linkwright.papers.published_lengths import WAYS
 from linkwright.topping.topper import NOTHING
-from linkwright.topping.verdict import WAYS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -20,7 +20,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, Whole, fault
 from linkwright.kernel.description.curve import unread_file
 from linkwright.kernel.limits import ROOTS
-from linkwright.kernel.units import DENSITY, LENGTH, Length, Lengths, Quantity, positive
+from linkwright.kernel.units.kinds import DENSITY, LENGTH
+from linkwright.kernel.units.marks import Length, Lengths, Quantity, positive
 from linkwright.topping.model.scatter import AnyScatter, ConstantScatter, Scatter, UniformScatter
 
 

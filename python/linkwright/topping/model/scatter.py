@@ -30,7 +30,9 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault, formerly
-from linkwright.kernel.units import LENGTH, Length, Quantity, is_number, not_negative
+from linkwright.kernel.units.kinds import LENGTH
+from linkwright.kernel.units.marks import Length, Quantity, not_negative
+from linkwright.kernel.units.reading import is_number
 from linkwright.linkages.model.element import PositiveLength
 
 if TYPE_CHECKING:

@@ -31,19 +31,9 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault, suggestion
 from linkwright.kernel.description.place import look
-from linkwright.kernel.units import (
-    ANGLE,
-    INSIDE_ONE,
-    LENGTH,
-    RATIO,
-    VELOCITY,
-    Angle,
-    Bound,
-    Quantity,
-    not_negative,
-    positive,
-    worded,
-)
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO, VELOCITY
+from linkwright.kernel.units.marks import INSIDE_ONE, Angle, Bound, Quantity, not_negative, positive
+from linkwright.kernel.units.reading import worded
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.topping.model.field import AnyField, field_faults
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv, head, row, rows_in, rows_of
 from linkwright.kernel.quantities import shown
+from linkwright.papers.published_lengths import PAPER, WAYS, Demand, Stroke, length_verdict
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy, leaves
-from linkwright.topping.verdict import PAPER, WAYS, Demand, Stroke, length_verdict
 
 _HEADS = ("quantity", "", "value", "remark")
 

@@ -60,7 +60,7 @@ def damper(
     force: Force = False,
 ) -> None:
     """The best damper for a mode: damping, and stiffness, that minimise its resonance."""
-    from linkwright.kernel.units import INERTIA
+    from linkwright.kernel.units.kinds import INERTIA
     from linkwright.machine.read import read
     from linkwright.torsion.damper.damper_design import design_damper
 

@@ -57,7 +57,8 @@ def diagnose(
 ) -> None:
     """Which cylinder of an engine is weak, from the speed of a disc over the crank angle."""
     from linkwright.kernel.files.points import read_columns
-    from linkwright.kernel.units import ANGLE, SPEED, positive
+    from linkwright.kernel.units.kinds import ANGLE, SPEED
+    from linkwright.kernel.units.marks import positive
     from linkwright.machine.read import read
     from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
 

@@ -36,7 +36,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import INERTIA, RATIO, positive
+from linkwright.kernel.units.kinds import INERTIA, RATIO
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.damper.damper_rules import (
     DamperRule,

@@ -23,7 +23,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import Column
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.result import PlainRecord
-from linkwright.kernel.units import COUNT, SPEED, Quantity, positive
+from linkwright.kernel.units.kinds import COUNT, SPEED
+from linkwright.kernel.units.marks import Quantity, positive
 
 # How close waves in the time of the samples must be to a whole number.
 _EQUAL = 1e-9

@@ -26,9 +26,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
-from linkwright.drive.sound_loads import require_same_turns, require_sound_loads
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.errors import InputError
@@ -36,7 +36,8 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import RANGES
 from linkwright.kernel.public.in_range import in_range
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine

@@ -21,7 +21,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.torsion.excitation.harmonics import Source
 from linkwright.torsion.model.engine.cylinder import Cylinder, GasTorque, gas_torque
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles

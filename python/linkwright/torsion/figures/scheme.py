@@ -9,17 +9,7 @@ import numpy as np
 
 from linkwright.kernel.figure.style import BLUE, GREEN, INK, PAPER, RED, SMALL, SOFT, styled
 from linkwright.torsion.figures.scheme_layout import Bridge, Riser, Span
-from linkwright.torsion.figures.scheme_page import (
-    GAP,
-    HALF,
-    HIGH,
-    LINE,
-    LOW,
-    MARGIN,
-    Page,
-    in_a_row,
-    page,
-)
+from linkwright.torsion.figures.scheme_page import GAP, HALF, HIGH, LINE, LOW, MARGIN, Page, in_a_row, page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

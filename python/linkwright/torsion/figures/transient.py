@@ -98,19 +98,6 @@ def waterfall_figure(waterfall: Waterfall, *, quantity: str = "amplitude") -> Fi
     return figure
 
 
-@styled
-def orders_figure(waterfall: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
-    """Draw the amplitudes of some orders over the speed. A line for each order."""
-    figure, (axes,) = panels(1, height=3.0)
-    for order, colour in zip(orders, LINES, strict=False):
-        axes.plot(_RPM * waterfall.speed, waterfall.order(order), color=colour, label=f"order {order:g}")
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("speed [rpm]")
-    axes.set_ylabel(quantity)
-    legend_above(axes)
-    return figure
-
-
 def _loaded(motion: TorsionTransient) -> list[int]:
     """The shafts that swing most, in the order of the train."""
     swing = motion.torque_max - motion.torque_min

@@ -26,13 +26,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.torsion.core.distributed import SHAPE, bare_inertia, bordered, exact_modes, null_vectors
 from linkwright.torsion.core.train import HELD, ReferredTrain
-from linkwright.torsion.gradient.distributed import (
-    CutTrain,
-    PartSlopes,
-    cut_train,
-    lossless,
-    rod_numbers,
-)
+from linkwright.torsion.gradient.distributed import CutTrain, PartSlopes, cut_train, lossless, rod_numbers
 from linkwright.torsion.gradient.train import TrainTangents
 
 

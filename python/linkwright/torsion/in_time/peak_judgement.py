@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.units import PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity

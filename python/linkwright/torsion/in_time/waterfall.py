@@ -32,7 +32,8 @@ from linkwright.kernel.public.arguments import number
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import COUNT, positive
+from linkwright.kernel.units.kinds import COUNT
+from linkwright.kernel.units.marks import positive
 
 # Samples of the angle in a wave of the highest order: cubics between them err by a thousandth.
 _A_WAVE = 16

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.units import POWER, PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.model.coupling import Coupling, Damper

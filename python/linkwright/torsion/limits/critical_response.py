@@ -25,7 +25,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import PRESSURE, TORQUE, Kind
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.limits.criteria import peaks_on
 from linkwright.torsion.limits.survey import Survey

@@ -21,7 +21,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import Kind
+from linkwright.kernel.units.kinds import Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.engine_torques import (
     CylinderStates,

@@ -24,12 +24,13 @@ from pydantic import ValidationError
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import InputError, MachineFileError, Problem, UnitError
+from linkwright.kernel.errors import InputError, MachineFileError, Problem, UnitError, show
 from linkwright.kernel.files.points import columns_of, read_columns
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import ANGLE, PRESSURE, SPEED, TORQUE, Kind, parse, show
+from linkwright.kernel.units.kinds import ANGLE, PRESSURE, SPEED, TORQUE, Kind
+from linkwright.kernel.units.reading import parse
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.limits.criteria import peaks_between

@@ -22,7 +22,8 @@ from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
 from linkwright.kernel.numerics.tangent_array import numbers, primal
 from linkwright.kernel.numerics.zeros import zeros
-from linkwright.kernel.units import INERTIA, POWER, Angles, Torques, positive
+from linkwright.kernel.units.kinds import INERTIA, POWER
+from linkwright.kernel.units.marks import Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 
 

@@ -28,7 +28,8 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Whole, fault
-from linkwright.kernel.units import ANGLE, LENGTH, RATIO, TIME, not_negative, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO, TIME
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 
 PositiveLength = Annotated[float, positive(LENGTH)]

@@ -10,7 +10,8 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
-from linkwright.kernel.units import ANGLE, PRESSURE, TORQUE, not_negative
+from linkwright.kernel.units.kinds import ANGLE, PRESSURE, TORQUE
+from linkwright.kernel.units.marks import not_negative
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.train_base import PositiveSpeed
 

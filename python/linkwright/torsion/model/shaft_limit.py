@@ -21,7 +21,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault, formerly
-from linkwright.kernel.units import FRACTION, PRESSURE, RATIO, SECTION_MODULUS, Quantity, positive
+from linkwright.kernel.units.kinds import PRESSURE, RATIO, SECTION_MODULUS
+from linkwright.kernel.units.marks import FRACTION, Quantity, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model import permitted_stress
 from linkwright.torsion.model.permitted_stress import (

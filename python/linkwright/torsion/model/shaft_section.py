@@ -43,16 +43,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.numerics.tangent import total
-from linkwright.kernel.units import (
-    DENSITY,
-    FRACTION,
-    LENGTH,
-    PRESSURE,
-    RATIO,
-    Quantity,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import DENSITY, LENGTH, PRESSURE, RATIO
+from linkwright.kernel.units.marks import FRACTION, Quantity, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.shaft_flexibility import cone_integral, cone_place, polar_moment
 
@@ -181,11 +173,6 @@ class ShaftSection(CheckedDescription):
         """Of the bore, where it begins and where it ends [m]."""
         end = self.inner_diameter_end
         return self.inner_diameter, self.inner_diameter if end is None else end
-
-    @property
-    def second_moment(self) -> float:
-        """Polar second moment of area I_p where the section begins [m⁴]."""
-        return polar_moment(self.diameters[0], self.bores[0])
 
     @property
     def _keyway(self) -> tuple[float, float]:

@@ -32,17 +32,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
-from linkwright.kernel.units import (
-    ANGLE,
-    COUNT,
-    INERTIA,
-    RATIO,
-    Bound,
-    Quantity,
-    QuantityList,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
+from linkwright.kernel.units.marks import Bound, Quantity, QuantityList, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from linkwright.kernel.units import (
-    RATIO,
-    SPEED,
-    TORQUE,
-    TORSIONAL_DAMPING,
-    TORSIONAL_STIFFNESS,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import RATIO, SPEED, TORQUE, TORSIONAL_DAMPING, TORSIONAL_STIFFNESS
+from linkwright.kernel.units.marks import not_negative, positive
 
 PositiveStiffness = Annotated[float, positive(TORSIONAL_STIFFNESS)]
 PositiveTorque = Annotated[float, positive(TORQUE)]

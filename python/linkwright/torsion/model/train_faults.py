@@ -15,12 +15,7 @@ from linkwright.kernel.limits import DISCS
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.model.train_torques import crank_names, throw_names
 from linkwright.torsion.model.train_transient import transient_faults
-from linkwright.torsion.model.whole_train import (
-    Contradiction,
-    parts_of,
-    speeds,
-    whole_train,
-)
+from linkwright.torsion.model.whole_train import Contradiction, parts_of, speeds, whole_train
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")

@@ -29,7 +29,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.limits import HARMONICS, ORDER
-from linkwright.kernel.units import COUNT, RATIO, TORQUE, Angle, Bound, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import COUNT, RATIO, TORQUE
+from linkwright.kernel.units.marks import Angle, Bound, Quantity, not_negative, positive
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 

@@ -33,19 +33,8 @@ from linkwright.kernel.description.base import (
 )
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.limits import SAMPLES
-from linkwright.kernel.units import (
-    RATIO,
-    SPEED,
-    TIME,
-    TORSIONAL_DAMPING,
-    Angle,
-    QuantityList,
-    Speeds,
-    Torque,
-    Torques,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import RATIO, SPEED, TIME, TORSIONAL_DAMPING
+from linkwright.kernel.units.marks import Angle, QuantityList, Speeds, Torque, Torques, not_negative, positive
 from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 

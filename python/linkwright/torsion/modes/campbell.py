@@ -47,7 +47,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import COUNT, RATIO, SPEED, not_negative, positive
+from linkwright.kernel.units.kinds import COUNT, RATIO, SPEED
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.modes.free import FreeVibration
 from linkwright.torsion.modes.modes_over_speed import ModesAt, constant, over_speed

@@ -45,7 +45,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequencies
 from linkwright.torsion.core.train import ReferredTrain, refer

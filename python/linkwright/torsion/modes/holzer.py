@@ -32,7 +32,9 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import FREQUENCY, SPEED, not_negative, parse
+from linkwright.kernel.units.kinds import FREQUENCY, SPEED
+from linkwright.kernel.units.marks import not_negative
+from linkwright.kernel.units.reading import parse
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.distributed import lossless
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer

@@ -27,7 +27,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import LENGTH, positive
+from linkwright.kernel.units.kinds import LENGTH
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import train_of

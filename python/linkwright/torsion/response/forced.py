@@ -35,7 +35,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, not_negative
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train

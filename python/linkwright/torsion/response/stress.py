@@ -29,7 +29,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.kernel.units import SPEED, positive
+from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.drive_line import steady_speed, train_of
 from linkwright.torsion.excitation.excited_train import excited_train

@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.kernel.page.numbers import measured, parted, quantity
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.page.table import Row, Table
-from linkwright.kernel.units import PRESSURE, Kind
+from linkwright.kernel.units.kinds import PRESSURE, Kind
 from linkwright.torsion.limits.barred_range import BarredRange
 from linkwright.torsion.limits.crank_fatigue import ACCEPTABLE, CrankshaftFatigue
 from linkwright.torsion.limits.critical_response import CriticalResponse

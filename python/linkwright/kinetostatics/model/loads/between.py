@@ -8,7 +8,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
-from linkwright.kernel.units import (
+from linkwright.kernel.units.kinds import (
     DAMPING,
     FORCE,
     LENGTH,
@@ -16,6 +16,8 @@ from linkwright.kernel.units import (
     STIFFNESS,
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
+)
+from linkwright.kernel.units.marks import (
     Angle,
     Bound,
     Force,

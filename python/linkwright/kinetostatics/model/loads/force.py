@@ -14,18 +14,8 @@ from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.description.formula import VARIABLES, names, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults, used_names
-from linkwright.kernel.units import (
-    ACCELERATION,
-    DAMPING,
-    FORCE,
-    TORQUE,
-    TORSIONAL_DAMPING,
-    Angle,
-    AnyQuantity,
-    Force,
-    Torque,
-    not_negative,
-)
+from linkwright.kernel.units.kinds import ACCELERATION, DAMPING, FORCE, TORQUE, TORSIONAL_DAMPING
+from linkwright.kernel.units.marks import Angle, AnyQuantity, Force, Torque, not_negative
 
 
 class Load(CheckedDescription):

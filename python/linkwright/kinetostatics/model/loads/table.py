@@ -14,7 +14,7 @@ from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faul
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import moves
 from linkwright.kernel.numerics.tangent_array import variables_of
-from linkwright.kernel.units import Angles, Forces, Lengths, Speeds, Torques
+from linkwright.kernel.units.marks import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
 
 # A table over the whole cycle may close exactly; printed degrees and π are rounded.

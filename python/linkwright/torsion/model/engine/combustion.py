@@ -35,7 +35,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import fault
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import ENERGY, TEMPERATURE, positive
+from linkwright.kernel.units.kinds import ENERGY, TEMPERATURE
+from linkwright.kernel.units.marks import positive
 from linkwright.torsion.model.engine.closed_cycle import ClosedGas, Rule
 from linkwright.torsion.model.engine.cycle_pressure import (
     CycleMesh,

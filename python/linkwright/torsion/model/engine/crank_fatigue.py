@@ -26,7 +26,8 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
-from linkwright.kernel.units import LENGTH, PRESSURE, Angle, not_negative, positive
+from linkwright.kernel.units.kinds import LENGTH, PRESSURE
+from linkwright.kernel.units.marks import Angle, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.crank_concentration import ThrowRatios
 from linkwright.torsion.model.engine.throw import CrankThrow

@@ -27,7 +27,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.limits import THROWS
-from linkwright.kernel.units import INERTIA, MASS, RATIO, Angles, not_negative, positive
+from linkwright.kernel.units.kinds import INERTIA, MASS, RATIO
+from linkwright.kernel.units.marks import Angles, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.crank_fatigue import CrankFatigue

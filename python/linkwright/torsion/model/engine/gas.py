@@ -23,17 +23,8 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.units import (
-    PRESSURE,
-    RATIO,
-    SPEED,
-    Bound,
-    Pressures,
-    Quantity,
-    Speeds,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import PRESSURE, RATIO, SPEED
+from linkwright.kernel.units.marks import Bound, Pressures, Quantity, Speeds, not_negative, positive
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
 from linkwright.torsion.model.engine.cylinder import Cylinder
 

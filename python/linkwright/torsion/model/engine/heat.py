@@ -41,17 +41,8 @@ from pydantic import Field
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description
-from linkwright.kernel.units import (
-    ANGLE,
-    FRACTION,
-    INSIDE_ONE,
-    RATIO,
-    TEMPERATURE,
-    Angle,
-    Quantity,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import ANGLE, RATIO, TEMPERATURE
+from linkwright.kernel.units.marks import FRACTION, INSIDE_ONE, Angle, Quantity, not_negative, positive
 
 # Of the heat, 99.9 % is released within the duration: -ln 0.001.
 _COMPLETE = -math.log(0.001)

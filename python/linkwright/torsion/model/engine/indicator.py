@@ -38,7 +38,8 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.units import ANGLE, Angle, Angles, Pressures, positive
+from linkwright.kernel.units.kinds import ANGLE
+from linkwright.kernel.units.marks import Angle, Angles, Pressures, positive
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure, periodic_cubic
 from linkwright.torsion.model.engine.cylinder import Cylinder
 from linkwright.torsion.model.engine.gas import Exponent, Gas, TableGasLoad, below, check_reach

@@ -41,7 +41,8 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.units import ACCELERATION, LENGTH, TIME, not_negative, positive
+from linkwright.kernel.units.kinds import ACCELERATION, LENGTH, TIME
+from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
 
 # The paper's rounding of g (60/π)² [cm/min²], and its g [cm/s²].

@@ -33,18 +33,8 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault
-from linkwright.kernel.units import (
-    INERTIA,
-    INSIDE_ONE,
-    LENGTH,
-    MASS,
-    RATIO,
-    Angle,
-    Length,
-    Quantity,
-    not_negative,
-    positive,
-)
+from linkwright.kernel.units.kinds import INERTIA, LENGTH, MASS, RATIO
+from linkwright.kernel.units.marks import INSIDE_ONE, Angle, Length, Quantity, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.pendulum import (
     Swing,

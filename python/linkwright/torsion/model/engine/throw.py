@@ -15,7 +15,8 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
-from linkwright.kernel.units import INERTIA, LENGTH, MASS, Angle, Length, Lengths, not_negative, positive
+from linkwright.kernel.units.kinds import INERTIA, LENGTH, MASS
+from linkwright.kernel.units.marks import Angle, Length, Lengths, not_negative, positive
 from linkwright.linkages.model.element import PositiveLength
 from linkwright.torsion.model.engine.polygon import Points, first_crossing, holds, signed_area
 from linkwright.torsion.model.shaft_section import Density, Modulus

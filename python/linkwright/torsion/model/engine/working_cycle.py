@@ -31,7 +31,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description, fault
 from linkwright.kernel.errors import FindingError, MachineError, Problem
-from linkwright.kernel.units import ANGLE, positive
+from linkwright.kernel.units.kinds import ANGLE
+from linkwright.kernel.units.marks import positive
 from linkwright.torsion.model.engine.closed_cycle import (
     ClosedGas,
     ClosedTrace,

@@ -12,7 +12,7 @@ import pytest
 from sizes import DEEP
 
 import linkwright as lw
-from linkwright.app.soundness import soundness
+from linkwright.app.feasibility import feasibility
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.machine.machine import Machine
 
@@ -46,7 +46,7 @@ def told(machine: Machine) -> set[str]:
 
 def seen(machine: Machine) -> set[str]:
     """Findings of the check."""
-    return {without_heads(text) for text in soundness(machine).findings}
+    return {without_heads(text) for text in feasibility(machine).findings}
 
 
 def without_heads(text: str) -> str:
@@ -80,7 +80,7 @@ BROKEN = (
 def test_a_check_says_what_is_broken(name: str, changes: dict[str, Any], words: str) -> None:
     path = next(each for each in SHIPPED if name_of(each) == name)
     machine = changed(path, changes)
-    found = soundness(machine).findings
+    found = feasibility(machine).findings
     assert any(re.search(words, text) for text in found), found
     assert told(machine) <= {without_heads(text) for text in found}
 
@@ -90,7 +90,7 @@ def test_a_check_sees_what_a_field_of_roots_refuses() -> None:
     machine = changed(path, {"topper.knife_speed": 30.0})
     with pytest.raises(FindingError) as refused:
         lw.topper_field(machine)
-    assert str(refused.value) in soundness(machine).findings
+    assert str(refused.value) in feasibility(machine).findings
 
 
 # Machines with neither motor nor loads to solve for, whose lengths are drawn anew.

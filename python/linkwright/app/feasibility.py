@@ -15,7 +15,7 @@ from linkwright.machine.machine import Machine
 
 
 @dataclass(frozen=True)
-class Soundness:
+class Feasibility:
     """What was looked at, and what was found."""
 
     looked_at: tuple[str, ...]  # what was looked at, in words
@@ -23,7 +23,7 @@ class Soundness:
     warnings: tuple[str, ...]  # what its designer should know although it moves, in sentences
 
 
-def soundness(machine: Machine) -> Soundness:
+def feasibility(machine: Machine) -> Feasibility:
     """Look at all of a machine that can be judged without solving for its motion; with the findings."""
     findings = Findings()
     looked = [
@@ -32,4 +32,4 @@ def soundness(machine: Machine) -> Soundness:
         if analysis.check is not None and analysis.applies(machine)
         for text in analysis.check(machine, findings)
     ]
-    return Soundness(tuple(looked), findings.findings, findings.warnings)
+    return Feasibility(tuple(looked), findings.findings, findings.warnings)

@@ -24,7 +24,8 @@ from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result, finite
-from linkwright.kernel.units import ACUTE, ANGLE, LENGTH, Quantity, positive
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
+from linkwright.kernel.units.marks import ACUTE, Quantity, positive
 from linkwright.topping.required_length import (
     constant_speed_lengths,
     every_phase_length,
