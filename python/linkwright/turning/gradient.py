@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.extreme import TIE, apart, degrees, occurs_at
+from linkwright.kernel.numerics.extreme import TIE, apart, chosen, degrees, occurs_at, off
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, followed
+from linkwright.machine.tangents import Derivatives, followed, spread
 from linkwright.turning.diagram import (
     DRIVER,
     EXCESS,
@@ -54,16 +54,12 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     refused = dict.fromkeys(_jump_movers(machine.turning_moment) & set(own), _MOVES_JUMP)
     own = [name for name in own if name not in refused]
     known, numbers_of = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
-    place = {name: at for at, name in enumerate(known)}
     listed = tuple(name for name in variables if name not in refused)
-    tangents = {}
-    for name, number in numbers_of.items():
-        value = getattr(result, name)
-        if value is None:
-            continue
-        d = lifted(number, len(known)).d
-        row = np.array([d[place[variable]] if variable in place else 0.0 for variable in listed])
-        tangents[name] = Tangent(float(value), row)
+    tangents = {
+        name: spread(number, known, listed, float(value))
+        for name, number in numbers_of.items()
+        if (value := getattr(result, name)) is not None
+    }
     made_of_energy = dict.fromkeys(_OF_ENERGY & set(tangents), work.tie) if work.tie else {}
     ties = made_of_energy | work.ties | _lost(tangents, listed)
     return Derivatives(listed, tangents, {name: ties[name] for name in tangents if name in ties}, {}, refused)
@@ -108,7 +104,7 @@ def _lost(tangents: dict[str, Tangent], variables: Sequence[str]) -> dict[str, s
     """What lies on a corner of a table that an entry moves."""
     lost = {}
     for name, tangent in tangents.items():
-        moved = [by for by, d in zip(variables, tangent.d, strict=True) if np.isnan(d)]
+        moved = chosen(variables, np.isnan(tangent.d))
         if moved:
             lost[name] = (
                 "the extreme occurs at a corner of the torque; there is no derivative with respect to "
@@ -170,9 +166,9 @@ class _OfCurves:
         E = energy.at(at)[0]
         for word, sign, end in (("maximum", 1.0, self.ends[0]), ("minimum", -1.0, self.ends[1])):
             near = at[sign * E >= (sign * E).max() - TIE * float(np.ptp(E))]
-            off = np.abs((near - end + 0.5 * self.cycle) % self.cycle - 0.5 * self.cycle)
-            if (off > TIE).any():
-                return f"the {word} of the energy occurs at {degrees(end)} and {degrees(near[off > TIE][0])}"
+            others = near[off(near, end, self.cycle) > TIE]
+            if len(others):
+                return f"the {word} of the energy occurs at {degrees(end)} and {degrees(others[0])}"
         return ""
 
     def scalars(self, described: TurningMoment) -> dict[str, Any]:
@@ -213,7 +209,7 @@ class _OfCurves:
         slopes = lifted(curve, variables_of((curve,)) or 1).d[there]
         rivals = at[there][apart(slopes).any(axis=1)]
         if len(rivals):
-            self.ties[name] = occurs_at(map(degrees, (angle, rivals[0])))
+            self.ties[name] = occurs_at((angle, rivals[0]))
         return curve[int(there[0])]
 
     def _beside(self, described: TurningMoment, k: int, phi: Floats) -> tuple[Any, Floats]:
