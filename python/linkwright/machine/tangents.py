@@ -241,7 +241,7 @@ def spread(number: Any, known: Sequence[str], listed: Sequence[str], value: floa
     along = lifted(number, len(known))
     d = dict(zip(known, along.d, strict=True))
     row = np.array([d.get(name, 0.0) for name in listed])
-    return Tangent(along.value if value is None else value, row)
+    return Tangent(float(along.value) if value is None else value, row)
 
 
 def followed(

@@ -84,12 +84,12 @@ class Roots(Result):
         self,
     ) -> Annotated[Floats, Label("diameter of the disc that is cut", "d", "m", over="diameter")]:
         """Of the head at the height of the cut."""
-        return head_diameter(self.root_diameter, self.cut_height)
+        return np.asarray(head_diameter(self.root_diameter, self.cut_height))
 
     @property
     def cap(self) -> Annotated[Floats, Label("volume above the cut", "", "m³", over="cap")]:
         """A cap of the sphere."""
-        return cap_volume(self.root_diameter, self.cut_height)
+        return np.asarray(cap_volume(self.root_diameter, self.cut_height))
 
     @property
     def volume(self) -> Annotated[Floats, Label("volume of the root", "", "m³", over="volume")]:

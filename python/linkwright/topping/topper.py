@@ -214,7 +214,7 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     """
     described = require_topper(machine)
     edges = edges_of(machine, described)
-    numbers = {name: float(number) for name, number in closed_forms(described, edges).items()}
+    numbers: dict[str, Any] = {name: float(number) for name, number in closed_forms(described, edges).items()}
     d = numbers["head_diameter"]
     place, use = edge_use(edges, d, described.offset)
     reasons = [barely_advances(edge, d, described.offset) for edge in edges]

@@ -120,7 +120,7 @@ def passes(edge: Edge, heads: Heads, level: float) -> Floats:
     spare = (abs(reach * sin) + _SPARE * heads.radius) / edge.mean_advance
 
     def missing(t: Floats) -> Floats:
-        return edge.place(t, heads.phase, heads.offset)[1] - level
+        return np.asarray(edge.place(t, heads.phase, heads.offset)[1] - level)
 
     return zeros(missing, middle - spare, middle + spare)[0]
 

@@ -69,8 +69,8 @@ def worst_left_along(
             other = _Worst(described, topper, edges[at], along[at], there).numbers()[0]
             both = np.stack([numbers["uncut_share"].d, other["uncut_share"].d])
             # Heads that are mirror images, whose places are looked for.
-            d = common(both, alike=ALIKE_OF_SOLVED)
-            numbers["uncut_share"] = Tangent(numbers["uncut_share"].value, d)
+            of_both = common(both, alike=ALIKE_OF_SOLVED)
+            numbers["uncut_share"] = Tangent(numbers["uncut_share"].value, of_both)
     return numbers, missing
 
 
