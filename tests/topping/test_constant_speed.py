@@ -294,9 +294,9 @@ def test_cap_is_the_discs_piled_up(D: float, h: float) -> None:
 
 def test_cut_beside_the_root() -> None:
     D = 0.1
-    assert np.array_equal(head_diameter(D, [-0.01, 0.0, D, 0.12]), np.zeros(4))
-    assert np.array_equal(cap_volume(D, [-0.01, 0.0]), np.zeros(2))
-    assert cap_volume(D, [D, 0.2]) == pytest.approx([math.pi / 6 * D**3] * 2, rel=EXACT)
+    assert np.array_equal(head_diameter(D, np.array([-0.01, 0.0, D, 0.12])), np.zeros(4))
+    assert np.array_equal(cap_volume(D, np.array([-0.01, 0.0])), np.zeros(2))
+    assert cap_volume(D, np.array([D, 0.2])) == pytest.approx([math.pi / 6 * D**3] * 2, rel=EXACT)
 
 
 @given(st.floats(0.02, 0.3), st.floats(0.0, 1.0))

@@ -263,7 +263,8 @@ def test_measured_roots_from_a_file(tmp_path: Path) -> None:
     assert found.share_complete == pytest.approx(shares.mean(), rel=1e-12)
     assert shares[2] == 0
     assert found.loss_mean == pytest.approx(
-        float(np.mean(cap_volume([0.1, 0.12, 0.131, 0.1], [0.025, 0.031, 0.04, 0.0]))), rel=1e-12
+        float(np.mean(cap_volume(np.array([0.1, 0.12, 0.131, 0.1]), np.array([0.025, 0.031, 0.04, 0.0])))),
+        rel=1e-12,
     )
     # The file that is written has the roots themselves, and reads back as the same machine.
     again = lw.loads(dumps(topped))

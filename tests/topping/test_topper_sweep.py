@@ -68,7 +68,9 @@ def test_heights_are_shifted_to_their_mean() -> None:
     assert swept.haulm_mean[0] == 1
     assert swept.loss_mean[0] == 0
     constant = sweep_field(machine(RANDOM), {"cut_height": [0.02, 0.04]})
-    assert constant.loss_mean.tolist() == pytest.approx(cap_volume(0.11, [0.02, 0.04]).tolist(), rel=1e-12)
+    assert constant.loss_mean.tolist() == pytest.approx(
+        cap_volume(0.11, np.array([0.02, 0.04])).tolist(), rel=1e-12
+    )
     assert swept.loss_mean[2] == pytest.approx(constant.loss_mean[1], rel=0.02)
 
 

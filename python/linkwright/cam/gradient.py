@@ -26,8 +26,9 @@ from linkwright.cam.core import CamKernel
 from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.cam import Cam
 from linkwright.cam.profile.contact import Contact, contacts, opposite
-from linkwright.cam.profile.profile import CamProfile, cam_profile, unit_in
+from linkwright.cam.profile.profile import CamProfile, cam_profile, in_time, radius_beside, unit_in
 from linkwright.kernel.arrays import Bools, Floats
+from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, apart, degrees
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
 from linkwright.kernel.quantities import shown
@@ -35,11 +36,8 @@ from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, columns
 
-# Extremes this near, as a share of the curve's range, tie.
-_TIE = 1e-7
-
-# Extremes that change by less than this share of the curve's size for an entry doubled do not differ.
-_SAME = 1e-8
+# Their places are looked for.
+_TIE = TIE_OF_SOLVED
 
 # Angles in a piece of the law at which a curve is looked at; the shortest pieces still show their extremes.
 _LOOK = 90
@@ -79,7 +77,7 @@ def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Deriv
 
     def followed(along: Machine) -> list[Any]:
         scalars = _Scalars(along, profile, ties, scale)
-        return [getattr(scalars, key)() for key in values]
+        return [scalars.of(key) for key in values]
 
     by_entry = columns(machine, own, followed, refused)
     listed = tuple(entry for entry in variables if entry not in refused)
@@ -157,76 +155,47 @@ class _Scalars:
         self.profile, self.ties, self.scale = profile, ties, scale
         self.design_speed: Any = None if machine.drive is None else machine.drive.speed
 
-    # -- motion ------------------------------------------------------------------------------------------
+    def of(self, name: str) -> Any:
+        """A scalar of the profile by its name."""
+        sizes = self.touching[0].sizes
+        match name:
+            case "speed":
+                return self.design_speed
+            case "base_radius":
+                return sizes.base_radius
+            case "prime_radius":
+                return sizes.base_radius + sizes.roller_radius
+            case "stroke":
+                # Both ends of it are dwells or turning points of the programme.
+                lift = self._of_law(self.cam.lift, 0)
+                return sum(self._greatest(name, lift, sign) for sign in (-1.0, 1.0))
+            case "velocity_max" | "acceleration_max" | "jerk_max":
+                order = 1 + ("velocity_max", "acceleration_max", "jerk_max").index(name)
+                peak = self._largest_in_size(name, [self._of_law(self.cam.lift, order)])
+                return in_time(peak, order, self.design_speed)
+            case "speed_constant":
+                slopes = [abs(slope) for slope in self.cam.motion.steady_velocities]
+                slopes.sort(key=lambda slope: -float(primal(slope)))
+                self._compare(name, slopes, "the velocities of two sections")
+                return in_time(slopes[0], 1, self.design_speed)
+            case "pressure_angle_max":
+                curves = [self._of_contact(k, "pressure_angle") for k in range(len(self.touching))]
+                return self._largest_in_size(name, curves)
+            case "diameter_min" | "diameter_max":
+                diameter = opposite(self.cam, self.touching[0]).diameter
+                return self._end(name, self._of_law(diameter, 0))
+            case "face_min" | "face_max":
+                return self._end(name, self._of_contact(0, "along"))
+        return self._radius(name)
 
-    def stroke(self) -> Any:
-        """Maximum lift; both ends of it are dwells or turning points of the programme."""
-        lift = self.cam.lift
-        lowest, highest = (self._greatest("stroke", self._of_law(lift, 0), sign) for sign in (-1.0, 1.0))
-        return highest + lowest
-
-    def velocity_max(self) -> Any:
-        """Largest in size at the design speed."""
-        return self._peak("velocity_max", 1)
-
-    def acceleration_max(self) -> Any:
-        """Largest in size at the design speed."""
-        return self._peak("acceleration_max", 2)
-
-    def jerk_max(self) -> Any:
-        """Largest in size at the design speed."""
-        return self._peak("jerk_max", 3)
-
-    def _peak(self, name: str, order: int) -> Any:
-        return (
-            self._largest_in_size(name, [self._of_law(self.cam.lift, order)])
-            * abs(self.design_speed) ** order
-        )
-
-    def speed_constant(self) -> Any:
-        """Velocity that is kept over a section."""
-        slopes = [abs(slope) for slope in self.cam.motion.steady_velocities]
-        slopes.sort(key=lambda slope: -float(primal(slope)))
-        self._compare("speed_constant", slopes, "the velocities of two sections")
-        return slopes[0] * abs(self.design_speed)
-
-    def speed(self) -> Any:
-        """Design speed."""
-        return self.design_speed
-
-    # -- geometry ----------------------------------------------------------------------------------------
-
-    def base_radius(self) -> Any:
-        """Of the first cam."""
-        return self.touching[0].sizes.base_radius
-
-    def prime_radius(self) -> Any:
-        """Of the first cam."""
-        return self.touching[0].sizes.base_radius + self.touching[0].sizes.roller_radius
-
-    def pressure_angle_max(self) -> Any:
-        """Largest in size over all contacts."""
-        curves = [self._of_contact(k, "pressure_angle") for k in range(len(self.touching))]
-        return self._largest_in_size("pressure_angle_max", curves)
-
-    def curvature_radius_min(self) -> Any:
-        """Convex or concave, what is smaller."""
+    def _radius(self, name: str) -> Any:
+        """Minimum radius of curvature of the profile of its convex parts, its concave ones, or both."""
         convex, concave = self.profile.curvature_radius_convex_min, self.profile.curvature_radius_concave_min
-        is_convex = convex is not None and (concave is None or convex <= concave)
-        if convex is not None and concave is not None and abs(convex - concave) <= _TIE * abs(convex):
-            self.ties["curvature_radius_min"] = "a convex and a concave part have the same radius"
-        return self._radius("curvature_radius_min", is_convex=is_convex)
-
-    def curvature_radius_convex_min(self) -> Any:
-        """Of the convex parts."""
-        return self._radius("curvature_radius_convex_min", is_convex=True)
-
-    def curvature_radius_concave_min(self) -> Any:
-        """Of the concave parts."""
-        return self._radius("curvature_radius_concave_min", is_convex=False)
-
-    def _radius(self, name: str, *, is_convex: bool) -> Any:
-        """Minimum radius of curvature of the profile, 1/κ − r_r beside the pitch curve."""
+        is_convex = name == "curvature_radius_convex_min"
+        if name == "curvature_radius_min":
+            is_convex = convex is not None and (concave is None or convex <= concave)
+            if convex is not None and concave is not None and abs(convex - concave) <= _TIE * abs(convex):
+                self.ties[name] = "a convex and a concave part have the same radius"
         if not self.cam.is_roller:
             return -self._greatest(name, self._of_contact(0, "bend"), -1.0)
         sign, radii = (1.0 if is_convex else -1.0), []
@@ -234,29 +203,10 @@ class _Scalars:
             # Curvature is largest where the radius is smallest; behind an inflection it has the other sign.
             bend = self._greatest(name, self._of_contact(k, "bend"), sign)
             if primal(bend) > 0:
-                radii.append(1.0 / bend - sign * contact.sizes.roller_radius)
+                radii.append(radius_beside(sign * bend, contact.sizes.roller_radius, sign))
         radii.sort(key=lambda radius: float(primal(radius)))
         self._compare(name, radii, "the radii at both contacts")
         return radii[0]
-
-    def diameter_min(self) -> Any:
-        """Of the cam between two followers."""
-        return -self._greatest("diameter_min", self._diameter(), -1.0)
-
-    def diameter_max(self) -> Any:
-        """Of the cam between two followers."""
-        return self._greatest("diameter_max", self._diameter(), 1.0)
-
-    def _diameter(self) -> _Curve:
-        return self._of_law(opposite(self.cam, self.touching[0]).diameter, 0)
-
-    def face_min(self) -> Any:
-        """Place of the contact along a flat face."""
-        return -self._greatest("face_min", self._of_contact(0, "along"), -1.0)
-
-    def face_max(self) -> Any:
-        """Place of the contact along a flat face."""
-        return self._greatest("face_max", self._of_contact(0, "along"), 1.0)
 
     # -- curves and their extremes -----------------------------------------------------------------------
 
@@ -278,11 +228,15 @@ class _Scalars:
         self._compare(name, [value for value, _ in ends], "two peaks, of either sign or contact,")
         return ends[0][0]
 
+    def _end(self, name: str, curve: _Curve) -> Any:
+        """The minimum or maximum of a curve, as the name says."""
+        sign = 1.0 if name.endswith("_max") else -1.0
+        return sign * self._greatest(name, curve, sign)
+
     def _greatest(self, name: str, curve: _Curve, sign: float) -> Any:
         """The maximum of sign times a curve with its derivatives; a tie is listed under a name."""
         value, tie = self._extreme(curve, sign)
-        if tie:
-            self.ties[name] = tie
+        self.ties |= {name: tie} if tie else {}
         return value
 
     def _extreme(self, curve: _Curve, sign: float) -> tuple[Any, str]:
@@ -292,7 +246,7 @@ class _Scalars:
         size = float(np.abs(curve.looked_at()[2]).max())
         for phi, side in places[1:]:
             if self._differ(first, sign * curve.tangent(phi, side), size):
-                both = " and ".join(f"{np.degrees(angle):.4g}°" for angle in (places[0][0], phi))
+                both = " and ".join(map(degrees, (places[0][0], phi)))
                 return first, f"the extreme occurs at cam angles θ = {both}"
         return first, ""
 
@@ -307,7 +261,7 @@ class _Scalars:
         """Whether two extremes of a curve of some size follow an entry differently."""
         d, e = (x.d if isinstance(x, Tangent) else np.zeros(1) for x in (one, other))
         scale = self.scale if max(len(d), len(e)) == len(self.scale) else 1.0
-        return bool(np.any(np.abs(d - e) * scale > _SAME * size))
+        return bool(apart(np.stack(np.broadcast_arrays(d, e)), size / scale).any())
 
 
 def _row(kernel: CamKernel, name: str, phi: Any, side: Side) -> Any:

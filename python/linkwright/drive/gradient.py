@@ -20,6 +20,16 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import SteadyState, solved_state, unknown_work
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.extreme import (
+    ALIKE_OF_SOLVED,
+    READINGS,
+    TIE_OF_SOLVED,
+    Kinks,
+    as_high,
+    chosen,
+    occurs_at,
+    they_differ,
+)
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, declared
 from linkwright.linkages.closure import turn_angles
@@ -40,31 +50,17 @@ _LOOK = 1440
 _ACCURACY, _ACCURACY_WITH_FORMULAS = 1e-11, 1e-13
 _BESIDE = np.geomspace(1e-9, 3e-3, 14)
 
-# How far a rival may seem to stay below the extreme before it is read more closely, as a share of the range:
-# far more than the angles above leave.
-_DOUBT = 1e-2
-
-# Rounds in which a peak is closed in on, and readings of each: an eighth of the interval, and a 64th of what
-# the height lacks, from round to round.
-_ROUNDS, _READINGS = 3, 17
+# Rounds in which a peak is closed in on.
+_ROUNDS = 3
 
 # Change of a gearbox's efficiency beside 1: of the order of the accuracy above.
 _NEXT_TO_NOTHING = 1e-11
-
-# Angles of a tie that a message lists.
-_TOLD = 4
 
 # Peaks nearer than this [rad] are one: the two sides of a corner.
 _APART = 1e-3
 
 # How far the angles of rivals are known at most [rad], by the last of these rounds.
-_OFF = 2 * (2 * np.pi / _LOOK) / (_READINGS - 1) * (2 / (_READINGS - 1)) ** (_ROUNDS - 1)
-
-# Derivatives of rivals that differ by less than this share of their size are one.
-_ALIKE = 1e-7
-
-# Extremes that are this near, as a share of the curve's range, tie: their heights are not known better.
-_TIE = 1e-7
+_OFF = 2 * (2 * np.pi / _LOOK) / (READINGS - 1) * (2 / (READINGS - 1)) ** (_ROUNDS - 1)
 
 # Share of a speed to both sides at which the motor's torque is read for its slope.
 _ASIDE = 1e-6
@@ -298,16 +294,22 @@ class _Tie:
 
     def words(self, compiled: CompiledMachine, gradient: SteadyGradient, along: Directions) -> str:
         """Where, and by which entries there are only one-sided derivatives; empty if by none."""
-        differs = self._differs(compiled, gradient, along.sizes) | self._moved(compiled, along.values)
-        places = _listed([f"{np.degrees(angle):.4g}°" for angle in self.angles], " and ", "angles")
-        return _with_others(f"the extreme occurs at {places}", differs, along)
+        differs = self._differs(compiled, gradient, along.sizes)
+        # A rival on a kink that an entry moves moves with it.
+        kinks = Kinks.of(compiled, along)
+        for angle in self.angles:
+            differs = differs | kinks.moved_at(angle, 2 * _OFF)
+        by = chosen(along.variables, differs)
+        return occurs_at(self.angles, by) if by else ""
 
     def _differs(self, compiled: CompiledMachine, gradient: SteadyGradient, sizes: Floats) -> Bools:
         """Whether derivatives of rivals differ in each direction, or bend there, (directions,)."""
         near = (np.array(self.angles)[:, None] + np.array([-_OFF, 0.0, _OFF])) % compiled.cycle
         order, back = np.unique(near, return_inverse=True)
         slopes = getattr(gradient.curves(order), self.quantity)[back.reshape(near.shape)]
-        rounding = np.maximum(_ALIKE * np.abs(slopes).max(axis=(0, 1)), _ROUNDING * abs(self.value) / sizes)
+        rounding = np.maximum(
+            ALIKE_OF_SOLVED * np.abs(slopes).max(axis=(0, 1)), _ROUNDING * abs(self.value) / sizes
+        )
         low, high = slopes.min(axis=1), slopes.max(axis=1)
         is_one = low.max(axis=0) - high.min(axis=0) <= rounding
         bend = np.abs(slopes[:, 1] - 0.5 * (slopes[:, 0] + slopes[:, 2]))
@@ -315,28 +317,6 @@ class _Tie:
         is_known = np.isfinite(slopes).all(axis=(0, 1))
         differs: Bools = is_known & ~(is_one & (bend <= 0.25 * (high - low) + rounding).all(axis=0))
         return differs
-
-    def _moved(self, compiled: CompiledMachine, directions: Floats) -> Bools:
-        """Whether each direction moves a kink on which a rival lies, so that this moves with it."""
-        kinks = compiled.kinks()
-        off = np.abs(np.subtract.outer(np.array(self.angles), kinks))
-        on = kinks[(np.minimum(off, compiled.cycle - off) <= 2 * _OFF).any(axis=0)]
-        if not len(on):
-            return np.zeros(directions.shape[1], dtype=bool)
-        moved: Bools = (compiled.kinks_along(directions, on) != 0).any(axis=0)
-        return moved
-
-
-def _with_others(tie: str, differs: Bools, along: Directions) -> str:
-    """A tie with the entries for which the derivatives of its sides differ; empty if for none."""
-    by = [name for name, differs_by in zip(along.variables, differs, strict=True) if differs_by]
-    return f"{tie}; the derivatives with respect to {_listed(by, ', ', 'entries')} differ" if by else ""
-
-
-def _listed(words: list[str], between: str, what: str) -> str:
-    """The first of some words, and how many more there are; of one more it is the word."""
-    rest = [f"{len(words) - _TOLD} {what} more"] if len(words) > _TOLD + 1 else words[_TOLD:]
-    return between.join(words[:_TOLD] + rest)
 
 
 def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, _Tie]:
@@ -356,12 +336,13 @@ def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolutio
 def _equal_peaks(state: SteadyState, gradient: SteadyGradient, along: Directions) -> str:
     """By which entries the larger peak of the acceleration changes its sign; empty if it does by none."""
     low, high = state.acceleration_min, state.acceleration_max
-    if abs(low + high) > _TIE * (high - low):
+    if abs(low + high) > TIE_OF_SOLVED * (high - low):
         return ""
     change = np.abs(gradient.acceleration_min + gradient.acceleration_max)
     # One that was lost at a kink is named for that.
-    differs = np.isfinite(change) & (change > _ALIKE * np.abs(gradient.acceleration_max))
-    return _with_others("its positive and negative peaks are equal", differs, along)
+    differs = np.isfinite(change) & (change > ALIKE_OF_SOLVED * np.abs(gradient.acceleration_max))
+    by = chosen(along.variables, differs)
+    return f"its positive and negative peaks are equal; {they_differ(by)}" if by else ""
 
 
 class _Peaks:
@@ -383,36 +364,9 @@ class _Peaks:
 
     def as_high_as(self, extreme: tuple[float, float], quantity: str, sign: float) -> list[float]:
         """Angles [rad] of the highest peak and of all that are as high, of a curve with a sign."""
-        at, top = extreme
-        curve = sign * getattr(self.curves, quantity)
-        span = float(np.ptp(curve))
-        near = np.flatnonzero(curve >= top - _DOUBT * span)
-        before, behind = near - 1, (near + 1) % len(curve)
-        is_peak = (curve[near] >= curve[before]) & (curve[near] > curve[behind])
-        is_peak &= self._apart(self.angles[near], at) > _APART
-        if not is_peak.any():
-            return [at]
-        peaks = near[is_peak]
-        low = self.angles[before[is_peak]] - self.cycle * (peaks == 0)
-        high = self.angles[behind[is_peak]] + self.cycle * (peaks == len(curve) - 1)
-        places, heights = self._refined(low, high, quantity, sign)
-        angles = [at]
-        for angle in places[heights >= top - _TIE * span] % self.cycle:
-            if self._apart(np.array(angles), angle).min() > _APART:
-                angles.append(float(angle))
-        return sorted(angles)
+        looked = self.angles, sign * getattr(self.curves, quantity)
 
-    def _refined(self, low: Floats, high: Floats, quantity: str, sign: float) -> tuple[Floats, Floats]:
-        """Angles [rad] and heights of the peaks between angles, closed in on from reading to reading."""
-        rows = np.arange(len(low))
-        for _ in range(_ROUNDS):
-            angles = np.linspace(low, high, _READINGS, axis=-1)
-            values = sign * self._read(angles, quantity)
-            best = values.argmax(axis=-1)
-            low, high = (angles[rows, np.clip(best + way, 0, _READINGS - 1)] for way in (-1, 1))
-        return angles[rows, best], values[rows, best]
+        def read(angles: Floats) -> Floats:
+            return sign * self._read(angles, quantity)
 
-    def _apart(self, angles: Floats, angle: float) -> Floats:
-        """How far angles are from another one round the cycle [rad]."""
-        half = 0.5 * self.cycle
-        return np.abs((angles - angle + half) % self.cycle - half)
+        return as_high(read, looked, extreme, self.cycle, near=_APART, rounds=_ROUNDS)

@@ -14,20 +14,18 @@ import numpy as np
 
 from linkwright.drive.evenness import inertias, mean_of_extremes, motion_coefficient, unevenness
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, Kinks, common, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.tangents import Derivatives, Directions, directions
+from linkwright.machine.tangents import Derivatives, Directions, directions, spread
 
-# Share of the peak within which extremes at two angles are one: the series are good to 1e-13.
+# Share of the peak within which extremes at two angles are one: the series are good to 1e-13, and ends of
+# their pieces beside a top are not taken for rivals.
 _SAME = 1e-11
-
-# Share of the largest derivative by which those of an extreme at two angles may differ: angles are good to
-# 1e-7.
-_ALIKE = 1e-5
 
 # An extreme this near to a joint of a motion law is on it [rad].
 _ON_JOINT = 1e-7
@@ -75,13 +73,7 @@ def constant_energy_tangents(machine: Machine, variables: Sequence[str]) -> Deri
     of_speed = largest.why or smallest.why
     whys = {"unevenness": of_speed, "dynamism": of_speed or peak.why}
     whys["motion_coefficient"] = whys["dynamism"]
-    at = {name: i for i, name in enumerate(program.variables)}
-    tangents = {
-        name: Tangent(
-            number.value, np.array([number.d[at[entry]] if entry in at else 0.0 for entry in listed])
-        )
-        for name, number in numbers.items()
-    }
+    tangents = {name: spread(number, program.variables, listed) for name, number in numbers.items()}
     ties = {name: why for name, why in whys.items() if why and np.isnan(tangents[name].d).any()}
     return Derivatives(listed, tangents, ties, {}, refused)
 
@@ -101,9 +93,7 @@ class _Reads:
 
     def __init__(self, compiled: CompiledMachine, program: Directions, turn: TurnCurve) -> None:
         self.compiled, self.program, self.turn = compiled, program, turn
-        joints = compiled.kinks()
-        moves = compiled.kinks_along(program.values, joints) != 0
-        self.joints, self.moves = joints[moves.any(axis=1)], moves[moves.any(axis=1)]
+        self.kinks = Kinks.of(compiled, program)
 
     def inertia(self, sign: int) -> _Extreme:
         """The maximum or minimum inertia."""
@@ -127,21 +117,10 @@ class _Reads:
 
     def _extreme(self, value: float, angles: Floats, along: Floats) -> _Extreme:
         """An extreme that is reached at some angles, with the derivatives that it has at all of them."""
-        apart = np.abs(along - along[0]) > _ALIKE * np.abs(along).max(initial=0.0)
-        lost = apart.any(axis=0)
-        places = " and ".join(dict.fromkeys(map(_degrees, angles)))
-        why = f"the extreme occurs at {places}" if lost.any() else ""
-        half = 0.5 * self.compiled.cycle
-        for angle in angles:
-            on = np.abs(np.remainder(self.joints - angle + half, self.compiled.cycle) - half) <= _ON_JOINT
-            if on.any():
-                lost |= self.moves[on].any(axis=0)
-                why = (
-                    f"the extreme occurs at {_degrees(angle)}, at a segment boundary of a motion law that "
-                    "an entry moves"
-                )
-        return _Extreme(Tangent(value, np.where(lost, np.nan, along[0])), why)
-
-
-def _degrees(angle: float) -> str:
-    return f"{np.degrees(angle):.4g}°"
+        d = common(along, alike=ALIKE_OF_SOLVED)
+        why = occurs_at(angles) if np.isnan(d).any() else ""
+        for angle in angles.tolist():
+            moving = self.kinks.moved_at(angle, _ON_JOINT)
+            if moving.any():
+                d, why = np.where(moving, np.nan, d), self.kinks.words(angle, moving)
+        return _Extreme(Tangent(value, d), why)

@@ -21,6 +21,7 @@ from linkwright.drive.gradient import gradient_along, solved_along
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
+from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, Kinks, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
@@ -42,20 +43,14 @@ from linkwright.machine.tangents import Derivatives, Directions, directions, fol
 # Relative accuracy of the steady motion, and its intervals per revolution: those of `forces`.
 _ACCURACY, _N = 1e-9, 360
 
-# Extremes this near, as a share of the curve's range, tie: the steady motion is not known better.
-_TIE = 1e-7
-
 # A peak below this share of what forces and torques are made of is rounding.
 _NOTHING = 1e-12
 
 # Share of a speed to both sides at which the motor's torque is read for its slope.
 _ASIDE = 1e-6
 
-# A kink that moves by less than this [rad] for its entry doubled stays where it is.
-_ROUNDING = 1e-12
-
 # An angle this near to a kink [rad] is on it; its two sides are looked at this far from it.
-_ON_KINK, _BESIDE = 1e-8, 5e-9
+ON_KINK, _BESIDE = 1e-8, 5e-9
 
 
 class _Entries(NamedTuple):
@@ -74,7 +69,7 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     entries = _entries(machine, variables)
     program = entries.program
     solution = _solution(machine, program)
-    kinks = Kinks(machine, program, solution)
+    kinks = kinks_of(machine, program)
     motion, is_beside = _motion_and_sides(machine, kinks)
     scene = Scene(machine, motion)
     curves = {
@@ -104,10 +99,10 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     for name, place in places.items():
         (curve, sides), angle = curves[name], float(angles[place])
         tangent = tangents[name][int(np.searchsorted(at, angle))].number()
-        moving = kinks.moved_at(angle)
-        larger = beside[np.abs(sides) > peaks[name] * (1.0 + _TIE)].tolist()
+        moving = kinks.moved_at(angle, ON_KINK)
+        larger = beside[np.abs(sides) > peaks[name] * (1.0 + TIE_OF_SOLVED)].tolist()
         for other in larger:
-            moving = moving | kinks.moved_at(other)
+            moving = moving | kinks.moved_at(other, ON_KINK)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
         extremes[name] = Tangent(float(curve[place]), np.where(moving, np.nan, tangent.d))
         reasons = [tied(np.abs(curve), place, angles)]
@@ -133,7 +128,7 @@ def drive_forces_along(
     motion = motion_at(machine, None, angles=angles) if solution is None else _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
     drives = _collected(_SceneAlong(machine, along, entries)).drives()
-    return program, drives, lost, Kinks(machine, program, solution)
+    return program, drives, lost, kinks_of(machine, program)
 
 
 def drive_torque_along(
@@ -154,7 +149,7 @@ def drive_torque_along(
     still: Any = lifted(motion.acceleration, n)
     along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
     torque, _ = _collected(_SceneAlong(machine, along, entries)).drive_and_frame()
-    return program, torque, Kinks(machine, program, None)
+    return program, torque, kinks_of(machine, program)
 
 
 def _entries(machine: Machine, variables: Sequence[str]) -> _Entries:
@@ -183,7 +178,8 @@ def _motion_and_sides(machine: Machine, kinks: Kinks) -> tuple[Motion, Bools]:
         motion = motion_at(machine, None)
     else:
         motion = over_turns(state, force_turns(compile_machine(machine)))
-    beside = kinks.beside(motion.crank_angle)
+    moved = kinks.moved_near(motion.crank_angle, ON_KINK)
+    beside = np.sort(np.mod([kink + side for kink in moved for side in (-_BESIDE, _BESIDE)], kinks.cycle))
     if not len(beside):
         return motion, np.zeros(len(motion.crank_angle), dtype=bool)
     sides = _there(machine, solution, motion, beside)
@@ -245,53 +241,21 @@ def _motor_change(scene: Scene) -> float:
 def tied(size: Floats, place: int, angles: Floats) -> str:
     """Where a curve is as large as at its extreme; empty if nowhere."""
     span = float(size[place] - np.nanmin(size))
-    others = angles[size >= size[place] - _TIE * span]
+    others = angles[size >= size[place] - TIE_OF_SOLVED * span]
     turn = round(float(angles[-1] - angles[0]) / (2 * np.pi)) * 2 * np.pi
-    off = np.abs(others - angles[place])
-    apart = others[np.minimum(off, np.abs(off - turn)) > _ON_KINK]
+    away = np.abs(others - angles[place])
+    apart = others[np.minimum(away, np.abs(away - turn)) > ON_KINK]
     if not len(apart) or span == 0.0:
         return "" if span else "it is the same at all angles"
-    return f"the extreme occurs at {np.degrees(angles[place]):.4g}° and {np.degrees(apart[0]):.4g}°"
+    return occurs_at((angles[place], apart[0]))
 
 
-class Kinks:
-    """Crank angles at which loads or motion have a kink or jump, and the entries that move them."""
-
-    def __init__(self, machine: Machine, program: Directions, solution: Any) -> None:
-        compiled = compile_machine(machine)
-        if closure_of(compiled).turns_fully:
-            compiled = compiled.over_turns(force_turns(compiled))
-        self.variables = program.variables
-        self.angles, self.cycle = compiled.kinks(), compiled.cycle
-        along = compiled.kinks_along(program.values, self.angles) * program.sizes
-        self.moves: Bools = np.abs(along) > _ROUNDING
-
-    def on(self, angle: float, near: float = _ON_KINK) -> Bools:
-        """Which kinks are at a crank angle that is known to an angle `near` [rad]."""
-        half = 0.5 * self.cycle
-        apart = np.abs((self.angles - angle + half) % self.cycle - half)
-        return np.asarray(apart <= near)
-
-    def moved_at(self, angle: float, near: float = _ON_KINK) -> Bools:
-        """Which variables move a kink at a crank angle [rad], (variables,)."""
-        return np.asarray(self.moves[self.on(angle, near)].any(axis=0))
-
-    def beside(self, angles: Floats) -> Floats:
-        """Both sides of the kinks that lie on some crank angles and that a variable moves, increasing."""
-        half = 0.5 * self.cycle
-        apart = np.abs((self.angles[:, None] - angles + half) % self.cycle - half)
-        on = self.angles[(apart <= _ON_KINK).any(axis=1)]
-        moved = [angle for angle in on.tolist() if self.moved_at(angle).any()]
-        return np.sort(np.mod([angle + side for angle in moved for side in (-_BESIDE, _BESIDE)], self.cycle))
-
-    def words(self, angle: float, moving: Bools, near: float = _ON_KINK) -> str:
-        """Which entries have no derivative there."""
-        names = [name for name, moves in zip(self.variables, moving, strict=True) if moves]
-        kink = float(self.angles[self.on(angle, near)][0])
-        return (
-            f"the extreme occurs at {np.degrees(kink):.4g}°, at a kink of loads or motion; there is no "
-            f"derivative with respect to the entries that move this kink: {', '.join(names)}"
-        )
+def kinks_of(machine: Machine, program: Directions) -> Kinks:
+    """Kinks of a machine over the turns of its forces."""
+    compiled = compile_machine(machine)
+    if closure_of(compiled).turns_fully:
+        compiled = compiled.over_turns(force_turns(compiled))
+    return Kinks.of(compiled, program)
 
 
 def _motion_along(

@@ -21,6 +21,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.extreme import ALIKE, TIE, chosen, differ, occurs_at, they_differ
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.kernel.quantities import shown
@@ -33,12 +34,6 @@ from linkwright.machine.program.core import Channel
 from linkwright.machine.program.motion import WIDTHS, LinkRows, Rows, SlideRows
 from linkwright.machine.tangents import Derivatives, Directions, directions
 
-# Extremes this near, as a share of the curve's range, tie: they are located to rounding.
-_TIE = 1e-9
-
-# Derivatives by an entry doubled that differ by less than this share of the range do not differ.
-_SAME = 1e-8
-
 # A derivative by an entry doubled below this share of the largest is what rounding leaves of zero.
 _ROUNDING = 1e-14
 
@@ -47,8 +42,6 @@ _LEVEL_TO = 1e-12
 
 _AT_AN_END = "the extreme occurs at a limit of the motion or at a change point"
 _LEVEL = "it is the same at all crank angles"
-_TWO = "the extreme occurs at crank angles {}; the derivatives with respect to {} differ"
-_OF_SEVERAL = "the extreme occurs at crank angles {}"
 _TURNS = "it is a whole number"
 _REPEATS = "the motion repeats only at this value, which is or sets a gear ratio"
 
@@ -91,7 +84,7 @@ def _leaving(compiled: CompiledMachine, cycle: Cycle, program: Directions) -> li
     angles = cycle.angles[0] + np.array([0.0, 2 * np.pi * cycle.period])
     before, after = np.moveaxis(compiled.motions_along(program.values, angles, channels), 1, 0)
     moved = np.abs(after - before) * program.sizes
-    return [name for name, by in zip(program.variables, moved.T, strict=True) if by.max() > _SAME]
+    return [name for name, by in zip(program.variables, moved.T, strict=True) if by.max() > ALIKE]
 
 
 @dataclass(frozen=True)
@@ -114,7 +107,7 @@ class _Turns:
 
     def near(self, height: float, size: float) -> list[int]:
         """Which of them are as high as the extreme."""
-        return np.flatnonzero(np.abs(self.heights - height) <= _TIE * size).tolist()
+        return np.flatnonzero(np.abs(self.heights - height) <= TIE * size).tolist()
 
 
 @dataclass(frozen=True)
@@ -154,7 +147,7 @@ class _Found:
         quick, slow = sorted(
             Tangent(way.length, turns.moves[way.ends[1]] - turns.moves[way.ends[0]]) for way in ways
         )
-        is_even = slow.value - quick.value <= _SAME * slow.value
+        is_even = slow.value - quick.value <= ALIKE * slow.value
         if is_even and self._differ(np.array([slow.d, quick.d]), 1.0).any():
             self.missing[key] = "both ways take the same crank angle"
             return
@@ -183,7 +176,7 @@ class _Found:
 
     def _worst(self, key: str, least: float, rest: float, slopes: dict[str, Any], size: float) -> None:
         """The smaller one of μ_min and π − μ_max."""
-        is_low, is_high = least <= rest + _TIE * size, rest <= least + _TIE * size
+        is_low, is_high = least <= rest + TIE * size, rest <= least + TIE * size
         sides = [slopes["min"]] * is_low + [None if slopes["max"] is None else -slopes["max"]] * is_high
         if any(side is None for side in sides):
             self.missing[key] = _AT_AN_END
@@ -191,8 +184,8 @@ class _Found:
         differs = self._differ(np.array(sides), size)
         if differs.any():
             self.ties[key] = (
-                "the minimum and the maximum deviate equally from 90°; the derivatives with respect to "
-                f"{self._entries(differs)} differ"
+                "the minimum and the maximum deviate equally from 90°; "
+                f"{they_differ(chosen(self.program.variables, differs))}"
             )
         self._keep(key, min(least, rest), np.where(differs, np.nan, sides[0]))
 
@@ -205,7 +198,8 @@ class _Found:
         d = turns.slopes[rivals]
         differs = self._differ(d, size)
         if differs.any():
-            self.ties[key] = _TWO.format(_listed(turns.angles[rivals]), self._entries(differs))
+            by = chosen(self.program.variables, differs)
+            self.ties[key] = occurs_at(_in_turn(turns.angles[rivals]), by, of=_CRANK_ANGLES)
         return np.where(differs, np.nan, d[0])
 
     def _angle(self, key: str, turns: _Turns, value: float, angle: float, size: float) -> None:
@@ -214,19 +208,14 @@ class _Found:
         angles, moves = turns.angles[rivals], turns.moves[rivals]
         if not rivals or not np.isfinite(moves).all():
             self.missing[key] = _AT_AN_END
-        elif np.abs(np.sin(0.5 * (angles - angles[0]))).max() > _TIE or self._differ(moves, 1.0).any():
-            self.missing[key] = _OF_SEVERAL.format(_listed(angles))
+        elif np.abs(np.sin(0.5 * (angles - angles[0]))).max() > TIE or self._differ(moves, 1.0).any():
+            self.missing[key] = occurs_at(_in_turn(angles), of=_CRANK_ANGLES)
         else:
             self._keep(key, angle, moves[0])
 
     def _differ(self, slopes: Floats, size: float) -> Any:
-        """By which entries several derivatives, (m, k), differ."""
-        apart = np.ptp(slopes, axis=0) * self.program.sizes
-        return ~(apart <= _SAME * size)
-
-    def _entries(self, differs: Any) -> str:
-        names = [name for name, other in zip(self.program.variables, differs, strict=True) if other]
-        return ", ".join(names[:3]) + (f" and {len(names) - 3} others" if len(names) > 3 else "")
+        """By which entries doubled several derivatives, (m, k), differ."""
+        return differ(slopes, size / self.program.sizes)
 
     def _keep(self, key: str, value: float, d: Floats) -> None:
         """Take a scalar with its derivatives, without what rounding leaves of zeros."""
@@ -235,8 +224,12 @@ class _Found:
         self.tangents[key] = Tangent(value, np.where(sizes <= rounding, 0.0, d))
 
 
-def _listed(angles: Floats) -> str:
-    return " and ".join(f"{math.degrees(angle % (2 * math.pi)):.4g}°" for angle in angles[:3])
+_CRANK_ANGLES = "crank angles "
+
+
+def _in_turn(angles: Floats) -> Floats:
+    """Angles within one revolution."""
+    return np.mod(angles, 2 * math.pi)
 
 
 def _output_turns(compiled: CompiledMachine, swept: LinkageSweep, k: int, program: Directions) -> _Turns:

@@ -16,7 +16,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import TangentArray
+from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
@@ -231,6 +231,17 @@ class Derivatives:
         at = [self.variables.index(entry) for entry in entries]
         tangents = {name: Tangent(tangent.value, tangent.d[at]) for name, tangent in self.tangents.items()}
         return replace(self, variables=tuple(entries), tangents=tangents)
+
+
+def spread(number: Any, known: Sequence[str], listed: Sequence[str], value: float | None = None) -> Tangent:
+    """A number with derivatives by `known` entries as one with those by the entries `listed`, zero by others.
+
+    `value`: that of the result, known to the last digit.
+    """
+    along = lifted(number, len(known))
+    d = dict(zip(known, along.d, strict=True))
+    row = np.array([d.get(name, 0.0) for name in listed])
+    return Tangent(float(along.value) if value is None else value, row)
 
 
 def followed(

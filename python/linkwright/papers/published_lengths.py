@@ -229,9 +229,9 @@ def _length(
     """Length at a ratio v_h/v, which is all that it depends on."""
     d, delta = np.asarray(diameter, dtype=float), np.asarray(offset, dtype=float)
     if way == "published":
-        return length_published(d + 2 * delta, edge_angle, ratio)
+        return np.asarray(length_published(d + 2 * delta, edge_angle, ratio))
     if way == "consistent":
-        return length_consistent(d + 2 * delta, edge_angle, ratio)
+        return np.asarray(length_consistent(d + 2 * delta, edge_angle, ratio))
     if way == "constant_speed":
         return np.asarray(constant_speed_lengths(d, delta, edge_angle, 1.0, ratio).max(axis=0))
     if stroke is None:

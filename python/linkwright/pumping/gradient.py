@@ -15,10 +15,10 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.linkages.kinematics import rows_along
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, directions, followed
+from linkwright.machine.tangents import Derivatives, directions, followed, spread
 from linkwright.pumping.gear_gradient import gear_scalars, without_derivatives
 from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles, pumping_unit, turn_extreme
@@ -41,14 +41,12 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     along = RodAlong.of_unit(rod, unit, program.values[:, at])
     scalars = _scalars(rod, along, result)
     listed = tuple(name for name in variables if name not in refused)
-
-    def tangent(value: float, number: Any) -> Tangent:
-        d = dict(zip(known, lifted(number, len(known)).d, strict=True))
-        return Tangent(value, np.array([d.get(v, 0.0) for v in listed]))
-
-    tangents = {name: tangent(float(getattr(result, name)), x) for name, x in scalars.items()}
+    tangents = {name: spread(x, known, listed, float(getattr(result, name))) for name, x in scalars.items()}
     gear, ties = gear_scalars(rod, along, result)
-    tangents |= {f"gear.{name}": tangent(float(getattr(result.gear, name)), x) for name, x in gear.items()}
+    tangents |= {
+        f"gear.{name}": spread(x, known, listed, float(getattr(result.gear, name)))
+        for name, x in gear.items()
+    }
     missing = {f"gear.{name}": why for name, why in without_derivatives(result.gear).items()}
     return Derivatives(listed, tangents | _at_speed(result, tangents, listed), ties, missing, refused)
 

@@ -23,11 +23,11 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.extreme import TIE, chosen, common, differ, they_differ
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed
+from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, spread
 from linkwright.pumping.gradient import RodAlong
 from linkwright.pumping.lever import Lever
 from linkwright.pumping.model.rod_rotator import RodRotator, diagonal
@@ -44,12 +44,6 @@ from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator, turn_d
 from linkwright.pumping.unit import PolishedRod
 
 _UNIT, _ROTATOR = "pumping_unit.", "rod_rotator."
-
-# Extremes this near, as a share of the peak, tie.
-_TIE = 1e-10
-
-# Derivatives of an entry that differ by less than this share of the largest do not differ.
-_SAME = 1e-8
 
 # Places of a tie closer than this are one [rad].
 _APART = 1e-2
@@ -69,12 +63,10 @@ def rotator_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of a rotator by some entries. Raises what `rod_rotator` raises."""
     along = RotatorAlong.of(machine, variables)
     listed = tuple(name for name in variables if name not in along.refused)
-
-    def tangent(name: str, number: Any) -> Tangent:
-        d = dict(zip(along.entries, lifted(number, len(along.entries)).d, strict=True))
-        return Tangent(float(getattr(along.result, name)), np.array([d.get(v, 0.0) for v in listed]))
-
-    tangents = {name: tangent(name, number) for name, number in along.scalars().items()}
+    tangents = {
+        name: spread(number, along.entries, listed, float(getattr(along.result, name)))
+        for name, number in along.scalars().items()
+    }
     return Derivatives(listed, tangents, along.ties, _missing(along.result), along.refused)
 
 
@@ -231,7 +223,7 @@ class RotatorAlong:
         numbers = {}
         for end, sign in _ENDS:
             angles: list[float] = []
-            for angle in (curve.extreme(sign)[1], *curve.extremes(sign, 0, _TIE).tolist()):
+            for angle in (curve.extreme(sign)[1], *curve.extremes(sign, 0, TIE).tolist()):
                 if all(abs(np.sin(0.5 * (angle - other))) > 0.5 * _APART for other in angles):
                     angles.append(angle)
             rates = self._array(np.stack([self.transfer_at(angle) for angle in angles]))
@@ -274,15 +266,12 @@ class RotatorAlong:
         """The maximum (+1) or minimum (−1); NaN where derivatives of equal extremes differ."""
         values = sign * row.value
         best = int(values.argmax())
-        tied = np.flatnonzero(values >= values[best] - _TIE * np.abs(values).max())
+        tied = values >= values[best] - TIE * np.abs(values).max()
         d = row.d[tied]
-        differs = np.ptp(d, axis=0) > _SAME * np.abs(d).max(initial=0.0)
-        if differs.any():
-            by = ", ".join(entry for entry, yes in zip(self.entries, differs, strict=True) if yes)
-            self.ties[name] = (
-                f"the extreme occurs at {len(tied)} positions; the derivatives with respect to {by} differ"
-            )
-        return TangentArray(row.value[best], np.where(differs, np.nan, row.d[best]))
+        differs = chosen(self.entries, differ(d))
+        if differs:
+            self.ties[name] = f"the extreme occurs at {len(d)} positions; {they_differ(differs)}"
+        return TangentArray(row.value[best], common(d))
 
 
 def _sine(distance: Any, link: Any, lever: Any) -> Any:

@@ -20,12 +20,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.extreme import greatest
+from linkwright.kernel.numerics.tangent_array import plain
 from linkwright.machine.machine import Machine
 from linkwright.topping.core import KnifeKernel
 from linkwright.topping.knife import Knife, knives
@@ -39,7 +40,7 @@ _TURNS, _TURNS_RETREATING = 60, 8
 
 @dataclass(frozen=True)
 class Edge:
-    """An edge that goes over heads.
+    """An edge that goes over heads; its numbers may have derivatives.
 
     Attributes
     ----------
@@ -60,21 +61,18 @@ class Edge:
         """The edge in the core's terms."""
         return KnifeKernel(self.knife.way, self.angle, self.forward_speed)
 
-    def place(
-        self, time: ArrayLike, phase: ArrayLike = 0.0, offset: ArrayLike = 0.0
-    ) -> tuple[Floats, Floats]:
+    def place(self, time: Any, phase: Any = 0.0, offset: Any = 0.0) -> tuple[Any, Any]:
         """Middle of the edge, seen from the centre of a head: along it, to its left, and normal to it, ahead
         [m], (...).
 
         `time` from when it is abreast of the centre [s], `phase` of the knife then [rad], `offset` of the
         centre to the left of the row [m]; they broadcast.
         """
-        ahead = self.forward_speed * np.asarray(time, dtype=float)
-        aside = self.knife.at(time, phase) - np.asarray(offset, dtype=float)
+        ahead, aside = self.forward_speed * time, self.knife.at(time, phase) - offset
         sin, cos = np.sin(self.angle), np.cos(self.angle)
         return ahead * sin + aside * cos, ahead * cos - aside * sin
 
-    def velocity(self, time: ArrayLike, phase: ArrayLike = 0.0) -> tuple[Floats, Floats]:
+    def velocity(self, time: Any, phase: Any = 0.0) -> tuple[Any, Any]:
         """Velocity of the edge: along it, to its left, and normal to it, ahead [m/s], (...).
 
         `time` [s] and `phase` of the knife at the time zero [rad] broadcast.
@@ -84,20 +82,20 @@ class Edge:
         return v * sin + across * cos, v * cos - across * sin
 
     @property
-    def mean_advance(self) -> float:
+    def mean_advance(self) -> Any:
         """Mean speed of the edge along its normal [m/s]; negative for one that runs backwards."""
-        return float(self.forward_speed * np.cos(self.angle) - self.knife.drift * np.sin(self.angle))
+        return plain(self.forward_speed * np.cos(self.angle) - self.knife.drift * np.sin(self.angle))
 
     @property
-    def least_advance(self) -> float:
+    def least_advance(self) -> Any:
         """Minimum speed of the edge along its normal [m/s]; zero or less where it retreats."""
-        worst = max(speed * np.sin(self.angle) for speed in self.knife.speeds)
-        return float(self.forward_speed * np.cos(self.angle) - worst)
+        worst = greatest(*(speed * np.sin(self.angle) for speed in self.knife.speeds))
+        return plain(self.forward_speed * np.cos(self.angle) - worst)
 
     @property
     def retreats(self) -> bool:
         """Whether it runs backwards at times."""
-        return self.least_advance <= 0
+        return bool(self.least_advance <= 0)
 
     @property
     def stands(self) -> bool:
@@ -106,9 +104,9 @@ class Edge:
         return bool(abs(self.mean_advance) <= ALONG_ITSELF * speed)
 
     @property
-    def leans(self) -> tuple[float, float]:
+    def leans(self) -> tuple[Any, Any]:
         """Angle α + β of the path to the edge's normal, at minimum and maximum speed of the knife [rad]."""
-        low, high = (self.angle + float(np.arctan2(w, self.forward_speed)) for w in self.knife.speeds)
+        low, high = (self.angle + np.arctan2(w, self.forward_speed) for w in self.knife.speeds)
         return low, high
 
     def half_pass(self, diameter: float, offset: float) -> float:

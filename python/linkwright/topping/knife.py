@@ -22,11 +22,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
+from linkwright.kernel.numerics.extreme import as_high, greatest, size
+from linkwright.kernel.numerics.tangent_array import plain
 from linkwright.kinetostatics.forces import forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import kinematics_of
@@ -56,7 +57,7 @@ _PLACES, _AGAIN = np.array([0.1, 1.0, 1.9, 2.9, 3.7, 4.6, 5.5]), 1e-6
 
 @dataclass(frozen=True)
 class Knife:
-    """A knife and its law.
+    """A knife and its law; law, rate and drift may have derivatives.
 
     Attributes
     ----------
@@ -79,59 +80,59 @@ class Knife:
     drift: float = 0.0
 
     @cached_property
-    def stroke(self) -> float:
+    def stroke(self) -> Any:
         """Distance between the ends [m]."""
-        least, greatest = self.law.extremes()
-        return greatest.value - least.value
+        low, high = self.law.extremes()
+        return high.value - low.value
 
     @cached_property
-    def way_per_turn(self) -> float:
+    def way_per_turn(self) -> Any:
         """Way back and forth in one revolution of the phase [m]."""
-        turns = [*self.law.breaks, *self.law.zeros(1)]
-        return float(np.abs(np.diff(self.law.at(np.array(sorted(turns)), 0, "before"))).sum())
+        turns = sorted([*self.law.primal.breaks, *self.law.zeros(1)])
+        places = self.law.at(np.array(turns), 0, "before")
+        ways = places[1:] - places[:-1]
+        return plain((ways * np.sign(ways)).sum())
 
     @property
-    def frequency(self) -> float:
+    def frequency(self) -> Any:
         """Revolutions of the phase in a second [1/s]."""
         return self.rate / _TURN
 
     @cached_property
-    def mean_speed(self) -> float:
+    def mean_speed(self) -> Any:
         """Mean of the speed across the row, in both senses [m/s]."""
-        return abs(self.drift) + self.way_per_turn * self.frequency
+        return size(self.drift) + self.way_per_turn * self.frequency
 
     @cached_property
-    def speeds(self) -> tuple[float, float]:
+    def speeds(self) -> tuple[Any, Any]:
         """Minimum and maximum velocity across the row [m/s]."""
-        least, greatest = (extreme.value * self.rate + self.drift for extreme in self.law.extremes(1))
-        return least, greatest
+        low, high = (extreme.value * self.rate + self.drift for extreme in self.law.extremes(1))
+        return low, high
 
     @property
-    def speed_max(self) -> float:
+    def speed_max(self) -> Any:
         """Maximum speed across the row [m/s]."""
-        return max(abs(speed) for speed in self.speeds)
+        return greatest(*map(size, self.speeds))
 
     @cached_property
-    def acceleration_max(self) -> float:
+    def acceleration_max(self) -> Any:
         """Maximum acceleration across the row [m/s²]; infinite for a knife that turns back at once."""
         if not self.rate:
             return 0.0
-        jumps = np.append(self.law.jumps(1), self.law.at(0.0, 1) - self.law.at(self.law.end, 1, "before"))
-        slope = abs(self.law.peak(1).value)
-        if np.abs(jumps).max() > _JUMP * slope:
+        law = self.law.primal
+        jumps = np.append(law.jumps(1), law.at(0.0, 1) - law.at(law.end, 1, "before"))
+        if np.abs(jumps).max() > _JUMP * abs(law.peak(1).value):
             return float("inf")
-        return abs(self.law.peak(2).value) * self.rate**2
+        return greatest(*(size(extreme.value) for extreme in self.law.extremes(2))) * self.rate**2
 
-    def at(self, time: ArrayLike, phase: ArrayLike = 0.0, order: int = 0) -> Floats:
+    def at(self, time: Any, phase: Any = 0.0, order: int = 0) -> Any:
         """Place, velocity or acceleration across the row, by the order of the derivative, (...) [m, m/s or
         m/s²].
 
         `time` [s] and `phase` at the time zero [rad] broadcast.
         """
-        t = np.asarray(time, dtype=float)
-        value = self.law.at(np.mod(np.asarray(phase) + self.rate * t, _TURN), order) * self.rate**order
-        place: Floats = value + (self.drift * t, self.drift, 0.0)[order]
-        return place
+        value = self.law.at(np.mod(phase + self.rate * time, _TURN), order) * self.rate**order
+        return value + (self.drift * time, self.drift, 0.0)[order]
 
     @cached_property
     def way(self) -> KnifeWay:
@@ -363,32 +364,26 @@ def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
     )
 
 
-# Share of its range within which the torque of the revolution's angles is looked at more closely, and share
-# of an extreme within which another is as large: their tops are found to 1e-12.
-_WITHIN, _AS_HIGH = 0.01, 1e-9
+# Rounds in which peaks of the torque are closed in on: to 1e-8 of the revolution.
+_ROUNDS = 7
 
 
-def as_high(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
+def other_peaks(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
     """Other crank angles at which the driving torque is as large, or as small [rad].
 
     `end`: ``"max"`` or ``"min"``.
     """
     assert machine.drive is not None
-    assert machine.drive.speed is not None
     speed, sign = machine.drive.speed, 1.0 if end == "max" else -1.0
-    value, place = getattr(knife_drive, f"torque_{end}"), getattr(knife_drive, f"torque_{end}_angle")
-    torque = sign * forces(machine, speed=speed, angles=DRIVE_ANGLES).torque_drive
-    near = sign * value - torque <= _WITHIN * np.ptp(torque)
-    tops = near & (torque >= np.roll(torque, 1)) & (torque >= np.roll(torque, -1))
-    step, rivals = 2 * np.pi / _DRIVE_ANGLES, [place]
-    for at in DRIVE_ANGLES[tops].tolist():
-        angles = np.linspace(at - step, at + step, _CLOSE + 1)
-        beside = forces(machine, speed=speed, angles=angles).torque_drive
-        top, angle = _highest(machine, speed, angles, beside, sign)
-        apart = np.abs((np.array(rivals) - angle + np.pi) % (2 * np.pi) - np.pi).min()
-        if apart > step and sign * value - top <= _AS_HIGH * abs(value):
-            rivals.append(angle)
-    return rivals[1:]
+    top = getattr(knife_drive, f"torque_{end}_angle") % _TURN, sign * getattr(knife_drive, f"torque_{end}")
+
+    def read(angles: Floats) -> Floats:
+        torque = forces(machine, speed=speed, angles=angles.ravel()).torque_drive
+        return sign * torque.reshape(angles.shape)
+
+    looked = DRIVE_ANGLES, read(DRIVE_ANGLES)
+    found = as_high(read, looked, top, _TURN, near=_TURN / _DRIVE_ANGLES, rounds=_ROUNDS)
+    return [angle for angle in found if angle != top[0]]
 
 
 def _highest(

@@ -8,14 +8,15 @@ follower has the law of its cam.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.kernel.numerics.tangent import Tangent
+from linkwright.kernel.numerics.tangent_array import plain, primal
 from linkwright.linkages.kinematics import kinematics_of, rows_along
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -27,15 +28,6 @@ _TURN = 2 * np.pi
 
 # Crank angles at which derivatives of a member are sampled, as `topping.knife` samples its place.
 _ANGLES = 1440
-
-
-@dataclass(frozen=True)
-class KnifeAlong:
-    """A knife with derivatives: its law, phase per time and drift, which are numbers with or without some."""
-
-    law: MotionLaw
-    rate: Any  # [rad/s]
-    drift: Any  # [m/s]
 
 
 def refused_of_law(machine: Machine, names: Sequence[str], knife: Knife) -> dict[str, str]:
@@ -57,21 +49,22 @@ def refused_of_law(machine: Machine, names: Sequence[str], knife: Knife) -> dict
     return refused
 
 
-def knife_along(machine: Machine, along: Machine, names: Sequence[str], knife: Knife) -> KnifeAlong:
+def knife_along(machine: Machine, along: Machine, names: Sequence[str], knife: Knife) -> Knife:
     """A knife of a machine with derivatives; `along`: the machine with tangents by some entries."""
     topper = along.topper
     assert topper is not None
     motion = topper.motion
     if isinstance(motion, MemberKnife):
         assert along.drive is not None
-        return KnifeAlong(_member_law(machine, along, names, knife, motion.of), along.drive.speed, 0.0)
+        law, speed = _member_law(machine, along, names, knife, motion.of), along.drive.speed
+        return replace(knife, law=law, rate=speed or 0.0)
     if not isinstance(motion, ConstantKnife | HarmonicKnife) or motion.stroke is None or not knife.stroke:
         # One that does not turn back, or stands in the middle of its stroke.
         way = np.sign(knife.drift)
-        return KnifeAlong(knife.law, 0.0, way * topper.knife_speed if way else 0.0)
-    law = knife.law.scaled(motion.stroke / knife.stroke)
+        return replace(knife, rate=0.0, drift=way * topper.knife_speed if way else 0.0)
+    law = knife.law.scaled(plain(motion.stroke / knife.stroke))
     mean: Any = topper.knife_speed
-    return KnifeAlong(law, mean * (np.pi / motion.stroke), 0.0)
+    return replace(knife, law=law, rate=mean * (np.pi / motion.stroke))
 
 
 def _member_law(
@@ -80,8 +73,8 @@ def _member_law(
     """The law of a member from the middle of its stroke."""
     if member in machine.mechanism.cams:
         cam = along.mechanism.cams[member]
-        law = _centred(cam.lift.shifted(primal(cam.phase)))
-        late = cam.phase - primal(cam.phase)
+        phase = float(primal(cam.phase))
+        law, late = _centred(cam.lift.shifted(phase)), plain(cam.phase - phase)
         return MotionLaw(tuple(x + late for x in law.breaks), law.pieces)
     compiled, program = compile_machine(machine), directions(machine, names)
     at = [names.index(name) for name in program.variables]

@@ -22,13 +22,14 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import TIE, common
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted
+from linkwright.kernel.numerics.tangent_array import lifted, primal
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
-from linkwright.topping.uncut_along import EdgeAlong, Heads, passes, place_along, slopes
+from linkwright.topping.uncut_along import EdgeAlong, Heads, passes, slopes
 from linkwright.topping.worst_head import CURVE_OFFSETS
 
 _TURN = 2 * np.pi
@@ -36,11 +37,11 @@ _TURN = 2 * np.pi
 # Steps of Newton's method from a place that is good to 1e-6 of the head.
 _STEPS = 4
 
-# Phases this near are the same, and heads that need as much but for this share tie.
-_NEAR, _TIE = 1e-5, 1e-9
+# Phases this near are the same.
+_NEAR = 1e-5
 
-# Share of the largest by which derivatives that are the same may differ, and phases that are compared.
-_SAME, _STATIONS = 1e-8, 12
+# Phases that are compared.
+_STATIONS = 12
 
 _NOT_ALONE = "several heads need the same length; the one shown is arbitrary"
 _ON_AXIS = "all roots stand on the row; with an offset, the worst head may lie on either side"
@@ -121,8 +122,7 @@ def _number(x: Any) -> Any:
 
 def _lift(number: Any, n: int) -> Any:
     """A number as an array of one, with derivatives."""
-    lone: Any = lifted(np.zeros(1), n)
-    return lone + number if isinstance(number, Tangent) else lone + float(number)
+    return lifted(np.zeros(1), n) + number
 
 
 def _apart(one: float, other: float) -> float:
@@ -137,7 +137,7 @@ def _at_end(needs: Needs, side: float) -> Any:
 
 def _last_of(needs: Needs, phase: float, offset: float, length: float) -> tuple[int, float, float]:
     """Edge, side s and place p of the point of a head that is reached last."""
-    d = float(needs.diameter.value if isinstance(needs.diameter, Tangent) else needs.diameter)
+    d = float(primal(needs.diameter))
     cuts = [coverage(edge, d, offset, phase) for edge in needs.edges]
     nth = int(np.argmin([abs(cut.length_needed[0] - length) for cut in cuts]))
     x, y, alpha = cuts[nth].last_x[0], cuts[nth].last_y[0], needs.described.edge_angle
@@ -150,21 +150,21 @@ def _at_stroke_end(
 ) -> tuple[_Last, Any, str]:
     """The point that is reached last at an end of the stroke, and the phase of its head."""
     nth, side, _ = last
-    alpha, v, r = _lift(along.angle, needs.n), along.forward_speed, _lift(along.radius, needs.n)
+    alpha, v, r = _lift(along.edge.angle, needs.n), along.edge.forward_speed, _lift(along.radius, needs.n)
     sin, cos = np.sin(alpha), np.cos(alpha)
-    law, fixed = along.knife.law, edge.knife.law
+    law, fixed = along.edge.knife.law, edge.knife.law
     extreme = fixed.extremes()[1 if side > 0 else 0]
     y = _lift(law.extremes()[1 if side > 0 else 0].value, needs.n)
     p, chord = side * r * sin, r * cos
     t = (p + (y - offset) * sin) / (v * cos)
     q = t * v * sin + (y - offset) * cos
     psi, why = _turning(along, edge, extreme.at, needs.n)
-    return _Last(nth, side, t, p, chord, q), psi - t * along.knife.rate, why
+    return _Last(nth, side, t, p, chord, q), psi - t * along.edge.knife.rate, why
 
 
 def _turning(along: EdgeAlong, edge: Edge, at: float, n: int) -> tuple[Any, str]:
     """The phase at which the knife turns back, by y′ = 0; at a corner along with it."""
-    psi, law, fixed = _lift(at, n), along.knife.law, edge.knife.law
+    psi, law, fixed = _lift(at, n), along.edge.knife.law, edge.knife.law
     joints = [k for k, x in enumerate(fixed.breaks) if abs(x - at) < _NEAR]
     if joints and abs(float(fixed.value(at, 1))) > _NEAR * abs(fixed.peak(1).value):
         return _lift(law.breaks[joints[0]], n), ""
@@ -179,7 +179,7 @@ def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: 
     """The point of a head that is reached last in a phase, at an offset."""
     nth, side, p0 = last
     edge, along = needs.edges[nth], needs.along[nth]
-    r = along.radius.value if isinstance(along.radius, Tangent) else float(along.radius)
+    r = float(primal(along.radius))
     head = Heads(r, offset.value, phase.value)
     t = passes(edge, head, float(np.clip(p0, -r * (1 - 1e-12), r * (1 - 1e-12))))
     corner = _corner_time(edge, along, phase, t)
@@ -193,7 +193,7 @@ def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: 
         moved = _condition(along, side, lifted(t, needs.n), phase, offset, _lift(along.radius, needs.n))
         time = lifted(t, needs.n)
         time.d[:] = -moved.d / _climb(edge, head, side, t)[1][:, None]
-    q, p = place_along(along, time, phase, offset)
+    q, p = along.edge.place(time, phase, offset)
     radius = _lift(along.radius, needs.n)
     return _Last(nth, side, time, p, np.sqrt(radius * radius - p * p), q)
 
@@ -208,7 +208,7 @@ def _corner_time(edge: Edge, along: EdgeAlong, phase: Any, t: Floats) -> Any:
         if _apart(psi, corner) < _NEAR:
             k = int(np.argmin(np.abs(np.array(knife.law.breaks) - corner)))
             turns = round((psi - corner) / _TURN)
-            return (along.knife.law.breaks[k] + _TURN * turns - phase) / along.knife.rate
+            return (along.edge.knife.law.breaks[k] + _TURN * turns - phase) / along.edge.knife.rate
     return None
 
 
@@ -225,12 +225,9 @@ def _climb(edge: Edge, head: Heads, side: float, t: Floats) -> tuple[Floats, Flo
 
 def _condition(along: EdgeAlong, side: float, t: Any, phase: Any, offset: Any, radius: Any) -> Any:
     """s q̇ − p ṗ/c with derivatives, at fixed times."""
-    _, p = place_along(along, t, phase, offset)
-    knife, v = along.knife, along.forward_speed
-    speed = knife.law.at(np.remainder(phase + t * knife.rate, _TURN), 1) * _lift(knife.rate, p.d.shape[-1])
-    speed = speed + knife.drift
-    sin, cos = np.sin(along.angle), np.cos(along.angle)
-    return side * (speed * cos + v * sin) - p * (v * cos - speed * sin) / np.sqrt(radius * radius - p * p)
+    p = along.edge.place(t, phase, offset)[1]
+    qt, pt = along.edge.velocity(t, phase)
+    return side * qt - p * pt / np.sqrt(radius * radius - p * p)
 
 
 def _best_phase(needs: Needs, study: TopperStudy) -> Any:
@@ -239,17 +236,15 @@ def _best_phase(needs: Needs, study: TopperStudy) -> Any:
     shares = np.linspace(-1.0, 1.0, CURVE_OFFSETS if offset else 1)
     best = study.length_best_phase
     points = []
-    for station in study.phase[study.length_by_phase <= best * (1 + _TIE)][:_STATIONS].tolist():
+    for station in study.phase[study.length_by_phase <= best * (1 + TIE)][:_STATIONS].tolist():
         length = [
-            coverage(edge, float(getattr(d, "value", d)), shares * offset, station).length_needed
-            for edge in needs.edges
+            coverage(edge, float(primal(d)), shares * offset, station).length_needed for edge in needs.edges
         ]
-        for nth, k in np.argwhere(np.array(length) >= best * (1 - _TIE)).tolist():
+        for nth, k in np.argwhere(np.array(length) >= best * (1 - TIE)).tolist():
             share = float(shares[k]) if offset else 0.0
             one = replace(needs, edges=[needs.edges[nth]])
             last = _last_of(one, station, share * offset, length[nth][k])
             place = _at_end(needs, share)
             points.append(_in_phase(needs, (nth, *last[1:]), _lift(station, needs.n), place).needed)
     d_of = np.array([_number(x).d for x in points])
-    apart = np.abs(d_of - d_of[0]).max(axis=0) > _SAME * np.abs(d_of).max(initial=0.0)
-    return Tangent(best, np.where(apart, np.nan, d_of[0]))
+    return Tangent(best, common(d_of))

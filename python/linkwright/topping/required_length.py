@@ -55,12 +55,10 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 
@@ -69,36 +67,29 @@ ALONG_ITSELF = 4e-16
 
 
 def constant_speed_lengths(
-    diameter: ArrayLike,
-    offset: ArrayLike,
-    edge_angle: ArrayLike,
-    forward_speed: ArrayLike,
-    knife_speed: ArrayLike,
-) -> Floats:
+    diameter: Any, offset: Any, edge_angle: Any, forward_speed: Any, knife_speed: Any
+) -> Any:
     """Minimum length for each direction of the knife, to the left and to the right, (2, ...) [m].
 
     d of the head and maximum offset Δ [m], α [rad], v > 0 and v_h ≥ 0 [m/s] broadcast. Infinite where the
     edge moves along itself.
     """
-    given = diameter, offset, edge_angle, forward_speed, knife_speed
-    d, delta, alpha, v, v_h = np.broadcast_arrays(*(np.asarray(values, dtype=float) for values in given))
-    speed = np.hypot(v, v_h)
-    along, across = v * np.cos(alpha), v_h * np.sin(alpha)
-    advance = np.abs(np.stack([along - across, along + across]))
-    with np.errstate(divide="ignore"):
-        lengths = (d * speed + 2 * delta * v) / advance
-    return np.where(advance > ALONG_ITSELF * speed, lengths, np.inf)
+    v, speed = forward_speed, np.hypot(forward_speed, knife_speed)
+    along, across = v * np.cos(edge_angle), knife_speed * np.sin(edge_angle)
+    wanted = diameter * speed + 2 * offset * v
+    ways = []
+    for advance in (np.abs(along - across), np.abs(along + across)):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ways.append(np.where(advance > ALONG_ITSELF * speed, wanted / advance, np.inf))
+    return np.stack(ways)
 
 
-def every_phase_length(
-    diameter: ArrayLike, offset: ArrayLike, edge_angle: ArrayLike, stroke: ArrayLike
-) -> Floats:
+def every_phase_length(diameter: Any, offset: Any, edge_angle: Any, stroke: Any) -> Any:
     """Minimum length of an edge that never retreats, (...) [m].
 
     d of the head and maximum offset Δ [m], α [rad], stroke S [m] broadcast.
     """
-    band = np.asarray(diameter, dtype=float) + 2 * np.asarray(offset, dtype=float)
-    return np.asarray((np.asarray(stroke, dtype=float) + band) / np.cos(edge_angle))
+    return (stroke + (diameter + 2 * offset)) / np.cos(edge_angle)
 
 
 @dataclass(frozen=True)
@@ -117,43 +108,41 @@ class PublishedLengths(Result):
 
 
 def published_lengths(
-    band: float, edge_angle: float, edge_length: float, forward_speed: float, knife_speed: float
+    band: Any, edge_angle: Any, edge_length: Any, forward_speed: Any, knife_speed: Any
 ) -> PublishedLengths:
     """Travels, condition and lengths by paper 5, (1) to (10).
 
     `band`: b, diameter d of the head, with offset d + 2Δ [m]; α between −π/2 and π/2 [rad]; L [m]; v > 0 and
     v_h ≥ 0 [m/s].
     """
-    sin, cos = abs(np.sin(edge_angle)), np.cos(edge_angle)
+    sin, cos = np.abs(np.sin(edge_angle)), np.cos(edge_angle)
     along, across = band * (cos + sin**2), (edge_length - band * sin) * cos
     time_along = along / forward_speed
     at_rest = np.inf if across >= 0 else -np.inf
     time_across = across / knife_speed if knife_speed > 0 else at_rest
     return PublishedLengths(
-        travel_along=float(along),
-        travel_across=float(across),
-        time_along=float(time_along),
-        time_across=float(time_across),
+        travel_along=along,
+        travel_across=across,
+        time_along=time_along,
+        time_across=time_across,
         holds=bool(time_across >= time_along),
-        length_published=float(length_published(band, edge_angle, knife_speed / forward_speed)),
-        length_consistent=float(length_consistent(band, edge_angle, knife_speed / forward_speed)),
+        length_published=length_published(band, edge_angle, knife_speed / forward_speed),
+        length_consistent=length_consistent(band, edge_angle, knife_speed / forward_speed),
     )
 
 
-def length_published(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
+def length_published(band: Any, edge_angle: Any, ratio: Any) -> Any:
     """Minimum length as printed, paper 5 (5), (9), (10), (...) [m].
 
     d + 2Δ [m], α [rad], v_h/v [–] broadcast.
     """
-    along = np.asarray(ratio) * np.cos(edge_angle)
-    return np.asarray(np.asarray(band) * (along + np.abs(np.sin(edge_angle))))
+    return band * (ratio * np.cos(edge_angle) + np.abs(np.sin(edge_angle)))
 
 
-def length_consistent(band: ArrayLike, edge_angle: ArrayLike, ratio: ArrayLike) -> Floats:
+def length_consistent(band: Any, edge_angle: Any, ratio: Any) -> Any:
     """Minimum length that follows from paper 5 (4), (...) [m].
 
     d + 2Δ [m], α [rad], v_h/v [–] broadcast.
     """
     sin = np.abs(np.sin(edge_angle))
-    along = np.asarray(ratio) * (1 + sin * np.abs(np.tan(edge_angle)))
-    return np.asarray(np.asarray(band) * (along + sin))
+    return band * (ratio * (1 + sin * np.abs(np.tan(edge_angle))) + sin)

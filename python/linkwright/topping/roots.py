@@ -25,10 +25,9 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import InputError
@@ -39,20 +38,18 @@ from linkwright.topping.model.scatter import ConstantScatter
 from linkwright.topping.model.topper import Topper
 
 
-def head_diameter(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
+def head_diameter(root_diameter: Any, cut_height: Any) -> Any:
     """Diameter d of the disc cut of D at h_p, (...) [m]; zero where the cut passes above or below."""
-    D, h = np.asarray(root_diameter, dtype=float), np.asarray(cut_height, dtype=float)
-    return np.asarray(2 * np.sqrt(np.clip(h * (D - h), 0.0, None)))
+    return 2 * np.sqrt(np.maximum(cut_height * (root_diameter - cut_height), 0.0))
 
 
-def cap_volume(root_diameter: ArrayLike, cut_height: ArrayLike) -> Floats:
+def cap_volume(root_diameter: Any, cut_height: Any) -> Any:
     """Volume V of the root of D above the cut at h_p, (...) [m³].
 
     Zero where the cut passes above the root, all of the root where it passes below.
     """
-    D = np.asarray(root_diameter, dtype=float)
-    h = np.clip(np.asarray(cut_height, dtype=float), 0.0, D)
-    return np.asarray(np.pi * h**2 * (1.5 * D - h) / 3)
+    h = np.minimum(np.maximum(cut_height, 0.0), root_diameter)
+    return np.pi * h**2 * (1.5 * root_diameter - h) / 3
 
 
 @dataclass(frozen=True)
@@ -87,12 +84,12 @@ class Roots(Result):
         self,
     ) -> Annotated[Floats, Label("diameter of the disc that is cut", "d", "m", over="diameter")]:
         """Of the head at the height of the cut."""
-        return head_diameter(self.root_diameter, self.cut_height)
+        return np.asarray(head_diameter(self.root_diameter, self.cut_height))
 
     @property
     def cap(self) -> Annotated[Floats, Label("volume above the cut", "", "m³", over="cap")]:
         """A cap of the sphere."""
-        return cap_volume(self.root_diameter, self.cut_height)
+        return np.asarray(cap_volume(self.root_diameter, self.cut_height))
 
     @property
     def volume(self) -> Annotated[Floats, Label("volume of the root", "", "m³", over="volume")]:

@@ -97,7 +97,7 @@ def _pitch(edge: Edge, study: TopperStudy, described: Topper) -> float:
     d = study.head_diameter
     if not edge.knife.rate:
         return _APART[0] * d
-    stroke = described.forward_speed / edge.knife.frequency
+    stroke: float = described.forward_speed / edge.knife.frequency
     if described.motion.phase is not None:
         return math.ceil(_APART[0] * d / stroke) * stroke
     for pitch in np.linspace(*_APART, 41) * d:
@@ -114,7 +114,7 @@ def _reach(edge: Edge, study: TopperStudy, described: Topper) -> float:
     along = half * (1 + 2 * _ROOM) + aside * abs(math.sin(described.edge_angle))
     if edge.stands:
         return 4 * half
-    return along * edge.forward_speed / abs(edge.mean_advance)
+    return float(along * edge.forward_speed / abs(edge.mean_advance))
 
 
 def _box(

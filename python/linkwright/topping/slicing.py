@@ -18,14 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import primal, total
+from linkwright.kernel.numerics.extreme import greatest, least, size
+from linkwright.kernel.numerics.tangent_array import primal
 from linkwright.topping.edge import Edge
 
 # Times of a pass and places of the edge at which its use is counted.
@@ -47,41 +47,38 @@ class Slicing:
         Speed of the edge against the head [m/s].
     """
 
-    ratio_min: float
-    ratio_mean: float
-    ratio_max: float
-    speed_min: float
-    speed_max: float
+    ratio_min: Any
+    ratio_mean: Any
+    ratio_max: Any
+    speed_min: Any
+    speed_max: Any
 
 
 def slicing(edges: Sequence[Edge]) -> Slicing:
     """Extremes and mean of draw-cut ratio and cutting speed of an edge, half of the time each way."""
     slow, fast = zip(*(_speeds(edge) for edge in edges), strict=True)
-    least, greatest = zip(*(_ratios(edge) for edge in edges), strict=True)
+    low, high = zip(*(_ratios(edge) for edge in edges), strict=True)
     along, normal = (sum(mean_sizes(edge)[k] for edge in edges) for k in (0, 1))
     # An edge that moves along itself has no speed normal to it.
-    mean = np.inf if any(edge.stands for edge in edges) else float(along / normal)
-    return Slicing(min(least), mean, max(greatest), min(slow), max(fast))
+    mean = np.inf if any(edge.stands for edge in edges) else along / normal
+    return Slicing(least(*low), mean, greatest(*high), least(*slow), greatest(*fast))
 
 
-def mean_sizes(edge: Edge) -> tuple[float, float]:
+def mean_sizes(edge: Edge) -> tuple[Any, Any]:
     """Mean size of the speed along the edge and of that normal to it, over the time [m/s]."""
     knife, v, sin, cos = edge.knife, edge.forward_speed, np.sin(edge.angle), np.cos(edge.angle)
     along = mean_size(knife.law, v * sin + knife.drift * cos, knife.rate * cos)
-    return float(along), float(mean_size(knife.law, v * cos - knife.drift * sin, -knife.rate * sin))
+    return along, mean_size(knife.law, v * cos - knife.drift * sin, -knife.rate * sin)
 
 
 def mean_size(law: MotionLaw, level: Any, slope: Any) -> Any:
     """Mean of |level + slope y′| over the law y, between the zeros of what is in the bars."""
     fixed = law.primal
     speeds = fixed.derivative().scaled(float(primal(slope)), float(primal(level)))
-    cuts = sorted({*fixed.breaks, *speeds.zeros()})
-    parts = []
-    for low, high in pairwise(cuts):
-        middle = float(speeds.at(0.5 * (low + high)))
-        rise = law.value(high, 0, "before") - law.value(low)
-        parts.append((level * (high - low) + slope * rise) * float(np.sign(middle)))
-    return total(parts) / fixed.length
+    cuts = np.array(sorted({*fixed.breaks, *speeds.zeros()}))
+    low, high = cuts[:-1], cuts[1:]
+    ways = level * (high - low) + slope * (law.at(high, 0, "before") - law.at(low))
+    return (ways * np.sign(speeds.at(0.5 * (low + high)))).sum() / fixed.length
 
 
 def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
@@ -95,22 +92,21 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
     return np.abs(along) / ahead, np.hypot(along, normal)
 
 
-def _ratios(edge: Edge) -> tuple[float, float]:
+def _ratios(edge: Edge) -> tuple[Any, Any]:
     """Minimum and maximum draw-cut ratio."""
     leans = edge.leans
-    reaches = [abs(float(np.tan(lean))) for lean in leans]
-    least = 0.0 if leans[0] * leans[1] <= 0 else min(reaches)
-    greatest = np.inf if edge.retreats else max(reaches)
-    return least, float(greatest)
+    reaches = [size(np.tan(lean)) for lean in leans]
+    low = 0.0 if primal(leans[0]) * primal(leans[1]) <= 0 else least(*reaches)
+    return low, np.inf if edge.retreats else greatest(*reaches)
 
 
-def _speeds(edge: Edge) -> tuple[float, float]:
+def _speeds(edge: Edge) -> tuple[Any, Any]:
     """Minimum and maximum speed of the edge."""
     low, high = edge.knife.speeds
-    slowest = 0.0 if low <= 0 <= high else min(abs(low), abs(high))
-    speeds = (np.hypot(edge.forward_speed, speed) for speed in (slowest, max(abs(low), abs(high))))
-    least, greatest = speeds
-    return float(least), float(greatest)
+    sizes = size(low), size(high)
+    slowest = 0.0 if low <= 0 <= high else least(*sizes)
+    slow, fast = (np.hypot(edge.forward_speed, speed) for speed in (slowest, greatest(*sizes)))
+    return slow, fast
 
 
 def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Floats, Floats]:

@@ -3,12 +3,14 @@ slices."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import greatest, least
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -211,19 +213,21 @@ def topper(machine: Machine, *, charts: bool = True) -> TopperStudy:
     .. [1] Paper 5 for the published lengths; the exact ones are derived in the modules beside this.
     """
     described = require_topper(machine)
-    d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
+    numbers: dict[str, Any] = {name: float(number) for name, number in closed_forms(described, edges).items()}
+    d = numbers["head_diameter"]
+    place, use = edge_use(edges, d, described.offset)
     reasons = [barely_advances(edge, d, described.offset) for edge in edges]
     obstacle = next((reason for reason in reasons if reason), None)
     cut = _closed(described, edges[0], d) if obstacle else every_head(described, edges, d, charts=charts)
     return TopperStudy(
-        head_diameter=d,
-        cap_volume=float(cap_volume(described.root_diameter, described.cut_height)),
-        **_knife(edges[0], d),
-        **_lengths(described, edges[0], d),
+        **numbers,
+        condition_holds=numbers["time_across"] >= numbers["time_along"],
+        edge_place=place,
+        edge_use=use,
+        edge_retreats=any(edge.retreats for edge in edges),
         obstacle=obstacle,
         **cut,
-        **_slices(described, edges, d),
         **_driven(knife_drive(machine, edges[0].knife)),
     )
 
@@ -242,7 +246,14 @@ def _closed(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
     return cut
 
 
-def _knife(edge: Edge, d: float) -> dict[str, Any]:
+def closed_forms(described: Topper, edges: Sequence[Edge]) -> dict[str, Any]:
+    """Scalars in closed form, with derivatives if the description and the edges have some."""
+    d = head_diameter(described.root_diameter, described.cut_height)
+    head = {"head_diameter": d, "cap_volume": cap_volume(described.root_diameter, described.cut_height)}
+    return head | _knife(edges[0], d) | _lengths(described, edges[0], d) | _slices(edges)
+
+
+def _knife(edge: Edge, d: Any) -> dict[str, Any]:
     """How the knife moves."""
     knife = edge.knife
     passing = d / (edge.forward_speed * np.cos(edge.angle))
@@ -252,38 +263,34 @@ def _knife(edge: Edge, d: float) -> dict[str, Any]:
         "knife_speed": knife.mean_speed,
         "knife_speed_max": knife.speed_max,
         "knife_acceleration_max": knife.acceleration_max,
-        "strokes_per_head": float(2 * knife.frequency * passing),
+        "strokes_per_head": 2 * knife.frequency * passing,
     }
 
 
-def _lengths(described: Topper, edge: Edge, d: float) -> dict[str, Any]:
-    """Lengths in closed form."""
+def _lengths(described: Topper, edge: Edge, d: Any) -> dict[str, Any]:
+    """Travels, times and lengths."""
     alpha, v, v_h = described.edge_angle, described.forward_speed, edge.knife.mean_speed
     band = d + 2 * described.offset
     published = published_lengths(band, alpha, described.edge_length, v, v_h)
-    steady = constant_speed_lengths(d, described.offset, alpha, v, [0.0, v_h])
+    steady = constant_speed_lengths(d, described.offset, alpha, v, v_h)
     return {
         "travel_along": published.travel_along,
         "travel_across": published.travel_across,
         "time_along": published.time_along,
         "time_across": published.time_across,
-        "condition_holds": published.holds,
         "length_published": published.length_published,
         "length_consistent": published.length_consistent,
-        "length_at_rest": float(steady[0, 0]),
-        "length_exact_constant_speed": float(steady[:, 1].max()),
+        # One without a stroke.
+        "length_at_rest": every_phase_length(d, described.offset, alpha, 0.0),
+        "length_exact_constant_speed": greatest(*steady),
     }
 
 
-def _slices(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
+def _slices(edges: Sequence[Edge]) -> dict[str, Any]:
     """How the edge slices."""
     sliced = slicing(edges)
-    place, use = edge_use(edges, d, described.offset)
     return {
-        "edge_place": place,
-        "edge_use": use,
-        "edge_retreats": any(edge.retreats for edge in edges),
-        "least_advance": min(edge.least_advance for edge in edges),
+        "least_advance": least(*(edge.least_advance for edge in edges)),
         "slicing_ratio_min": sliced.ratio_min,
         "slicing_ratio_mean": sliced.ratio_mean,
         "slicing_ratio_max": sliced.ratio_max,

@@ -36,7 +36,6 @@ from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.topping.edge import Edge
-from linkwright.topping.knife_along import KnifeAlong
 
 _TURN = 2 * np.pi
 
@@ -121,21 +120,17 @@ def passes(edge: Edge, heads: Heads, level: float) -> Floats:
     spare = (abs(reach * sin) + _SPARE * heads.radius) / edge.mean_advance
 
     def missing(t: Floats) -> Floats:
-        return edge.place(t, heads.phase, heads.offset)[1] - level
+        return np.asarray(edge.place(t, heads.phase, heads.offset)[1] - level)
 
     return zeros(missing, middle - spare, middle + spare)[0]
 
 
 @dataclass(frozen=True)
 class EdgeAlong:
-    """An edge over heads, with derivatives by n variables: angle α [rad], speed v [m/s], half length h and
-    radius r [m].
-    """
+    """An edge over heads, with derivatives by n variables: half length h and radius r [m]."""
 
     n: int
-    knife: KnifeAlong
-    angle: Any
-    forward_speed: Any
+    edge: Edge
     half: Any
     radius: Any
 
@@ -176,13 +171,13 @@ def _terms(
     return [
         (ends.chord * r * np.arcsin(np.clip(ends.p / r, -1.0, 1.0)), d(along.radius)),
         (-ends.p, d(along.half)),
-        (0.5 * s * (ends.p**2 + ends.q**2), d(along.angle)),
-        (s * (way - t * law - 0.5 * knife.drift * t**2), d(along.forward_speed)),
-        (s * lag, d(along.knife.rate)),
-        (0.5 * s * v * t**2, d(along.knife.drift)),
+        (0.5 * s * (ends.p**2 + ends.q**2), d(along.edge.angle)),
+        (s * (way - t * law - 0.5 * knife.drift * t**2), d(along.edge.forward_speed)),
+        (s * lag, d(along.edge.knife.rate)),
+        (0.5 * s * v * t**2, d(along.edge.knife.drift)),
         (-s * v * t, shifts[0]),
         (s * aside, shifts[1]),
-        ((s * v * _law_way(along.knife.law, knife.rate, psi, t).T).T, 1.0),
+        ((s * v * _law_way(along.edge.knife.law, knife.rate, psi, t).T).T, 1.0),
     ]
 
 
@@ -216,7 +211,7 @@ def end_times(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: dic
     offset = lifted(heads.offset[ends.head], n)
     for number, name in ((offset, "offset"), (phase, "phase")):
         number.d[:] = np.asarray(moved[name])[ends.head] if np.ndim(moved[name]) else 0.0
-    q, p = place_along(along, lifted(t, n), phase, offset)
+    q, p = along.edge.place(lifted(t, n), phase, offset)
     qt, pt = edge.velocity(t, heads.phase[ends.head])
     rest = np.sqrt(np.clip(r**2 - ends.p**2, 0.0, None))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -231,17 +226,3 @@ def end_times(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: dic
     times: Any = lifted(t, n)
     times.d[:] = d
     return times
-
-
-def place_along(along: EdgeAlong, t: Any, phase: Any, offset: Any) -> tuple[Any, Any]:
-    """q and p of the middle of the edge at times, with derivatives, (k,) each [m]."""
-    ahead, aside = t * along.forward_speed, y_along(along.knife, t, phase) - offset
-    sin, cos = np.sin(along.angle), np.cos(along.angle)
-    return ahead * sin + aside * cos, ahead * cos - aside * sin
-
-
-def y_along(knife: KnifeAlong, t: Any, phase: Any, order: int = 0) -> Any:
-    """Place of the knife across the row at times, or its derivative by the phase, with derivatives, (k,)."""
-    psi = phase + t * knife.rate
-    y = knife.law.at(np.remainder(psi, _TURN), order)
-    return y + t * knife.drift if order == 0 else y

@@ -18,13 +18,21 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, common
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted
+from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import NOTHING, TopperStudy
-from linkwright.topping.uncut_along import EdgeAlong, Heads, end_times, exposed, slopes, uncut_slopes, y_along
+from linkwright.topping.uncut_along import (
+    EdgeAlong,
+    Heads,
+    end_times,
+    exposed,
+    slopes,
+    uncut_slopes,
+)
 from linkwright.topping.worst_head import heads_as_bad, mean_heads
 
 # An offset this near to the largest one, as a share, is that.
@@ -56,24 +64,16 @@ def worst_left_along(
             at = next(i for i, edge in enumerate(edges) if edge is head.edge)
             there = replace(study, uncut_phase=head.phase, uncut_offset=head.offset)
             other = _Worst(described, topper, edges[at], along[at], there).numbers()[0]
-            numbers["uncut_share"] = _in_common(numbers["uncut_share"], other["uncut_share"])
+            both = np.stack([numbers["uncut_share"].d, other["uncut_share"].d])
+            # Heads that are mirror images, whose places are looked for.
+            of_both = common(both, alike=ALIKE_OF_SOLVED)
+            numbers["uncut_share"] = Tangent(numbers["uncut_share"].value, of_both)
     return numbers, missing
 
 
 def _place(study: TopperStudy) -> tuple[Floats, Floats]:
     """Offset and phase of the worst head, (1,) each."""
     return np.array([study.uncut_offset]), np.array([study.uncut_phase])
-
-
-def _in_common(one: Tangent, other: Tangent) -> Tangent:
-    """A number with the derivatives that it has of two heads alike; NaN where they differ."""
-    apart = np.abs(one.d - other.d) > _ALIKE * np.abs(np.stack([one.d, other.d])).max(initial=0.0)
-    return Tangent(one.value, np.where(apart, np.nan, one.d))
-
-
-# Share of the largest derivative by which those of heads that are mirror images differ: their places are good
-# to 1e-8.
-_ALIKE = 1e-6
 
 
 class _Worst:
@@ -156,7 +156,7 @@ class _Worst:
         weight = ends.sign * ends.chord * ends.side
         phase = lifted(np.full(len(ends.time), self.phase), wide.n)
         phase.d[:] = moved["phase"]
-        y = y_along(replace(wide.knife, drift=0.0), times, phase)
+        y = replace(wide.edge.knife, drift=0.0).at(times, phase)
         return np.stack([(y * weight).sum().d, (times * weight).sum().d])
 
 
@@ -167,9 +167,9 @@ def widened(along: EdgeAlong, n: int) -> EdgeAlong:
     """An edge with two variables more, which none of its numbers depends on."""
 
     def wider(x: Any) -> Any:
-        return Tangent(x.value, np.append(x.d, [0.0, 0.0])) if isinstance(x, Tangent) else x
+        return type(x)(x.value, np.append(x.d, [0.0, 0.0])) if variables_of((x,)) else x
 
-    knife, law = along.knife, along.knife.law
+    edge, knife, law = along.edge, along.edge.knife, along.edge.knife.law
     pieces = tuple(
         piece._replace(
             polynomial=tuple(map(wider, piece.polynomial)),
@@ -179,8 +179,8 @@ def widened(along: EdgeAlong, n: int) -> EdgeAlong:
     )
     law = type(law)(tuple(map(wider, law.breaks)), pieces)
     wide = replace(knife, law=law, rate=wider(knife.rate), drift=wider(knife.drift))
-    numbers = (along.angle, along.forward_speed, along.half, along.radius)
-    return EdgeAlong(n + 2, wide, *map(wider, numbers))
+    moving = Edge(wide, wider(edge.angle), wider(edge.forward_speed))
+    return EdgeAlong(n + 2, moving, wider(along.half), wider(along.radius))
 
 
 def _share(value: float, d: Floats, disc: float, radius: float, radius_d: Any) -> Tangent:
@@ -195,7 +195,7 @@ def mean_left_along(
     shares, phases = mean_heads(described, edges)
     n = along[0].n
     radius_d = np.broadcast_to(slopes(along[0].radius), n)
-    radius = float(getattr(along[0].radius, "value", along[0].radius))
+    radius = float(primal(along[0].radius))
     disc, half = np.pi * radius**2, 0.5 * described.edge_length
     offset_d = shares[:, None] * np.broadcast_to(slopes(topper.offset), n)
     phase_d = np.broadcast_to(slopes(topper.motion.phase), (len(phases), n))

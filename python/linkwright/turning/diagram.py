@@ -18,7 +18,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, NamedTuple
 
@@ -271,7 +271,6 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
             "cycle; areas above and below the mean have to be equal"
         )
     change = float(np.ptp(np.append(after, 0.0)))
-    effect = evened(described, change)
     rows = tuple(
         {"start": None, "end": None, "energy": float(area), "energy_after": float(then)}
         for area, then in zip(areas, after, strict=True)
@@ -279,11 +278,9 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
     return TurningMomentDiagram(
         cycle=described.cycle,
         speed_mean=described.speed,
-        energy_fluctuation=change,
         accuracy=float(abs(after[-1])) / change,
         areas=rows,
-        **effect._asdict(),
-        **rim_of(described, effect)._asdict(),
+        **of_fluctuation(described, change),
     )
 
 
@@ -297,44 +294,59 @@ def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
     most, at_most = energy.extreme(+1)
     least, at_least = energy.extreme(-1)
     change = most - least
-    effect = evened(described, change)
+    peaks = {(k, sign): curves.extreme(sign, k) for k in (DRIVER, EXCESS) for sign in (+1, -1)}
+    numbers = of_torques(described, float(driver), change, {end: peak[0] for end, peak in peaks.items()})
     phi = np.linspace(0.0, cycle, n + 1)
     _, T, M = curves.at(phi)
     E = energy.at(phi)[0]
-    work = float(driver) * cycle
-    highest, at_highest = curves.extreme(+1, DRIVER)
-    lowest, at_lowest = curves.extreme(-1, DRIVER)
-    speeding, at_speeding = curves.extreme(+1)
-    slowing, at_slowing = curves.extreme(-1)
-    J = effect.inertia
+    places = {
+        "torque_driver_max_angle": peaks[DRIVER, +1][1],
+        "torque_driver_min_angle": peaks[DRIVER, -1][1],
+        "speed_max_angle": at_most,
+        "speed_min_angle": at_least,
+    }
+    if numbers["inertia"] is not None:
+        places |= {
+            "acceleration_max_angle": peaks[EXCESS, +1][1],
+            "acceleration_min_angle": peaks[EXCESS, -1][1],
+        }
     return TurningMomentDiagram(
         cycle=cycle,
         speed_mean=described.speed,
-        torque_mean=float(driver),
-        power_mean=float(driver) * described.speed,
-        energy_cycle=work,
-        energy_fluctuation=change,
-        energy_coefficient=change / work if work else None,
-        torque_driver_max=highest,
-        torque_driver_max_angle=at_highest,
-        torque_driver_min=lowest,
-        torque_driver_min_angle=at_lowest,
-        speed_max_angle=at_most,
-        speed_min_angle=at_least,
-        **effect._asdict(),
-        **rim_of(described, effect)._asdict(),
-        acceleration_max=None if J is None else speeding / J,
-        acceleration_min=None if J is None else slowing / J,
-        acceleration_max_angle=None if J is None else at_speeding,
-        acceleration_min_angle=None if J is None else at_slowing,
+        **numbers,
+        **places,
         accuracy=float(curves.error[EXCESS] / change) if change else 0.0,
         areas=_areas(curves, energy, cycle),
         crank_angle=phi,
         torque_driver=T,
         torque_load=M,
         energy=E,
-        speed=_speed(E - least, effect),
+        speed=_speed(E - least, numbers),
     )
+
+
+def of_fluctuation(described: TurningMoment, change: Any) -> dict[str, Any]:
+    """Scalars that follow from the fluctuation of energy, with derivatives if it or the table has some."""
+    effect = evened(described, change)
+    return {"energy_fluctuation": change} | effect._asdict() | rim_of(described, effect)._asdict()
+
+
+def of_torques(
+    described: TurningMoment, mean: Any, change: Any, peaks: Mapping[tuple[int, int], Any]
+) -> dict[str, Any]:
+    """Scalars that follow from torques, likewise; `peaks`: extremes of driver and excess by their sign."""
+    numbers, work = of_fluctuation(described, change), mean * described.cycle
+    J = numbers["inertia"]
+    numbers |= {
+        "torque_mean": mean,
+        "power_mean": mean * described.speed,
+        "energy_cycle": work,
+        "energy_coefficient": change / work if work else None,
+    }
+    for end, sign in (("max", +1), ("min", -1)):
+        numbers[f"torque_driver_{end}"] = peaks[DRIVER, sign]
+        numbers[f"acceleration_{end}"] = None if J is None else peaks[EXCESS, sign] / J
+    return numbers
 
 
 def fitted_curves(described: TurningMoment) -> TurnCurve:
@@ -419,8 +431,8 @@ def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str
     )
 
 
-def _speed(above: Floats, evened: _FlywheelEffect) -> Floats:
+def _speed(above: Floats, numbers: Mapping[str, Any]) -> Floats:
     """Speed by the energy above its minimum, (n,) [rad/s]; no curve without a moment of inertia."""
-    if evened.inertia is None or evened.speed_min is None:
+    if numbers["inertia"] is None:
         return _nothing()
-    return np.asarray(np.sqrt(evened.speed_min**2 + 2 * np.maximum(above, 0.0) / evened.inertia))
+    return np.asarray(np.sqrt(numbers["speed_min"] ** 2 + 2 * np.maximum(above, 0.0) / numbers["inertia"]))

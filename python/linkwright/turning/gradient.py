@@ -16,24 +16,22 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import TIE, apart, chosen, degrees, occurs_at, off
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, followed
+from linkwright.machine.tangents import Derivatives, followed, spread
 from linkwright.turning.diagram import (
     DRIVER,
     EXCESS,
     TurningMomentDiagram,
-    evened,
     fitted_curves,
-    rim_of,
+    of_fluctuation,
+    of_torques,
     turning_moment,
 )
 from linkwright.turning.model import TurningMoment
-
-# Extremes of the energy that are this near, as a share of its fluctuation, tie.
-_TIE = 1e-9
 
 # Degrees beyond those of the fitted series to which derivatives are integrated exactly.
 _MORE = 8
@@ -56,16 +54,12 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     refused = dict.fromkeys(_jump_movers(machine.turning_moment) & set(own), _MOVES_JUMP)
     own = [name for name in own if name not in refused]
     known, numbers_of = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
-    place = {name: at for at, name in enumerate(known)}
     listed = tuple(name for name in variables if name not in refused)
-    tangents = {}
-    for name, number in numbers_of.items():
-        value = getattr(result, name)
-        if value is None:
-            continue
-        d = lifted(number, len(known)).d
-        row = np.array([d[place[variable]] if variable in place else 0.0 for variable in listed])
-        tangents[name] = Tangent(float(value), row)
+    tangents = {
+        name: spread(number, known, listed, float(value))
+        for name, number in numbers_of.items()
+        if (value := getattr(result, name)) is not None
+    }
     made_of_energy = dict.fromkeys(_OF_ENERGY & set(tangents), work.tie) if work.tie else {}
     ties = made_of_energy | work.ties | _lost(tangents, listed)
     return Derivatives(listed, tangents, {name: ties[name] for name in tangents if name in ties}, {}, refused)
@@ -110,7 +104,7 @@ def _lost(tangents: dict[str, Tangent], variables: Sequence[str]) -> dict[str, s
     """What lies on a corner of a table that an entry moves."""
     lost = {}
     for name, tangent in tangents.items():
-        moved = [by for by, d in zip(variables, tangent.d, strict=True) if np.isnan(d)]
+        moved = chosen(variables, np.isnan(tangent.d))
         if moved:
             lost[name] = (
                 "the extreme occurs at a corner of the torque; there is no derivative with respect to "
@@ -126,7 +120,7 @@ class _OfAreas:
         # The energy at the start of the first area counts too.
         after = np.append(np.cumsum(np.asarray(described.areas)), 0.0)
         self.most, self.least = int(after.argmax()), int(after.argmin())
-        span = _TIE * float(after[self.most] - after[self.least])
+        span = TIE * float(after[self.most] - after[self.least])
         highest = np.flatnonzero(after >= after[self.most] - span)
         lowest = np.flatnonzero(after <= after[self.least] + span)
         self.places = {"maximum": highest, "minimum": lowest}
@@ -136,23 +130,19 @@ class _OfAreas:
         """All scalars, with the derivatives of the description."""
         after = np.cumsum(described.area_scale * numbers(described.areas))
         levels = np.concatenate([after, np.zeros(1)])
-        self.tie = self._tie(lifted(levels, variables_of((levels,)) or 1).d)
+        slopes = lifted(levels, variables_of((levels,)) or 1).d
+        self.tie = self._tie(slopes, float(np.abs(slopes).max()))
         change = levels[self.most] - levels[self.least]
-        return {"energy_fluctuation": change} | _of_flywheel(described, change)
+        return of_fluctuation(described, change)
 
-    def _tie(self, slopes: Floats) -> str:
+    def _tie(self, slopes: Floats, scale: float) -> str:
         """Where the energy has an extreme twice that entries move apart; empty if nowhere."""
         for end, places in self.places.items():
-            for place in places[1:]:
-                if np.abs(slopes[place] - slopes[places[0]]).max() > _TIE * np.abs(slopes).max():
-                    # The level behind the last is that at the start.
-                    is_start = place == len(slopes) - 1
-                    where = (
-                        f"area {places[0] + 1} and at the start"
-                        if is_start
-                        else (f"areas {places[0] + 1} and {place + 1}")
-                    )
-                    return f"the {end} of the energy occurs after {where}"
+            for place in places[apart(slopes[places], scale).any(axis=1)]:
+                # The level behind the last is that at the start.
+                is_start, first = place == len(slopes) - 1, places[0] + 1
+                where = f"area {first} and at the start" if is_start else f"areas {first} and {place + 1}"
+                return f"the {end} of the energy occurs after {where}"
         return ""
 
 
@@ -175,11 +165,10 @@ class _OfCurves:
         at = np.append(self.curves.crossings(EXCESS), self.ends)
         E = energy.at(at)[0]
         for word, sign, end in (("maximum", 1.0, self.ends[0]), ("minimum", -1.0, self.ends[1])):
-            near = at[sign * E >= (sign * E).max() - _TIE * float(np.ptp(E))]
-            apart = np.abs((near - end + 0.5 * self.cycle) % self.cycle - 0.5 * self.cycle)
-            if (apart > _TIE).any():
-                other = np.degrees(near[apart > _TIE][0])
-                return f"the {word} of the energy occurs at {np.degrees(end):.4g}° and {other:.4g}°"
+            near = at[sign * E >= (sign * E).max() - TIE * float(np.ptp(E))]
+            others = near[off(near, end, self.cycle) > TIE]
+            if len(others):
+                return f"the {word} of the energy occurs at {degrees(end)} and {degrees(others[0])}"
         return ""
 
     def scalars(self, described: TurningMoment) -> dict[str, Any]:
@@ -191,23 +180,12 @@ class _OfCurves:
         # Once round from the minimum to the maximum.
         between = (self.nodes > min(high, low)) & (self.nodes < max(high, low))
         change = np.sum(excess * (self.weights * between)) * (1.0 if high > low else -1.0)
-        effect = _of_flywheel(described, change)
-        work = mean * self.cycle
-        numbers_of = {
-            "torque_mean": mean,
-            "power_mean": mean * described.speed,
-            "energy_cycle": work,
-            "energy_fluctuation": change,
-            "energy_coefficient": change / work if work else None,
+        peaks = {
+            (k, sign): self._extreme(described, f"{name}_{end}", k, sign)
+            for k, name in ((DRIVER, "torque_driver"), (EXCESS, "acceleration"))
+            for end, sign in (("max", +1), ("min", -1))
         }
-        for end, sign in (("max", +1), ("min", -1)):
-            numbers_of[f"torque_driver_{end}"] = self._extreme(
-                described, f"torque_driver_{end}", DRIVER, sign
-            )
-            if effect.get("inertia") is not None:
-                name = f"acceleration_{end}"
-                numbers_of[name] = self._extreme(described, name, EXCESS, sign) / effect["inertia"]
-        return numbers_of | effect
+        return of_torques(described, mean, change, peaks)
 
     def _torques(self, described: TurningMoment, phi: Floats) -> tuple[Any, Any]:
         """Driver and load at angles; what is left out is the mean of the other."""
@@ -224,17 +202,14 @@ class _OfCurves:
     def _extreme(self, described: TurningMoment, name: str, k: int, sign: int) -> Any:
         """An extreme of driver or excess, at a jump from the side that has it."""
         value, angle = self.curves.extreme(sign, k)
-        others = self.curves.extremes(sign, k, _TIE)
+        others = self.curves.extremes(sign, k, TIE)
         curve, at = self._beside(described, k, np.append(angle, others[others != angle]))
         # Values at the angles themselves count before those on either side.
-        there = np.flatnonzero(np.abs(primal(curve) - value) <= _TIE * self.curves.peak[k])
+        there = np.flatnonzero(np.abs(primal(curve) - value) <= TIE * self.curves.peak[k])
         slopes = lifted(curve, variables_of((curve,)) or 1).d[there]
-        apart = np.abs(slopes - slopes[0]).max(axis=1) > _TIE * np.abs(slopes).max()
-        if apart.any():
-            words = (
-                f"the extreme occurs at {np.degrees(angle):.4g}° and {np.degrees(at[there][apart][0]):.4g}°"
-            )
-            self.ties[name] = words
+        rivals = at[there][apart(slopes).any(axis=1)]
+        if len(rivals):
+            self.ties[name] = occurs_at((angle, rivals[0]))
         return curve[int(there[0])]
 
     def _beside(self, described: TurningMoment, k: int, phi: Floats) -> tuple[Any, Floats]:
@@ -251,10 +226,3 @@ def _nodes(curves: TurnCurve, ends: tuple[float, float]) -> tuple[Floats, Floats
     x, w = np.polynomial.legendre.leggauss(curves.series.shape[-1] + _MORE)
     middle, half = 0.5 * (marks[1:] + marks[:-1]), 0.5 * np.diff(marks)
     return (middle[:, None] + half[:, None] * x).ravel(), (half[:, None] * w).ravel()
-
-
-def _of_flywheel(described: TurningMoment, change: Any) -> dict[str, Any]:
-    """Flywheel, speed fluctuation and rim for a fluctuation of energy."""
-    effect = evened(described, change)
-    numbers_of = effect._asdict() | rim_of(described, effect)._asdict()
-    return {name: value for name, value in numbers_of.items() if value is not None}

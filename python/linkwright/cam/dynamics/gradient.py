@@ -56,7 +56,7 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
     for key, slope in slopes.items():
         moving = kinks.moved_at(places[key], _NEAR)
         tangents[key] = Tangent(float(getattr(loaded, key)), np.where(moving, np.nan, slope))
-        words = [_tied(loaded, key), kinks.words(places[key], moving, _NEAR) if moving.any() else ""]
+        words = [_tied(loaded, key), kinks.words(places[key], moving) if moving.any() else ""]
         if any(words):
             ties[key] = "; ".join(filter(None, words))
     derivatives = Derivatives(program.variables, tangents, ties, {}, refused, lost)

@@ -22,6 +22,7 @@ from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, show
+from linkwright.kernel.numerics.tangent_array import plain, primal
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
@@ -256,7 +257,7 @@ class CamProfile(Result):
                 value = 0.0 if abs(extreme.value) <= rounding else extreme.value
                 entries |= {f"{by_angle}_{end}": value, f"{by_angle}_{end}_angle": extreme.at}
                 if over_time:
-                    entries[f"{over_time}_{end}"] = _in_time(value, order, self.speed)
+                    entries[f"{over_time}_{end}"] = in_time(value, order, self.speed)
         return entries
 
     @public
@@ -343,10 +344,10 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
         first.curvature_radius,
         name,
         cam.stroke,
-        _in_time(cam.motion.peaks[0], 1, speed),
-        _in_time(cam.motion.peaks[1], 2, speed),
-        _in_time(cam.motion.peaks[2], 3, speed),
-        _in_time(cam.motion.steady_velocity, 1, speed),
+        in_time(cam.motion.peaks[0], 1, speed),
+        in_time(cam.motion.peaks[1], 2, speed),
+        in_time(cam.motion.peaks[2], 3, speed),
+        in_time(cam.motion.steady_velocity, 1, speed),
         float(size.base_radius),
         float(size.base_radius + size.roller_radius),
         abs(steepest.value),
@@ -375,13 +376,18 @@ def _least(extremes: list[Extreme | None]) -> Extreme | None:
     )
 
 
-def _in_time(peak: float | None, order: int, speed: float | None) -> float | None:
-    """A derivative by the cam angle as one by time; None without either."""
+def in_time(peak: Any, order: int, speed: Any) -> Any:
+    """A derivative by the cam angle as one by time; None without either, or beyond the range of numbers."""
     if peak is None or speed is None:
         return None
     with np.errstate(over="ignore"):
-        value = float(peak * np.abs(np.float64(speed)) ** order)
-    return value if np.isfinite(value) else None
+        value = peak * np.power(abs(speed), order)
+    return plain(value) if np.isfinite(primal(value)) else None
+
+
+def radius_beside(bend: Any, roller: Any, sign: float) -> Any:
+    """Radius of the profile beside a convex (+1) or concave (−1) pitch curve, 1/κ − r_r."""
+    return sign * (1.0 / bend - roller)
 
 
 def _flank(contact: Contact, n: int) -> Flank:
@@ -393,6 +399,10 @@ def _flank(contact: Contact, n: int) -> Flank:
         # Under a flat face the cam must be convex everywhere.
         return Flank(contact, shape, *steep, low["bend"], None)
     roller, bends = contact.sizes.roller_radius, (high["bend"], low["bend"])
-    convex = Extreme(bends[0].angle, 1.0 / bends[0].value - roller) if bends[0].value > 0 else None
-    concave = Extreme(bends[1].angle, -1.0 / bends[1].value + roller) if bends[1].value < 0 else None
+    convex = (
+        Extreme(bends[0].angle, radius_beside(bends[0].value, roller, 1.0)) if bends[0].value > 0 else None
+    )
+    concave = (
+        Extreme(bends[1].angle, radius_beside(bends[1].value, roller, -1.0)) if bends[1].value < 0 else None
+    )
     return Flank(contact, shape, *steep, convex, concave)

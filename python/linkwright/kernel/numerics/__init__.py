@@ -4,6 +4,7 @@
 | --- | --- |
 | `confidence` | How far estimates may be from the truth |
 | `differences` | Derivatives of what has no rules for them, by extrapolated differences |
+| `extreme` | Extremes with derivatives: which rivals tie, whose derivatives differ, kinks that move |
 | `formula_value` | The value of a formula: its tree worked through with numpy |
 | `least_squares` | Linear least squares with what it can tell; damped steps for many problems |
 | `zeros` | Zeros and extremes of smooth functions of the crank angle, many at once, to rounding |

@@ -308,7 +308,7 @@ def in_arrays(x: Any) -> Any:
 
 def plain(x: Any) -> Any:
     """One number of arrays as a number, with its derivatives if it has some."""
-    return x.number() if isinstance(x, TangentArray) else float(x)
+    return x.number() if isinstance(x, TangentArray) else x if isinstance(x, Tangent) else float(x)
 
 
 def primal(x: Any) -> Any:

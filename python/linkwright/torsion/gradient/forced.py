@@ -22,6 +22,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, differ
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
@@ -33,9 +34,8 @@ from linkwright.torsion.gradient.torques import TorqueTangents, torque_tangents
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
 from linkwright.torsion.response.forced import response_by_amplitudes, responses
 
-# Peaks that are this near, as a share of the highest, tie; and derivatives that differ by less, of their
-# largest, are one.
-_TIE, _ONE = 1e-7, 1e-3
+# Derivatives of rivals that differ by less than this share are one: angles of a waveform lie between samples.
+_ONE = 1e-3
 
 # Share by which the torque by twist may differ from that by equilibrium: beyond it, the shaft is as good as
 # rigid.
@@ -118,7 +118,7 @@ def _peaks(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[tuple
             if rigid[shaft]:
                 continue
             best = int(row.argmax())
-            others = np.flatnonzero(row >= row[best] * (1 - _TIE))
+            others = np.flatnonzero(row >= row[best] * (1 - TIE_OF_SOLVED))
             speeds = " and ".join(f"{at.torques.speeds[k] * 30 / np.pi:.5g} rpm" for k in others)
             peaks.append((kind, shaft, best, f"the extreme occurs at {speeds}" if len(others) > 1 else ""))
     return peaks
@@ -150,10 +150,10 @@ class _Peaks:
         # The second end of a piece is where the first of the next one is.
         end, part = np.divmod(np.arange(len(ratio)), len(ratio) // 2)
         apart = end + part != end[station] + part[station]
-        for rival in np.flatnonzero(apart & (ratio >= ratio[station] * (1 - _TIE))).tolist():
+        for rival in np.flatnonzero(apart & (ratio >= ratio[station] * (1 - TIE_OF_SOLVED))).tolist():
             other, change, _ = self._at_station(kind, shaft, place, rival)
-            differ = np.abs(change - slope).max(initial=0.0) > _ONE * np.abs(slope).max(initial=0.0)
-            if differ or abs(other - value) > _TIE * value:
+            differs = differ(np.stack([slope, change]), alike=_ONE).any()
+            if differs or abs(other - value) > TIE_OF_SOLVED * value:
                 return value, slope, "the extreme occurs at several positions along the shaft"
         return value, slope, tie
 
@@ -171,9 +171,8 @@ class _Peaks:
             sign, (first, *rivals) = (1.0, high) if top >= -bottom else (-1.0, [-row for row in low])
             value, given = max(top, -bottom), sign * self._torques[place].mean[shaft]
         slope: Floats = (first @ dt).real
-        size = np.abs(slope).max(initial=0.0)
-        differ = any(np.abs((w @ dt).real - slope).max(initial=0.0) > _ONE * size for w in rivals)
-        return value, slope + given, "the extreme occurs at several angles" if differ else ""
+        differs = differ(np.stack([slope, *((w @ dt).real for w in rivals)]), alike=_ONE).any()
+        return value, slope + given, "the extreme occurs at several angles" if differs else ""
 
     def _ends(
         self, t: Complexes, mean: float
@@ -205,7 +204,7 @@ def _rivals(wave: Floats, best: float) -> list[float]:
     peaks = np.flatnonzero((wave >= left) & (wave > right))
     bend, slope = left[peaks] - 2 * wave[peaks] + right[peaks], 0.5 * (right[peaks] - left[peaks])
     tops = wave[peaks] - 0.5 * slope**2 / bend
-    tied = peaks[tops >= tops.max(initial=-np.inf) - _TIE * np.ptp(wave)]
+    tied = peaks[tops >= tops.max(initial=-np.inf) - TIE_OF_SOLVED * np.ptp(wave)]
     shift = 0.5 * (left[tied] - right[tied]) / (left[tied] - 2 * wave[tied] + right[tied])
     angles = 2 * np.pi * (tied + shift) / len(wave)
     apart = np.abs(np.angle(np.exp(1j * (angles - best)))) > 4 * np.pi / len(wave)

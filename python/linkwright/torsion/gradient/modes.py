@@ -29,6 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, TIE, differ
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
@@ -43,9 +44,6 @@ _REPEATED = 1e-9
 
 # Share of the largest angle below which a disc is at rest.
 _AT_REST = 1e-9
-
-# Angles that differ by a smaller share are equal, as by symmetry; so are derivatives.
-_EQUAL, _ONE = 1e-9, 1e-6
 
 _RESTING = (
     "all discs are at rest in this mode; which disc leads for neighbouring machines depends on the entry"
@@ -136,14 +134,14 @@ def _add_shape(tangents: ModeTangents, i: int, discs: Sequence[str], angles: Mod
         tangents.missing.update({(i, name): _RESTING for name in discs})
         return
     # As `free_vibration` scales: of entries that are equal but for rounding the first counts.
-    largest = np.flatnonzero(size > (1 - _EQUAL) * size.max())
+    largest = np.flatnonzero(size > (1 - TIE) * size.max())
     growth = np.sign(values[largest])[:, None] * slopes[largest] / size[largest, None]
     top = size[largest[0]]
     scaled = values[: len(discs)] / top
     changes = slopes[: len(discs)] / top - scaled[:, None] * growth[0]
     for name, value, slope in zip(discs, scaled.tolist(), changes, strict=True):
         tangents.mode_shapes[i, name] = Tangent(value, slope)
-    if np.abs(growth - growth[0]).max(initial=0.0) > _ONE * np.abs(changes).max(initial=0.0):
+    if differ(growth, np.abs(changes).max(initial=0.0), ALIKE_OF_SOLVED).any():
         tangents.shape_ties[i] = "the largest amplitude occurs at several positions"
 
 
@@ -183,6 +181,6 @@ class _LumpedModes:
         of_disc = q[i][r.mass]
         theta = r.speed * of_disc
         size = np.abs(theta)
-        sense = np.sign(theta[np.argmax(size > (1 - _EQUAL) * size.max())])
+        sense = np.sign(theta[np.argmax(size > (1 - TIE) * size.max())])
         slopes = r.speed[:, None] * dq[r.mass] + d.speed * of_disc[:, None]
         return ModeAngles(sense * theta, sense * slopes)
