@@ -31,10 +31,11 @@ class Label(NamedTuple):
     about : str
         What else is to be known, in sentences. A property says it in its docstring.
     shape : str
-        Of an array that is no list of numbers over another one, such as ``"(n, 2)"``.
+        Of an array that is no list of numbers over another one, such as ``"(n, 2)"``; ``"(shafts,)"`` for one
+        with a number for each of the names in the attribute ``shafts``.
     over : str
         Attribute that a curve runs over, if that is not the first array of its result; its own name for an
-        array that runs over no quantity, such as over variants.
+        array that runs over no quantity, such as over variants. Numbers of named parts run over none.
     table : str
         Name of the table that has a row for it; empty for none.
     before : str
@@ -129,6 +130,8 @@ def over(owner: type, name: str) -> str:
     """The attribute that a curve runs over; empty for that one itself, and for what is no curve."""
     mark = shown(owner, name)
     if not is_array(owner, name):
+        return ""
+    if not mark.over and mark.shape.strip("(,)") in declared(owner):
         return ""
     first = next(attribute for attribute in declared(owner) if is_array(owner, attribute))
     abscissa = mark.over or first
