@@ -102,7 +102,7 @@ def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
         shown = [*shown[: _EVENTS // 2], *shown[-_EVENTS // 2 :]]
     title = "Events" if len(shown) == len(events) else f"Events, {len(shown)} of {len(events)}"
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
-    rates = (f"acceleration_{side} [{_ACCELERATION}]" for side in ("before", "after"))
+    rates = tuple(f"acceleration_{side} [{_ACCELERATION}]" for side in ("before", "after"))
     cells = (
         "kind",
         "",

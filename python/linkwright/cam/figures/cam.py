@@ -245,7 +245,9 @@ def motion_laws_figure(laws: Mapping[str, MotionLaw]) -> Figure:
             dash = _DASHES[n // len(LINES) % len(_DASHES)]
             lines.append(Line(y, LINES[n % len(LINES)], "" if order else name, x, dash))
         drawn.append(Panel(label, lines))
-    return line_figure(np.array([0.0, 1.0]), *drawn, height=8.2, over="share z of the section [–]")
+    # Beyond the ends, so that jumps are seen there.
+    ends = np.array([-0.05, 1.05])
+    return line_figure(ends, *drawn, height=8.2, over="share z of the section [–]")
 
 
 def _law_course(law: MotionLaw, order: int) -> tuple[Floats, Floats]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
 
 if TYPE_CHECKING:
@@ -101,13 +102,11 @@ def waterfall_figure(waterfall: Waterfall, *, quantity: str = "amplitude") -> Fi
 @styled
 def orders_figure(waterfall: Waterfall, orders: Sequence[float], *, quantity: str = "amplitude") -> Figure:
     """Draw the amplitudes of some orders over the speed. A line for each order."""
-    figure, (axes,) = panels(1, height=3.0)
-    for order, colour in zip(orders, LINES, strict=False):
-        axes.plot(_RPM * waterfall.speed, waterfall.order(order), color=colour, label=f"order {order:g}")
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("speed [rpm]")
-    axes.set_ylabel(quantity)
-    legend_above(axes)
+    drawn = zip(orders, LINES, strict=False)
+    lines = [Line(waterfall.order(order), colour, f"order {order:g}") for order, colour in drawn]
+    panel = Panel(quantity, lines, room=None)
+    figure = line_figure(_RPM * waterfall.speed, panel, height=3.0, over="speed [rpm]")
+    figure.axes[0].set_ylim(bottom=0)
     return figure
 
 

@@ -22,7 +22,7 @@ def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
 
 def _ice(moved: TorsionTransient) -> Table:
     """Each sequence of impacts, and how the propeller slows down in it."""
-    heads = ("propeller", "", "Q_max", "C_q", "α_i", "impacts", "first at", "last passed at")
+    heads: Row = ("propeller", "", "Q_max", "C_q", "α_i", "impacts", "first at", "last passed at")
     cells = ("on", "", "torque_max [N m]", "amplitude", "duration [rad]", "impacts", "start [s]", "end [s]")
     speeds = ("speed_before [rad/s]", "speed_min [rad/s]")
     heads = (*heads, "{rpm} before", "minimum {rpm}")

@@ -188,8 +188,8 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     cells: list[Cell] = ["name", "", "unevenness", "unevenness_rigid", "unevenness_torsional"]
     if (along := study.along) is not None:
         heads = (*heads, "N", "spread of N")
-        cells.append(lambda disc: number(along.unevenness[disc.place[0]], 3))
-        cells.append(lambda disc: number(along.spread[disc.place[0]], 3))
+        cells.append(lambda disc: number(float(along.unevenness[disc.place[0]]), 3))
+        cells.append(lambda disc: number(float(along.spread[disc.place[0]]), 3))
     return part_table("unevenness", title, parts_of(forced, "discs", at), heads, *cells, digits=3)
 
 
@@ -271,8 +271,15 @@ def _shapes(free: FreeVibration, modes: range) -> Table:
 
 def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     """Holzer's table: discs, then shafts."""
-    heads = ("disc", "", "J [{kg m²}]", "J ω² [{N m/rad}]", "amplitude θ", "J ω² θ [{N m}]")
-    cells = ("name", "", "inertia", "inertia_squared", lambda disc: number(disc.amplitude, 6), "torque")
+    heads: Row = ("disc", "", "J [{kg m²}]", "J ω² [{N m/rad}]", "amplitude θ", "J ω² θ [{N m}]")
+    cells: tuple[Cell, ...] = (
+        "name",
+        "",
+        "inertia",
+        "inertia_squared",
+        lambda disc: number(disc.amplitude, 6),
+        "torque",
+    )
     title = f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}"
     discs = part_table("holzer_discs", title, parts_of(table, "discs"), heads, *cells, digits=6)
     residual = number(table.residual_torque, 6, float(np.abs(table.torque).max()))
