@@ -35,7 +35,8 @@ class Label(NamedTuple):
         with a number for each of the names in the attribute ``shafts``.
     over : str
         Attribute that a curve runs over, if that is not the first array of its result; its own name for an
-        array that runs over no quantity, such as over variants. Numbers of named parts run over none.
+        array that runs over no quantity, such as over variants: where the first array does so, all others of
+        the result do. Numbers of named parts run over none.
     table : str
         Name of the table that has a row for it; empty for none.
     before : str
@@ -135,7 +136,8 @@ def over(owner: type, name: str) -> str:
         return ""
     first = next(attribute for attribute in declared(owner) if is_array(owner, attribute))
     abscissa = mark.over or first
-    return "" if abscissa == name else abscissa
+    is_free = not mark.over and getattr(declared(owner)[first][1], "over", "") == first
+    return "" if is_free or abscissa == name else abscissa
 
 
 def is_array(owner: type, name: str) -> bool:

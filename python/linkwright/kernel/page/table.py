@@ -78,29 +78,28 @@ def rows_in(
     table: str,
     beside: Mapping[str, str] | None = None,
     *,
+    at: Callable[[float], str] = lambda _: "",
     without: Collection[str] = (),
     length: str = "",
 ) -> list[Row]:
     """Rows for the attributes of a result that are declared with a table.
 
-    `beside`: what the last column says, by attribute; `without`: attributes that this result has no use for;
-    `length`: usual unit of lengths.
+    `beside`: what the last column says, by attribute; `at`: makes what it says of other extremes, from the
+    angle where they are, an attribute such as `speed_max_angle`; `without`: attributes that this result has
+    no use for; `length`: usual unit of lengths.
     """
-    names = (name for name in in_table(type(result), table) if name not in without)
-    return [row(result, name, (beside or {}).get(name, ""), length=length) for name in names]
+    names = [name for name in in_table(type(result), table) if name not in without]
+    angles = {name: getattr(result, f"{name}_angle", None) for name in names}
+    places = {name: at(angle) for name, angle in angles.items() if angle is not None} | dict(beside or {})
+    return [row(result, name, places.get(name, ""), length=length) for name in names]
 
 
 def known_rows(
-    result: Result,
-    table: str,
-    beside: Mapping[str, str] | None = None,
-    *,
-    without: Collection[str] = (),
-    length: str = "",
+    result: Result, table: str, *beside: Mapping[str, str], without: Collection[str] = (), **how: Any
 ) -> list[Row]:
     """`rows_in`, without attributes that are None."""
     unknown = [name for name in in_table(type(result), table) if getattr(result, name) is None]
-    return rows_in(result, table, beside, without=[*unknown, *without], length=length)
+    return rows_in(result, table, *beside, without=[*unknown, *without], **how)
 
 
 class NamedPart:
