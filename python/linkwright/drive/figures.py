@@ -375,25 +375,18 @@ _DRAWN_POINTS = 2000
 @styled
 def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme]) -> Figure:
     """Draw speed and acceleration of the crank over time; `extremes` are marked by dots."""
-    figure, axes = panels(2, height=5.0)
-    time, _, speed, acceleration = course(motion, _DRAWN_POINTS)
+    time, _, _, acceleration = course(motion, _DRAWN_POINTS)
     time, acceleration = _with_jumps(motion, time, acceleration)
-    speed = motion.at(time)[1]
-    for panel, name, symbol, values, unit, colour in (
-        (axes[0], "speed", "ω", speed, "rad/s", SPEED),
-        (axes[1], "acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
+    drawn = []
+    for name, symbol, values, unit, colour in (
+        ("speed", "ω", motion.at(time)[1], "rad/s", SPEED),
+        ("acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
     ):
-        panel.plot(time, values, color=colour)
-        for extreme in extremes:
-            if extreme.quantity == name:
-                panel.plot(extreme.time, extreme.value, "o", color=INK, markersize=4, clip_on=False)
-        panel.set_ylabel(f"{name} {symbol} [{unit}]")
-        roomy(panel, values)
-        zero_line(panel)
-    axes[-1].set_xlabel("time t [s]")
-    if len(time) > 1:
-        axes[-1].set_xlim(float(time[0]), float(time[-1]))
-    return figure
+        marked = [extreme for extreme in extremes if extreme.quantity == name]
+        heights, at = (np.array([getattr(one, key) for one in marked]) for key in ("value", "time"))
+        marks = Line(heights, INK, x=at, form="o", style={"markersize": 4, "clip_on": False})
+        drawn.append(Panel(f"{name} {symbol} [{unit}]", [Line(values, colour), marks]))
+    return line_figure(time, *drawn, height=5.0, over="time t [s]")
 
 
 def _with_jumps(

@@ -31,7 +31,7 @@ class Line(NamedTuple):
     colour: str
     label: str = ""  # in the legend of its panel
     x: Floats | None = None  # its own places along x
-    form: str = "-"  # of lines and marks, as matplotlib writes it
+    form: str = ""  # of lines and marks, as matplotlib writes it
     style: Mapping[str, Any] = {}
 
 
@@ -66,7 +66,7 @@ def line_figure(x: Floats, *drawn: Panel, height: float, over: str = CRANK_ANGLE
         _draw(one, x, panel)
         if over.endswith("[°]"):
             turn_axis(one, x, label=False)
-    if not over.endswith("[°]"):
+    if not over.endswith("[°]") and x[-1] > x[0]:
         axes[-1].set_xlim(float(x[0]), float(x[-1]))
     axes[-1].set_xlabel(over)
     return figure
@@ -78,7 +78,8 @@ def _draw(axes: Axes, x: Floats, panel: Panel) -> None:
             level(axes, *line)
         else:
             at = x if line.x is None else line.x
-            axes.plot(at, line.y, line.form, color=line.colour, label=line.label or None, **line.style)
+            form = (line.form,) if line.form else ()
+            axes.plot(at, line.y, *form, color=line.colour, label=line.label or None, **line.style)
     axes.set_ylabel(panel.label, **(MATH if "$" in panel.label else {}))
     if panel.room is not None:
         curves = (line.y for line in panel.lines if isinstance(line, Line))
