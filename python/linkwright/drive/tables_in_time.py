@@ -11,7 +11,7 @@ from linkwright.drive.transient import End, Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number, quantity
-from linkwright.kernel.page.table import Row, Table, part_table
+from linkwright.kernel.page.table import Cell, Row, Table, part_table
 from linkwright.linkages.motion import Motion
 
 # What rounding leaves of zero, over the largest value of a column.
@@ -103,7 +103,7 @@ def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
     title = "Events" if len(shown) == len(events) else f"Events, {len(shown)} of {len(events)}"
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
     rates = tuple(f"acceleration_{side} [{_ACCELERATION}]" for side in ("before", "after"))
-    cells = (
+    cells: tuple[Cell, ...] = (
         "kind",
         "",
         "time [s]",

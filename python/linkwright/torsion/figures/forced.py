@@ -230,7 +230,7 @@ _TOP = 3.0
 @styled
 def damper_figure(design: DamperDesign) -> Figure:
     """Draw the twist of the watched shaft over the frequency, without damper and with it."""
-    lines = [
+    lines: list[Line | Level] = [
         Line(design.response_bare, SOFT, "without damper"),
         Line(design.response_rule, RED, "mode alone"),
         Line(design.response_best, BLUE, "best"),

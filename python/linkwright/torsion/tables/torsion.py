@@ -224,8 +224,8 @@ def _frequencies(free: FreeVibration) -> Table:
         ("dominant strain energy; kinetic energy", "", "Hz", "cycles/min", "nodes", "at"),
         lambda k: _energy(free, k),
         lambda k: f"f_{k}",
-        lambda k: number(frequency[k]),
-        lambda k: number(60 * frequency[k]),
+        lambda k: number(float(frequency[k])),
+        lambda k: number(60 * float(frequency[k])),
         lambda k: str(len(nodes[k])) if frequency[k] > 0 else "–",
         lambda k: _nodes(nodes[k]) if frequency[k] > 0 else "–",
     )
