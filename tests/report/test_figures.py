@@ -12,7 +12,8 @@ from matplotlib.text import Text
 import linkwright as lw
 from linkwright.app.report.page import content
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import SMALL, legend_above, panels, styled
+from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
+from linkwright.kernel.figure.style import BLUE, RED, SMALL, legend_above, panels, styled
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.page.numbers import number
 from linkwright.torsion.page import torsion_content
@@ -106,3 +107,18 @@ def test_numbers_have_four_digits_unless_asked() -> None:
             assert number(np.pi) == "3.14159"
     with pytest.raises(InputError, match="digits: found 0, expected 1 to 15"):
         lw.shown_in(digits=0)
+
+
+def test_lines_and_levels_of_a_panel_are_in_its_legend_and_in_view() -> None:
+    """Angles reach over the revolution with their words below the last panel; wanted heights are in view."""
+    x = np.linspace(0.0, 360.0, 5)
+    pull = Panel("pull $Z$\n[N]", [Line(2 + np.sin(x), BLUE, "rope"), Level(2.0, "mean")], room=(0.0,))
+    figure = line_figure(x, pull, Panel("lift [m]", [Line(x, RED)]), height=3.0)
+    above, below = figure.axes
+    legend = above.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["rope", "mean"]
+    assert below.get_legend() is None
+    assert above.get_ylim()[0] < 0
+    assert (above.get_xlabel(), below.get_xlabel()) == ("", "crank angle φ [°]")
+    assert below.get_xlim() == (0.0, 360.0)

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import pytest
 
 from linkwright.app.study import study
+from linkwright.kernel.arrays import Floats
 from linkwright.kernel.files.library import template
 from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.table import columns_csv, curves_csv
+from linkwright.kernel.page.out_units import OutUnits, reading
+from linkwright.kernel.page.table import columns_csv, curves_csv, part_table, parts_of
+from linkwright.kernel.quantities import About, Label, over
+from linkwright.kernel.result import Result
 from linkwright.machine.read import loads, read
 from linkwright.machine.table import machine_parts
 
@@ -81,3 +87,42 @@ def test_what_is_rounding_beside_its_unit_is_zero_in_csv() -> None:
     }
     rows = columns_csv(columns).splitlines()[1:]
     assert rows == ["50000.0,0.0,1e-14,", "-2.0,1e-06,2e-14,1e-20"]
+
+
+@dataclass(frozen=True)
+class Sheaves(Result):
+    """Sheaves of a hoist at two speeds."""
+
+    speeds: Annotated[Floats, Label("speed", "ω", "rad/s")]
+    sheaves: Annotated[tuple[str, ...], About("Names.")]
+    pull: Annotated[Floats, Label("pull of the rope", "Z", "N", shape="(sheaves, speeds)")]
+    worst: Annotated[Floats, Label("speed of the largest pull", "", "rad/s", shape="(sheaves,)")]
+
+
+SHEAVES = Sheaves(
+    np.array([1.0, 2.0]),
+    ("upper", "lower"),
+    np.array([[400.0, 500.0], [300.0, 1e-14]]),
+    np.array([2.0, 1.0]) * np.pi / 30,
+)
+
+
+def test_table_has_a_row_for_each_part_with_declared_units() -> None:
+    """Rounding beside the largest of a column is zero; a unit in the head stands for its column."""
+    cells = ("name", "", "pull", "worst", lambda part: part.name[0])
+    heads = ("sheave", "", "pull", "worst {rpm}", "letter")
+    table = part_table("sheaves", "Sheaves", parts_of(SHEAVES, "sheaves", 1), heads, *cells)
+    assert table.heads == ("sheave", "", "pull", "worst rpm", "letter")
+    assert table.rows == [("upper", "", "500 N", "2", "u"), ("lower", "", "0 N", "1", "l")]
+
+
+def test_units_of_the_reader_hold_for_cells_and_heads_of_parts() -> None:
+    with reading(OutUnits.of("kN, rad/s")):
+        table = part_table("", "", parts_of(SHEAVES, "sheaves", 0), ("", "at {rpm}"), "pull", "worst")
+    assert table.heads[1] == "at rad/s"
+    assert table.rows[0] == ("0.4 kN", "0.2094")
+
+
+def test_numbers_of_named_parts_run_over_no_curve() -> None:
+    assert over(Sheaves, "worst") == ""
+    assert over(Sheaves, "pull") == "speeds"

@@ -15,7 +15,12 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.angle_marks import mark_angles
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
+from linkwright.kernel.figure.lines import Line, Panel, line_figure
+from linkwright.kernel.figure.style import (
+    LINES,
+    named,
+    styled,
+)
 from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.quantities import Label, declared, over
 from linkwright.kernel.result import Result
@@ -328,17 +333,15 @@ def curves_figure(curves: Sequence[Curve], zero: str = "") -> Figure:
     by_unit: dict[tuple[str, float], list[Curve]] = {}
     for curve in curves:
         by_unit.setdefault(_shown(curve.unit), []).append(curve)
-    figure, axes = panels(len(by_unit), height=_AROUND + _PANEL * len(by_unit))
-    colours = iter(LINES * len(curves))
-    for panel, ((unit, factor), group) in zip(axes, by_unit.items(), strict=True):
-        for member in group:
-            x = member.x / _shown(member.over_unit)[1]
-            panel.plot(x, member.values / factor, color=next(colours), label=named(member.words))
-        panel.set_ylabel(f"{_HELD.get(group[0].unit, group[0].words)} [{unit or '–'}]")
-        roomy(panel, *(member.values[np.isfinite(member.values)] / factor for member in group))
-        zero_line(panel)
-        legend_above(panel)
-    _under(axes[-1], curves, zero)
+    colours, drawn = iter(LINES * len(curves)), []
+    for (unit, factor), group in by_unit.items():
+        lines = [
+            Line(one.values / factor, next(colours), named(one.words), one.x / _shown(one.over_unit)[1])
+            for one in group
+        ]
+        drawn.append(Panel(f"{_HELD.get(group[0].unit, group[0].words)} [{unit or '–'}]", lines))
+    figure = line_figure(curves[0].x, *drawn, height=_AROUND + _PANEL * len(by_unit), over="")
+    _under(figure.axes[-1], curves, zero)
     return figure
 
 

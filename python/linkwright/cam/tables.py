@@ -191,25 +191,39 @@ def force_table(loaded: LoadedCam) -> Table:
     )
 
 
-_FACTORS = {"C_v": "C_v", "C_a": "C_a", "C_j": "C_j", "C_M": "C_M", "jerk_squared": "∫j²"}
+_COLUMNS = {
+    "C_v": "C_v",
+    "C_a": "C_a",
+    "C_j": "C_j",
+    "C_M": "C_M",
+    "acceleration_squared": "∫a²",
+    "jerk_squared": "∫j²",
+}
+
+# Those of a cam beside other laws.
+_FACTORS = {name: head for name, head in _COLUMNS.items() if name != "acceleration_squared"}
 
 
 def comparison_table(profile: CamProfile) -> Table:
     """The sections from rest to rest beside what other laws would make of them."""
-    own = list(_own(profile))
-    rows = [_factor_row(name, factors) for name, factors in own]
-    if rows:
-        rows += [
-            _factor_row(name.replace("_", " "), law_factors(LAWS[name].normalised())) for name in _COMPARED
-        ]
+    laws = dict(_own(profile))
+    if laws:
+        laws |= {name.replace("_", " "): law_factors(LAWS[name].normalised()) for name in _COMPARED}
     title = f"Laws of cam {profile.name} compared with others, for unit lift and unit length"
-    return Table(f"cam_{profile.name}_laws", title, ("law", "jumps", *_FACTORS.values()), rows)
+    return _factor_table(f"cam_{profile.name}_laws", title, laws, _FACTORS)
 
 
-def _factor_row(name: str, factors: LawFactors) -> Row:
-    jumps = factors.remarks[0].split(" ", 1)[0] if factors.remarks else ""
-    values = (getattr(factors, factor) for factor in _FACTORS)
-    return name, jumps, *("∞" if value is None else number(value) for value in values)
+def _factor_table(name: str, title: str, laws: Mapping[str, LawFactors], columns: Mapping[str, str]) -> Table:
+    """A law a row; what jumps, in one word."""
+    rows = [
+        (
+            law,
+            factors.remarks[0].split(" ", 1)[0] if factors.remarks else "",
+            *("∞" if (value := getattr(factors, factor)) is None else number(value) for factor in columns),
+        )
+        for law, factors in laws.items()
+    ]
+    return Table(name, title, ("law", "jumps", *columns.values()), rows)
 
 
 def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
@@ -229,24 +243,11 @@ def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
             yield f"section {n} of this cam", factors
 
 
-_COLUMNS = {
-    "C_v": "C_v",
-    "C_a": "C_a",
-    "C_j": "C_j",
-    "C_M": "C_M",
-    "acceleration_squared": "∫a²",
-    "jerk_squared": "∫j²",
-}
-
-
 def law_table(factors: Mapping[str, LawFactors]) -> Table:
     """Factors of laws, a law a row."""
-    rows = [
-        (_named(name), _jumps(law_factors), *(_shown(getattr(law_factors, factor)) for factor in _COLUMNS))
-        for name, law_factors in factors.items()
-    ]
+    laws = {_named(name): law for name, law in factors.items()}
     title = "Motion laws between two dwells, for unit lift and unit length"
-    return Table("cam_laws", title, ("law", "jumps", *_COLUMNS.values()), rows)
+    return _factor_table("cam_laws", title, laws, _COLUMNS)
 
 
 def bound_table() -> Table:
@@ -264,12 +265,3 @@ def _named(name: str) -> str:
     """A law's name, with the order that a law of several kinds is shown for."""
     order = LAWS[name].parameters.get("order") if name in LAWS else None
     return name if order is None else f"{name}, order {order}"
-
-
-def _shown(value: float | None) -> str:
-    return "∞" if value is None else number(value)
-
-
-def _jumps(factors: LawFactors) -> str:
-    """What jumps, in one word."""
-    return factors.remarks[0].split(" ", 1)[0] if factors.remarks else ""

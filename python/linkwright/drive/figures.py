@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.motion_events import course, sides
+from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     ACCELERATION,
     BLUE,
@@ -17,7 +18,6 @@ from linkwright.kernel.figure.style import (
     INERTIA,
     INK,
     LOAD,
-    MATH,
     MOTOR,
     RED,
     SKY,
@@ -25,11 +25,9 @@ from linkwright.kernel.figure.style import (
     SPEED,
     CaptionedFigure,
     legend_above,
-    level,
     panels,
     roomy,
     styled,
-    turn_axis,
     zero_line,
 )
 from linkwright.kernel.page.numbers import number, quantity
@@ -58,107 +56,71 @@ _KILOWATT = 1000.0
 @styled
 def speed_figure(steady: SteadyState) -> Figure:
     """Draw speed and acceleration of the crank over its angle."""
-    figure, (speed, acceleration) = panels(2, height=4.2)
-    degrees = np.degrees(steady.crank_angle)
-    _speed(speed, degrees, steady)
-    acceleration.plot(degrees, steady.acceleration, color=ACCELERATION)
-    acceleration.set_ylabel("acceleration ε\n[rad/s²]")
-    roomy(acceleration, steady.acceleration)
-    zero_line(acceleration)
-    turn_axis(speed, degrees, label=False)
-    turn_axis(acceleration, degrees)
-    return figure
-
-
-def _speed(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
-    """The speed with its mean and its extremes."""
-    axes.plot(degrees, steady.speed, color=SPEED, label="speed")
-    level(
-        axes,
-        steady.speed_mean_extremes,
-        f"mean of the extremes {quantity(steady.speed_mean_extremes, 'rad/s')}",
+    extremes = Line(
+        np.array([steady.speed_min, steady.speed_max]),
+        SPEED,
+        "minimum and maximum",
+        np.degrees([steady.speed_min_angle, steady.speed_max_angle]),
+        "o",
+        {"markersize": 4.5},
     )
-    places = np.degrees([steady.speed_min_angle, steady.speed_max_angle])
-    extremes = [steady.speed_min, steady.speed_max]
-    axes.plot(places, extremes, "o", color=SPEED, markersize=4.5, label="minimum and maximum")
-    axes.set_ylabel("speed ω\n[rad/s]")
-    roomy(axes, steady.speed)
-    legend_above(axes)
+    mean = steady.speed_mean_extremes
+    words = f"mean of the extremes {quantity(mean, 'rad/s')}"
+    speed = Panel("speed ω\n[rad/s]", [Line(steady.speed, SPEED, "speed"), Level(mean, words), extremes])
+    acceleration = Panel("acceleration ε\n[rad/s²]", [Line(steady.acceleration, ACCELERATION)])
+    return line_figure(np.degrees(steady.crank_angle), speed, acceleration, height=4.2)
 
 
 @styled
 def torque_figure(steady: SteadyState) -> Figure:
-    """Draw torques at the crank and power of the motor over the crank angle."""
-    figure, (torque, power) = panels(2, height=4.2)
-    degrees = np.degrees(steady.crank_angle)
-    torque.plot(degrees, steady.torque_load, color=LOAD, label="load torque")
-    torque.plot(degrees, steady.torque_drive, color=DRIVE, label="driving torque")
-    torque.set_ylabel("torque at the crank\n[N m]")
-    roomy(torque, steady.torque_drive, steady.torque_load)
-    zero_line(torque)
-    legend_above(torque)
-    _power(power, degrees, steady)
-    turn_axis(torque, degrees, label=False)
-    turn_axis(power, degrees)
-    return figure
-
-
-def _power(axes: Axes, degrees: np.ndarray, steady: SteadyState) -> None:
-    """The power of the motor with its mean."""
+    """Draw torques at the crank and power of the motor with its mean over the crank angle."""
     usual = "kW" if abs(steady.power_motor_mean) >= _KILOWATT else "W"
     unit, size = reader().shown("W", usual)
-    power, mean = steady.power_motor / size, steady.power_motor_mean / size
-    axes.plot(degrees, power, color=MOTOR, label="power of the motor")
-    level(axes, mean, f"mean over time {mean:.4g} {unit}")
-    axes.set_ylabel(f"power $P$\n[{unit}]", **MATH)
-    roomy(axes, power)
-    zero_line(axes)
-    legend_above(axes)
+    torques = [
+        Line(steady.torque_load, LOAD, "load torque"),
+        Line(steady.torque_drive, DRIVE, "driving torque"),
+    ]
+    mean = steady.power_motor_mean / size
+    power = Line(steady.power_motor / size, MOTOR, "power of the motor")
+    return line_figure(
+        np.degrees(steady.crank_angle),
+        Panel("torque at the crank\n[N m]", torques),
+        Panel(f"power $P$\n[{unit}]", [power, Level(mean, f"mean over time {mean:.4g} {unit}")]),
+        height=4.2,
+    )
 
 
 @styled
 def time_figure(steady: SteadyState) -> Figure:
     """Draw speed and motor torque against time, over two cycles."""
-    figure, (speed, torque) = panels(2, height=4.2)
     time = np.concatenate([steady.time + turn * steady.period for turn in range(_TURNS)])
-    speed.plot(time, np.tile(steady.speed, _TURNS), color=SPEED, label="speed")
-    level(speed, steady.speed_mean_time, f"mean over time {quantity(steady.speed_mean_time, 'rad/s')}")
-    speed.set_ylabel("speed ω\n[rad/s]")
-    roomy(speed, steady.speed)
-    legend_above(speed)
-    torque.plot(time, np.tile(steady.torque_motor, _TURNS), color=MOTOR, label="torque of the motor")
-    level(torque, steady.torque_motor_rms, f"root mean square {quantity(steady.torque_motor_rms, 'N m')}")
-    torque.set_ylabel("motor torque $M$\n[N m]", **MATH)
-    roomy(torque, steady.torque_motor)
-    zero_line(torque)
-    legend_above(torque)
+    speed = Line(np.tile(steady.speed, _TURNS), SPEED, "speed")
+    mean, rms = steady.speed_mean_time, steady.torque_motor_rms
+    torque = Line(np.tile(steady.torque_motor, _TURNS), MOTOR, "torque of the motor")
     count = "two" if steady.turns == 1 else _TURNS * steady.turns
-    torque.set_xlabel(f"time t [s], {count} revolutions")
-    torque.set_xlim(0, _TURNS * steady.period)
+    figure = line_figure(
+        time,
+        Panel("speed ω\n[rad/s]", [speed, Level(mean, f"mean over time {quantity(mean, 'rad/s')}")]),
+        Panel("motor torque $M$\n[N m]", [torque, Level(rms, f"root mean square {quantity(rms, 'N m')}")]),
+        height=4.2,
+        over=f"time t [s], {count} revolutions",
+    )
+    figure.axes[-1].set_xlim(0, _TURNS * steady.period)
     return figure
 
 
 @styled
 def reduction_figure(reduction: Reduction) -> Figure:
     """Draw reduced inertia and reduced torque over the crank angle."""
-    figure, (inertia, torque) = panels(2, height=4.2)
-    degrees = np.degrees(reduction.crank_angle)
-    inertia.plot(degrees, reduction.inertia_reduced, color=INERTIA)
-    inertia.set_ylabel("reduced inertia $J$\n[kg m²]", **MATH)
-    roomy(inertia, reduction.inertia_reduced)
-    torque.plot(degrees, reduction.torque_load, color=LOAD, label="load torque")
-    level(
-        torque,
-        reduction.torque_load_mean,
-        f"mean {quantity(reduction.torque_load_mean, 'N m', scale=_size(reduction))}",
+    mean = reduction.torque_load_mean
+    words = f"mean {quantity(mean, 'N m', scale=_size(reduction))}"
+    load = Line(reduction.torque_load, LOAD, "load torque")
+    return line_figure(
+        np.degrees(reduction.crank_angle),
+        Panel("reduced inertia $J$\n[kg m²]", [Line(reduction.inertia_reduced, INERTIA)]),
+        Panel("reduced torque $M_r$\n[N m]", [load, Level(mean, words)], room=(0.0,)),
+        height=4.2,
     )
-    torque.set_ylabel("reduced torque $M_r$\n[N m]", **MATH)
-    roomy(torque, reduction.torque_load, np.array([0.0]))
-    zero_line(torque)
-    legend_above(torque)
-    turn_axis(inertia, degrees, label=False)
-    turn_axis(torque, degrees)
-    return figure
 
 
 # Points per revolution that show the solver's quintics as smooth lines.
@@ -413,25 +375,18 @@ _DRAWN_POINTS = 2000
 @styled
 def in_time_figure(motion: Transient, extremes: Sequence[MotionExtreme]) -> Figure:
     """Draw speed and acceleration of the crank over time; `extremes` are marked by dots."""
-    figure, axes = panels(2, height=5.0)
-    time, _, speed, acceleration = course(motion, _DRAWN_POINTS)
+    time, _, _, acceleration = course(motion, _DRAWN_POINTS)
     time, acceleration = _with_jumps(motion, time, acceleration)
-    speed = motion.at(time)[1]
-    for panel, name, symbol, values, unit, colour in (
-        (axes[0], "speed", "ω", speed, "rad/s", SPEED),
-        (axes[1], "acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
+    drawn = []
+    for name, symbol, values, unit, colour in (
+        ("speed", "ω", motion.at(time)[1], "rad/s", SPEED),
+        ("acceleration", "ε", acceleration, "rad/s²", ACCELERATION),
     ):
-        panel.plot(time, values, color=colour)
-        for extreme in extremes:
-            if extreme.quantity == name:
-                panel.plot(extreme.time, extreme.value, "o", color=INK, markersize=4, clip_on=False)
-        panel.set_ylabel(f"{name} {symbol} [{unit}]")
-        roomy(panel, values)
-        zero_line(panel)
-    axes[-1].set_xlabel("time t [s]")
-    if len(time) > 1:
-        axes[-1].set_xlim(float(time[0]), float(time[-1]))
-    return figure
+        marked = [extreme for extreme in extremes if extreme.quantity == name]
+        heights, at = (np.array([getattr(one, key) for one in marked]) for key in ("value", "time"))
+        marks = Line(heights, INK, x=at, form="o", style={"markersize": 4, "clip_on": False})
+        drawn.append(Panel(f"{name} {symbol} [{unit}]", [Line(values, colour), marks]))
+    return line_figure(time, *drawn, height=5.0, over="time t [s]")
 
 
 def _with_jumps(

@@ -22,10 +22,8 @@ def drive_tables(study: Results) -> Iterator[Table]:
 
 def _rows(result: Reduction | SteadyState, table: str, *, without: Collection[str] = ()) -> list[Row]:
     """The rows of a table; of an extreme, with the crank angle where it is."""
-    extremes = [name for name in in_table(type(result), table) if hasattr(result, f"{name}_angle")]
     cycle = cycle_of_angles(result.crank_angle)
-    places = {name: crank_angle(getattr(result, f"{name}_angle"), "at φ = ", cycle) for name in extremes}
-    return rows_in(result, table, places, without=without)
+    return rows_in(result, table, at=lambda angle: crank_angle(angle, "at φ = ", cycle), without=without)
 
 
 def _reduction(study: Results) -> Table | None:

@@ -11,7 +11,7 @@ from linkwright.drive.transient import End, Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.page.numbers import degrees, number, quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Cell, Row, Table, part_table
 from linkwright.linkages.motion import Motion
 
 # What rounding leaves of zero, over the largest value of a column.
@@ -102,25 +102,16 @@ def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
         shown = [*shown[: _EVENTS // 2], *shown[-_EVENTS // 2 :]]
     title = "Events" if len(shown) == len(events) else f"Events, {len(shown)} of {len(events)}"
     heads = ("event", "", "time", "crank angle", "speed", "acceleration before", "after")
-    rates = (
-        acceleration
-        for event in shown
-        for acceleration in (event.acceleration_before, event.acceleration_after)
+    rates = tuple(f"acceleration_{side} [{_ACCELERATION}]" for side in ("before", "after"))
+    cells: tuple[Cell, ...] = (
+        "kind",
+        "",
+        "time [s]",
+        lambda event: _angle(event.crank_angle, zero),
+        f"speed [{_SPEED}]",
+        *rates,
     )
-    most = max((abs(rate) for rate in rates if rate is not None), default=0.0)
-    rows: list[Row] = [
-        (
-            event.kind,
-            "",
-            quantity(event.time, "s"),
-            _angle(event.crank_angle, zero),
-            _value(event.speed, _SPEED),
-            _value(event.acceleration_before, _ACCELERATION, most),
-            _value(event.acceleration_after, _ACCELERATION, most),
-        )
-        for event in shown
-    ]
-    return Table("events", title, heads, rows)
+    return part_table("events", title, shown, heads, *cells)
 
 
 def _course(course: Motion, zero: Zero) -> Table:

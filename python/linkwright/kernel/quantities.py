@@ -31,10 +31,12 @@ class Label(NamedTuple):
     about : str
         What else is to be known, in sentences. A property says it in its docstring.
     shape : str
-        Of an array that is no list of numbers over another one, such as ``"(n, 2)"``.
+        Of an array that is no list of numbers over another one, such as ``"(n, 2)"``; ``"(shafts,)"`` for one
+        with a number for each of the names in the attribute ``shafts``.
     over : str
         Attribute that a curve runs over, if that is not the first array of its result; its own name for an
-        array that runs over no quantity, such as over variants.
+        array that runs over no quantity, such as over variants: where the first array does so, all others of
+        the result do. Numbers of named parts run over none.
     table : str
         Name of the table that has a row for it; empty for none.
     before : str
@@ -130,9 +132,12 @@ def over(owner: type, name: str) -> str:
     mark = shown(owner, name)
     if not is_array(owner, name):
         return ""
+    if not mark.over and mark.shape.strip("(,)") in declared(owner):
+        return ""
     first = next(attribute for attribute in declared(owner) if is_array(owner, attribute))
     abscissa = mark.over or first
-    return "" if abscissa == name else abscissa
+    is_free = not mark.over and getattr(declared(owner)[first][1], "over", "") == first
+    return "" if is_free or abscissa == name else abscissa
 
 
 def is_array(owner: type, name: str) -> bool:

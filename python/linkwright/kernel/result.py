@@ -81,6 +81,12 @@ class Record(PlainRecord):
         super().__init_subclass__(**options)
         cls.__doc__ = _Docstring(vars(cls).get("__doc__") or "")  # type: ignore[assignment]
 
+    @public
+    def unit_of(self, name: str) -> str:
+        """SI unit of an attribute or a curve by its name; empty if it has none."""
+        _, mark = declared(type(self)).get(name, (None, None))
+        return mark.unit if isinstance(mark, Label) else ""
+
 
 def _fields(record: Any) -> tuple[Field[Any], ...]:
     return fields(record)
@@ -223,12 +229,6 @@ class Result(Record):
     def columns(self) -> dict[str, np.ndarray]:
         """Curves of the result's parts, named with their unit such as ``A_x [N]``; none for most."""
         return {}
-
-    @public
-    def unit_of(self, name: str) -> str:
-        """SI unit of an attribute or a curve by its name; empty if it has none."""
-        _, mark = declared(type(self)).get(name, (None, None))
-        return mark.unit if isinstance(mark, Label) else ""
 
     @public
     def word_of(self, name: str, word: str) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     DRIVE,
     LINES,
@@ -18,10 +19,7 @@ from linkwright.kernel.figure.style import (
     legend_above,
     named,
     panels,
-    roomy,
     styled,
-    turn_axis,
-    zero_line,
 )
 from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.numbers import quantity
@@ -42,19 +40,14 @@ _CIRCLES, _BESIDE = 4, 14
 @styled
 def forces_figure(forces: Forces) -> Figure:
     """Draw the driving torque and the largest reactions over the crank angle."""
-    figure, (torque, sizes) = panels(2, height=4.2)
-    degrees = np.degrees(forces.crank_angle)
-    torque.plot(degrees, forces.torque_drive, color=DRIVE)
-    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
-    roomy(torque, forces.torque_drive[np.isfinite(forces.torque_drive)])
-    zero_line(torque)
-    for name, colour in zip(_largest(forces), LINES, strict=False):
-        sizes.plot(degrees, forces.pairs[name].size, color=colour, label=named(name))
-    sizes.set_ylabel("magnitude of the reaction\n[N]")
-    legend_above(sizes)
-    turn_axis(torque, degrees, label=False)
-    turn_axis(sizes, degrees)
-    return figure
+    sizes = zip(_largest(forces), LINES, strict=False)
+    reactions = [Line(forces.pairs[name].size, colour, named(name)) for name, colour in sizes]
+    return line_figure(
+        np.degrees(forces.crank_angle),
+        Panel("driving torque $M_d$\n[N m]", [Line(forces.torque_drive, DRIVE)]),
+        Panel("magnitude of the reaction\n[N]", reactions, room=None),
+        height=4.2,
+    )
 
 
 @styled
@@ -114,18 +107,12 @@ def polar_figure(forces: Forces) -> Figure:
 @styled
 def cases_figure(cases: Mapping[str, Forces]) -> Figure:
     """Draw driving torque and shaking force of load cases by name in two panels, one above the other."""
-    figure, (torque, frame) = panels(2, height=4.2)
-    for (name, forces), colour in zip(cases.items(), LINES * len(cases), strict=False):
-        degrees = np.degrees(forces.crank_angle)
-        torque.plot(degrees, forces.torque_drive, color=colour, label=named(name))
-        frame.plot(degrees, np.hypot(*forces.shaking_force.T), color=colour)
-    torque.set_ylabel("driving torque $M_d$\n[N m]", **MATH)
-    frame.set_ylabel("shaking force\n[N]")
-    legend_above(torque)
-    zero_line(torque)
-    turn_axis(torque, degrees, label=False)
-    turn_axis(frame, degrees)
-    return figure
+    coloured = list(zip(cases.items(), LINES * len(cases), strict=False))
+    torques = [Line(forces.torque_drive, colour, named(name)) for (name, forces), colour in coloured]
+    sizes = [Line(np.hypot(*forces.shaking_force.T), colour) for (_, forces), colour in coloured]
+    degrees = np.degrees(next(iter(cases.values())).crank_angle)
+    both = Panel("driving torque $M_d$\n[N m]", torques), Panel("shaking force\n[N]", sizes, room=None)
+    return line_figure(degrees, *both, height=4.2)
 
 
 def _largest(forces: Forces) -> list[str]:

@@ -15,7 +15,7 @@ from linkwright.kernel.page.numbers import (
     parted,
     quantity,
 )
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Row, Table, part_table, parts_of
 from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
 from linkwright.kinetostatics.envelope import Extent, envelope
@@ -94,16 +94,10 @@ _ORDERS = 6
 
 def orders_table(orders: ShakingOrders) -> Table:
     """Primary, secondary and higher shaking forces and couples at a constant speed."""
-    scales = [float(values.max()) for values in (orders.force_max, orders.couple_max)]
-    rows: list[Row] = [
-        (f"order {order:.4g}", "", measured(force, "N", scales[0]), measured(couple, "N m", scales[1]))
-        for order, force, couple in zip(
-            orders.order.tolist(), orders.force_max.tolist(), orders.couple_max.tolist(), strict=True
-        )
-        if order <= _ORDERS
-    ]
     title = f"Shaking force and couple of inertia at {quantity(orders.speed, 'rad/s')}"
-    return Table("shaking_orders", title, ("", "", "maximum force", "maximum couple"), rows)
+    heads, parts = ("", "", "maximum force", "maximum couple"), parts_of(orders, "order")
+    cells = (lambda one: f"order {one.order:.4g}", "", "force_max", "couple_max")
+    return part_table("shaking_orders", title, [one for one in parts if one.order <= _ORDERS], heads, *cells)
 
 
 def cases_table(cases: Mapping[str, Forces]) -> Table:
@@ -200,21 +194,11 @@ def contribution_table(forces: Forces) -> Table:
 
 def balance_tables(balance: Balance) -> list[Table]:
     """The counterweights, and root mean squares before and after."""
-    has_planes = any(counterweight.axial for counterweight in balance.counterweights)
-    weights: list[Row] = [
-        (
-            counterweight.link,
-            "",
-            measured(counterweight.mass, "kg"),
-            measured(counterweight.radius, "m"),
-            degrees(counterweight.angle),
-            measured(counterweight.moment, "kg m"),
-            *([measured(counterweight.axial, "m")] if has_planes else []),
-        )
-        for counterweight in balance.counterweights
-    ]
-    along = ("along the crankshaft",) if has_planes else ()
-    heads = ("link", "", "mass", "radius", "direction from the link", "moment", *along)
+    heads: Row = ("link", "", "mass", "radius", "direction from the link", "moment")
+    cells = ["link", "", "mass", "radius", "angle", "moment"]
+    if any(counterweight.axial for counterweight in balance.counterweights):
+        heads, cells = (*heads, "along the crankshaft"), [*cells, "axial"]
+    weights = part_table("counterweights", "Counterweights", balance.counterweights, heads, *cells)
     rows: list[Row] = []
     measures = balance.measures()
     scales: dict[str, float] = {}
@@ -229,6 +213,6 @@ def balance_tables(balance: Balance) -> list[Table]:
         change = "–" if is_zero else f"{number(100 * (values[1] / values[0] - 1))} %"
         rows.append((f"{mark.word}, rms", mark.symbol, before, after, change))
     return [
-        Table("counterweights", "Counterweights", heads, weights),
+        weights,
         Table("balance", "Effect of the counterweights", ("quantity", "", "before", "after", "change"), rows),
     ]

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
     SOFT,
     CaptionedFigure,
     legend_above,
-    level,
     named,
     panels,
-    roomy,
     styled,
-    turn_axis,
 )
 from linkwright.kernel.page.numbers import degrees, quantity
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
@@ -39,18 +37,14 @@ _POOR = 40.0
 @styled
 def transmission_figure(linkage: Linkage) -> Figure:
     """Draw the transmission angle of every dyad over the crank angle, with limits at 40° and 140°."""
-    figure, (axes,) = panels(1, height=2.9)
-    angles = np.degrees(linkage.crank_angle)
-    for k, (name, mu) in enumerate(linkage.transmission_angles.items()):
-        axes.plot(angles, np.degrees(mu), color=LINES[k % len(LINES)], label=named(name))
-    drawn = [np.degrees(mu) for mu in linkage.transmission_angles.values()]
-    roomy(axes, *drawn, np.array([_POOR, 180 - _POOR]))
-    level(axes, _POOR, "40° and 140°")
-    axes.axhline(180 - _POOR, color=SOFT, linewidth=1.1, linestyle=(0, (5, 3)))
-    turn_axis(axes, angles)
-    axes.set_ylabel("transmission angle μ [°]")
-    legend_above(axes)
-    return figure
+    angles = linkage.transmission_angles
+    lines = [
+        Line(np.degrees(mu), LINES[k % len(LINES)], named(name))
+        for k, (name, mu) in enumerate(angles.items())
+    ]
+    limits = [Level(_POOR, "40° and 140°"), Level(180 - _POOR, "")]
+    panel = Panel("transmission angle μ [°]", [*lines, *limits], room=(_POOR, 180 - _POOR))
+    return line_figure(np.degrees(linkage.crank_angle), panel, height=2.9)
 
 
 @styled

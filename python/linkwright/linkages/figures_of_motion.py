@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, roomy, styled, zero_line
+from linkwright.kernel.figure.lines import Line, Panel, line_figure
+from linkwright.kernel.figure.style import LINES, named, styled
 from linkwright.kernel.page.numbers import crank_angle, measured
 from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.motion import Motion
@@ -49,21 +50,17 @@ def course_figures(motion: Motion) -> dict[str, Figure]:
 @styled
 def course_figure(motion: Motion, names: list[str]) -> Figure:
     """Draw positions of one kind with their velocities and accelerations, a panel each."""
-    figure, axes = panels(len(_RATES), height=5.4)
-    curves = motion.curves()
-    for axis, (ending, *words) in zip(axes, _RATES, strict=True):
+    curves, drawn = motion.curves(), []
+    for ending, *words in _RATES:
         unit = motion.unit_of(names[0] + ending)
         size = 180 / np.pi if unit == "rad" else 1.0
-        drawn = [size * curves[name + ending] for name in names]
-        for colour, name, values in zip(LINES, names, drawn, strict=False):
-            axis.plot(motion.time, values, color=colour, label=named(_name(name)))
-        axis.set_ylabel(f"{words[_is_angle(names[0])]}\n[{'°' if unit == 'rad' else unit}]")
-        roomy(axis, *drawn)
-        zero_line(axis)
-    legend_above(axes[0])
-    axes[-1].set_xlabel("time t [s]")
-    axes[-1].set_xlim(float(motion.time[0]), float(motion.time[-1]))
-    return figure
+        lines = [
+            Line(size * curves[name + ending], colour, "" if ending else named(_name(name)))
+            for colour, name in zip(LINES, names, strict=False)
+        ]
+        word = words[_is_angle(names[0])]
+        drawn.append(Panel(f"{word}\n[{'°' if unit == 'rad' else unit}]", lines))
+    return line_figure(motion.time, *drawn, height=5.4, over="time t [s]")
 
 
 def _moving(motion: Motion, kind: str) -> list[str]:

@@ -94,15 +94,12 @@ def _transmission(linkage: Linkage) -> Table:
 
 def _loops(linkage: Linkage) -> Table:
     heads = ("four-bar loop", "", "driver", "coupler", "follower", "ground", "s + l", "p + q")
-    rows = []
-    for element in linkage.elements:
-        loop = element.four_bar
-        if loop is not None:
-            lengths = (loop.driver, loop.coupler, loop.follower, loop.ground)
-            sums = (loop.sum_extremes, loop.sum_others)
-            rows.append(
-                (f"{element.element}: {loop.grashof}", "", *(measured(x, "m") for x in (*lengths, *sums)))
-            )
+    names = ("driver", "coupler", "follower", "ground", "sum_extremes", "sum_others")
+    rows: list[Row] = [
+        (f"{element.element}: {loop.grashof}", "", *(measured(getattr(loop, name), "m") for name in names))
+        for element in linkage.elements
+        if (loop := element.four_bar) is not None
+    ]
     return Table("grashof", "Four-bar loops", heads, rows)
 
 

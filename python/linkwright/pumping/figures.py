@@ -7,20 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import (
-    BLUE,
-    GREEN,
-    MATH,
-    PURPLE,
-    RED,
-    CaptionedFigure,
-    legend_above,
-    panels,
-    roomy,
-    styled,
-    turn_axis,
-    zero_line,
-)
+from linkwright.kernel.figure.lines import Line, Panel, line_figure
+from linkwright.kernel.figure.style import BLUE, GREEN, PURPLE, RED, CaptionedFigure, styled
 from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion
@@ -37,64 +25,41 @@ if TYPE_CHECKING:
 def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
     """Draw the rise of the polished rod and its torque factor; with a speed, velocity and acceleration."""
     curves = [
-        ("rise $s$\n[m]", unit.rod_travel, GREEN),
-        ("torque factor\n$dS/dθ$ [m]", unit.torque_factor, PURPLE),
+        Panel("rise $s$\n[m]", [Line(unit.rod_travel, GREEN)]),
+        Panel("torque factor\n$dS/dθ$ [m]", [Line(unit.torque_factor, PURPLE)]),
     ]
     if unit.rod_velocity is not None and unit.rod_acceleration is not None:
-        curves.append(("velocity $v$\n[m/s]", unit.rod_velocity, BLUE))
-        curves.append(("acceleration $a$\n[m/s²]", unit.rod_acceleration, RED))
-    figure, axes = panels(len(curves), height=1.6 * len(curves) + 0.6)
-    degrees = np.degrees(unit.crank_angle)
-    for panel, (label, values, colour) in zip(axes, curves, strict=True):
-        panel.plot(degrees, values, color=colour)
-        panel.set_ylabel(label, **MATH)
-        roomy(panel, values)
-        zero_line(panel)
-        turn_axis(panel, label=panel is axes[-1])
-    return figure
+        curves.append(Panel("velocity $v$\n[m/s]", [Line(unit.rod_velocity, BLUE)]))
+        curves.append(Panel("acceleration $a$\n[m/s²]", [Line(unit.rod_acceleration, RED)]))
+    return line_figure(np.degrees(unit.crank_angle), *curves, height=1.6 * len(curves) + 0.6)
 
 
 @styled
 def gear_torque_figure(gear: GearTorque) -> Figure:
     """Draw the load of the polished rod, and the torques at the crank."""
-    figure, (load, torque) = panels(2, height=4.4)
-    degrees = np.degrees(gear.crank_angle)
-    load.plot(degrees, gear.rod_load, color=RED)
-    load.set_ylabel("polished-rod load\n$W$ [N]", **MATH)
-    roomy(load, gear.rod_load)
-    for values, colour, label in (
-        (gear.torque_rod, RED, "polished rod"),
-        (gear.torque_counterbalance, GREEN, "counterbalance"),
-        (gear.torque_net, BLUE, "gearbox"),
-    ):
-        torque.plot(degrees, values, color=colour, label=label)
-    torque.set_ylabel("torque at the crank\n[N m]")
-    roomy(torque, gear.torque_rod, gear.torque_counterbalance)
-    zero_line(torque)
-    legend_above(torque)
-    turn_axis(load, label=False)
-    turn_axis(torque)
-    return figure
+    load = Line(gear.rod_load, RED)
+    torques = [
+        Line(gear.torque_rod, RED, "polished rod"),
+        Line(gear.torque_counterbalance, GREEN, "counterbalance"),
+        Line(gear.torque_net, BLUE, "gearbox"),
+    ]
+    both = Panel("polished-rod load\n$W$ [N]", [load]), Panel("torque at the crank\n[N m]", torques)
+    return line_figure(np.degrees(gear.crank_angle), *both, height=4.4)
 
 
 @styled
 def rotator_figure(rotator: RodRotatorMotion) -> Figure:
-    """Draw the lever's angle and its first and second transfer functions."""
-    figure, axes = panels(3, height=5.4)
-    degrees = np.degrees(rotator.crank_angle)
-    for panel, values, label, colour in (
-        (axes[0], np.degrees(rotator.lever_angle), "lever $φ_5$ [°]", BLUE),
-        (axes[1], rotator.lever_transfer, "$φ_5′$", RED),
-        (axes[2], rotator.lever_transfer_d1, "$φ_5″$", PURPLE),
+    """Draw the lever's angle and its first and second transfer functions, with the change points."""
+    phi, at = np.degrees(rotator.crank_angle), np.degrees(rotator.change_points)
+    drawn = []
+    for values, label, colour in (
+        (np.degrees(rotator.lever_angle), "lever $φ_5$ [°]", BLUE),
+        (rotator.lever_transfer, "$φ_5′$", RED),
+        (rotator.lever_transfer_d1, "$φ_5″$", PURPLE),
     ):
-        panel.plot(degrees, values, color=colour)
-        at = np.degrees(rotator.change_points)
-        panel.plot(at, np.interp(at, degrees, values), "o", color=colour, markersize=4)
-        panel.set_ylabel(label, **MATH)
-        roomy(panel, values)
-        zero_line(panel)
-        turn_axis(panel, label=panel is axes[-1])
-    return figure
+        marks = Line(np.interp(at, phi, values), colour, x=at, form="o", style={"markersize": 4})
+        drawn.append(Panel(label, [Line(values, colour), marks]))
+    return line_figure(phi, *drawn, height=5.4)
 
 
 def unit_figures(

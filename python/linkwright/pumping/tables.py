@@ -26,9 +26,8 @@ _HEADS = ("quantity", "", "value", "where")
 
 
 def _polished_rod(unit: PumpingUnitMotion) -> Table:
-    factors = ("torque_factor_max", "torque_factor_min")
-    places = {name: f"at θ = {degrees(getattr(unit, f'{name}_angle'))}" for name in factors}
-    return Table("pumping_unit", "Polished rod", _HEADS, known_rows(unit, "pumping_unit", places))
+    rows = known_rows(unit, "pumping_unit", at=lambda angle: f"at θ = {degrees(angle)}")
+    return Table("pumping_unit", "Polished rod", _HEADS, rows)
 
 
 def _torque_factors(unit: PumpingUnitMotion) -> Table:

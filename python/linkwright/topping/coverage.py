@@ -57,35 +57,21 @@ class Coverage(Result):
     ]
     last_x: Annotated[
         Floats,
-        Label(
-            "x of the point cut last",
-            "",
-            "m",
-            "From the centre of the head.",
-            over="last_x",
-        ),
+        Label("x of the point cut last", "", "m", "From the centre of the head."),
     ]
-    last_y: Annotated[Floats, Label("y of the point cut last", "", "m", "Likewise.", over="last_y")]
+    last_y: Annotated[Floats, Label("y of the point cut last", "", "m", "Likewise.")]
     uncut_right: Annotated[
         Floats,
-        Label(
-            "uncut area beyond the right end of the edge",
-            "",
-            "m²",
-            "Zero without a length.",
-            over="uncut_right",
-        ),
+        Label("uncut area beyond the right end of the edge", "", "m²", "Zero without a length."),
     ]
-    uncut_left: Annotated[
-        Floats, Label("uncut area beyond the left end of the edge", "", "m²", "Likewise.", over="uncut_left")
-    ]
+    uncut_left: Annotated[Floats, Label("uncut area beyond the left end of the edge", "", "m²", "Likewise.")]
     uncut_between: Annotated[
         Floats,
-        Label("uncut area between two passes of the edge", "", "m²", "Likewise.", over="uncut_between"),
+        Label("uncut area between two passes of the edge", "", "m²", "Likewise."),
     ]
 
     @property
-    def uncut(self) -> Annotated[Floats, Label("area that is left", "", "m²", over="uncut")]:
+    def uncut(self) -> Annotated[Floats, Label("area that is left", "", "m²")]:
         """In all three places."""
         return self.uncut_right + self.uncut_left + self.uncut_between
 

@@ -57,8 +57,8 @@ class Roots(Result):
     """Roots that the knife meets; arrays (n,), a meeting each."""
 
     root_diameter: Annotated[Floats, Label("diameter of the root", "D", "m", over="root_diameter")]
-    cut_height: Annotated[Floats, Label("height of the cut", "h_p", "m", over="cut_height")]
-    offset: Annotated[Floats, Label("axis of the root to the left of the row", "", "m", over="offset")]
+    cut_height: Annotated[Floats, Label("height of the cut", "h_p", "m")]
+    offset: Annotated[Floats, Label("axis of the root to the left of the row", "", "m")]
     distance: Annotated[
         Floats,
         Label(
@@ -66,7 +66,6 @@ class Roots(Result):
             "",
             "m",
             "Zero where phases are independent and uniform.",
-            over="distance",
         ),
     ]
     start: Annotated[
@@ -82,17 +81,17 @@ class Roots(Result):
     @property
     def diameter(
         self,
-    ) -> Annotated[Floats, Label("diameter of the disc that is cut", "d", "m", over="diameter")]:
+    ) -> Annotated[Floats, Label("diameter of the disc that is cut", "d", "m")]:
         """Of the head at the height of the cut."""
         return np.asarray(head_diameter(self.root_diameter, self.cut_height))
 
     @property
-    def cap(self) -> Annotated[Floats, Label("volume above the cut", "", "m³", over="cap")]:
+    def cap(self) -> Annotated[Floats, Label("volume above the cut", "", "m³")]:
         """A cap of the sphere."""
         return np.asarray(cap_volume(self.root_diameter, self.cut_height))
 
     @property
-    def volume(self) -> Annotated[Floats, Label("volume of the root", "", "m³", over="volume")]:
+    def volume(self) -> Annotated[Floats, Label("volume of the root", "", "m³")]:
         """Of the whole sphere."""
         return np.asarray(np.pi / 6 * self.root_diameter**3)
 

@@ -49,48 +49,24 @@ class FieldSweep(Result):
     ]
     share_complete_low: Annotated[
         Floats,
-        Label(
-            "minimum share of heads cut through",
-            "",
-            "",
-            "End of its interval.",
-            over="share_complete_low",
-        ),
+        Label("minimum share of heads cut through", "", "", "End of its interval."),
     ]
     share_complete_high: Annotated[
         Floats,
-        Label(
-            "maximum share of heads cut through",
-            "",
-            "",
-            "End of its interval.",
-            over="share_complete_high",
-        ),
+        Label("maximum share of heads cut through", "", "", "End of its interval."),
     ]
-    haulm_mean: Annotated[Floats, Label("mean uncut share of the head", "", "", over="haulm_mean")]
+    haulm_mean: Annotated[Floats, Label("mean uncut share of the head", "", "")]
     haulm_mean_low: Annotated[
         Floats,
-        Label(
-            "minimum mean uncut share of the head",
-            "",
-            "",
-            "End of its interval.",
-            over="haulm_mean_low",
-        ),
+        Label("minimum mean uncut share of the head", "", "", "End of its interval."),
     ]
     haulm_mean_high: Annotated[
         Floats,
-        Label(
-            "maximum mean uncut share of the head",
-            "",
-            "",
-            "End of its interval.",
-            over="haulm_mean_high",
-        ),
+        Label("maximum mean uncut share of the head", "", "", "End of its interval."),
     ]
-    loss_mean: Annotated[Floats, Label("mean volume of a root above the cut", "", "m³", over="loss_mean")]
-    length_for_95: Annotated[Floats, Label("length for 95 % of the heads", "", "m", over="length_for_95")]
-    slicing_ratio_mean: Annotated[Floats, Label("mean draw-cut ratio", "", "", over="slicing_ratio_mean")]
+    loss_mean: Annotated[Floats, Label("mean volume of a root above the cut", "", "m³")]
+    length_for_95: Annotated[Floats, Label("length for 95 % of the heads", "", "m")]
+    slicing_ratio_mean: Annotated[Floats, Label("mean draw-cut ratio", "", "")]
     level: Annotated[float, Label("confidence level", "", "")]
 
     def columns(self) -> dict[str, Floats]:

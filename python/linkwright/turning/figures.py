@@ -7,28 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import (
-    DRIVE,
-    GRID,
-    INERTIA,
-    LOAD,
-    SPEED,
-    CaptionedFigure,
-    legend_above,
-    level,
-    panels,
-    roomy,
-    styled,
-    turn_axis,
-    zero_line,
-)
+from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
+from linkwright.kernel.figure.style import DRIVE, GRID, INERTIA, LOAD, SPEED, CaptionedFigure, styled
 from linkwright.kernel.page.numbers import degrees, number, quantity
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from linkwright.turning.diagram import TurningMomentDiagram
+
+_ANGLE = "shaft angle φ [°]"
 
 
 def turning_figures(diagram: TurningMomentDiagram) -> Iterator[CaptionedFigure]:
@@ -61,41 +49,17 @@ def turning_figures(diagram: TurningMomentDiagram) -> Iterator[CaptionedFigure]:
 @styled
 def diagram_figure(diagram: TurningMomentDiagram) -> Figure:
     """Torques of driver and load, and the energy that the shaft takes up between them."""
-    figure, (torque, energy) = panels(2, height=4.6)
-    angle = np.degrees(diagram.crank_angle)
-    torque.fill_between(angle, diagram.torque_driver, diagram.torque_load, color=GRID, linewidth=0)
-    torque.plot(angle, diagram.torque_driver, color=DRIVE, label="driver")
-    torque.plot(angle, diagram.torque_load, color=LOAD, label="load")
-    torque.set_ylabel("torque\n[N m]")
-    roomy(torque, diagram.torque_driver, diagram.torque_load)
-    zero_line(torque)
-    legend_above(torque)
-    energy.plot(angle, diagram.energy, color=INERTIA)
-    energy.set_ylabel("excess energy E\n[J]")
-    roomy(energy, diagram.energy)
-    zero_line(energy)
-    _angle_axis(torque, angle, label=False)
-    _angle_axis(energy, angle)
+    angle, driver, load = np.degrees(diagram.crank_angle), diagram.torque_driver, diagram.torque_load
+    torques = Panel("torque\n[N m]", [Line(driver, DRIVE, "driver"), Line(load, LOAD, "load")])
+    energy = Panel("excess energy E\n[J]", [Line(diagram.energy, INERTIA)])
+    figure = line_figure(angle, torques, energy, height=4.6, over=_ANGLE)
+    figure.axes[0].fill_between(angle, driver, load, color=GRID, linewidth=0)
     return figure
 
 
 @styled
 def speed_figure(diagram: TurningMomentDiagram) -> Figure:
     """Speed of the shaft over the cycle."""
-    figure, (speed,) = panels(1, height=2.4)
-    angle = np.degrees(diagram.crank_angle)
-    speed.plot(angle, diagram.speed, color=SPEED, label="speed")
-    level(speed, diagram.speed_mean, f"mean of the extremes {quantity(diagram.speed_mean, 'rad/s')}")
-    speed.set_ylabel("speed ω\n[rad/s]")
-    roomy(speed, diagram.speed)
-    legend_above(speed)
-    _angle_axis(speed, angle)
-    return figure
-
-
-def _angle_axis(axes: Axes, angle: np.ndarray, *, label: bool = True) -> None:
-    """Degrees over one cycle."""
-    turn_axis(axes, angle, label=False)
-    axes.tick_params(labelbottom=label)
-    if label:
-        axes.set_xlabel("shaft angle φ [°]")
+    mean = Level(diagram.speed_mean, f"mean of the extremes {quantity(diagram.speed_mean, 'rad/s')}")
+    speed = Panel("speed ω\n[rad/s]", [Line(diagram.speed, SPEED, "speed"), mean])
+    return line_figure(np.degrees(diagram.crank_angle), speed, height=2.4, over=_ANGLE)

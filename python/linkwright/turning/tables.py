@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterator
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.numbers import degrees, measured, number, parted
 from linkwright.kernel.page.table import Row, Table, known_rows
-from linkwright.kernel.quantities import in_table
 from linkwright.turning.diagram import TurningMomentDiagram
 from linkwright.turning.model import TurningMoment
 
@@ -70,12 +69,10 @@ def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:
 
 def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str] = ()) -> list[Row]:
     """The rows of a table; of an extreme, with the angle where it is."""
-    angles = {name: getattr(diagram, f"{name}_angle", None) for name in in_table(type(diagram), table)}
-    places = {name: f"at φ = {degrees(angle)}" for name, angle in angles.items() if angle is not None}
-    if diagram.torque_driver_max == diagram.torque_driver_min:
-        # A constant torque has its extremes everywhere.
-        places = {name: place for name, place in places.items() if not name.startswith("torque_driver")}
-    return known_rows(diagram, table, places, without=without)
+    # A constant torque has its extremes everywhere.
+    is_constant = diagram.torque_driver_max == diagram.torque_driver_min
+    beside = {"torque_driver_max": "", "torque_driver_min": ""} if is_constant else {}
+    return known_rows(diagram, table, beside, at=lambda angle: f"at φ = {degrees(angle)}", without=without)
 
 
 def _areas(diagram: TurningMomentDiagram) -> Table:

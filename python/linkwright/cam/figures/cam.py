@@ -12,6 +12,7 @@ from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.profile.contact import CamCurve
 from linkwright.cam.profile.profile import CamProfile, Flank
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -21,14 +22,10 @@ from linkwright.kernel.figure.style import (
     RED,
     SOFT,
     legend_above,
-    level,
     log_height,
     named,
     panels,
-    roomy,
     styled,
-    turn_axis,
-    zero_line,
 )
 from linkwright.kernel.page.numbers import quantity
 
@@ -39,12 +36,10 @@ if TYPE_CHECKING:
     from linkwright.cam.dynamics.residual_vibration import ResidualSpectrum
     from linkwright.cam.laws.motion_law import MotionLaw
 
-# Value, words and colour of a line that is not to be passed.
-Limit = tuple[float, str, str]
-
 # A limit is drawn within so many times the largest value.
 _FAR = 2.5
 
+_REVOLUTION = np.array([0.0, 360.0])
 _ANGLE = "cam angle θ from the start of the programme [°]"
 
 # Points of a curve between two joints of its law: chords of an eighth of a degree and finer cannot be seen.
@@ -54,21 +49,25 @@ _POINTS = 721
 @styled
 def lift_figure(profile: CamProfile) -> Figure:
     """Draw lift, velocity, acceleration and jerk over the cam angle θ."""
-    figure, axes = panels(4, height=7.6)
-    swings = profile.cam.is_oscillating
-    scale, unit, letter = (180 / math.pi, "°", "ψ") if swings else (1e3, "mm", "s")
-    curves = (profile.lift, profile.lift_d1, profile.lift_d2, profile.lift_d3)
-    for order, (axis, curve) in enumerate(zip(axes, curves, strict=True)):
+    scale, unit, letter = (180 / math.pi, "°", "ψ") if profile.cam.is_oscillating else (1e3, "mm", "s")
+    drawn = []
+    for order, curve in enumerate((profile.lift, profile.lift_d1, profile.lift_d2, profile.lift_d3)):
         x, y = _with_gaps(profile.angle, scale * curve)
-        axis.plot(x, y, color=(BLUE, GREEN, RED, LINES[4])[order])
         per = ("", "/rad", "/rad²", "/rad³")[order]
-        axis.set_ylabel(f"{letter}{'′' * order} [{unit}{per}]")
-        roomy(axis, scale * curve)
-        zero_line(axis)
-        _joints(axis, profile)
-        turn_axis(axis, label=False)
-    axes[-1].set_xlabel(_ANGLE)
+        line = Line(y, (BLUE, GREEN, RED, LINES[4])[order], x=x)
+        drawn.append(Panel(f"{letter}{'′' * order} [{unit}{per}]", [line]))
+    figure = _over_cam(profile, *drawn, height=7.6)
     figure.align_ylabels()
+    return figure
+
+
+def _over_cam(profile: CamProfile, *drawn: Panel, height: float) -> Figure:
+    """Panels over one revolution of the cam, with vertical lines at segment boundaries."""
+    figure = line_figure(_REVOLUTION, *drawn, height=height, over=_ANGLE)
+    for axes in figure.axes:
+        for joint in profile.cam.programme.joints:
+            at = math.degrees(joint.angle)
+            axes.axvline(at, color=SOFT, linewidth=0.8, linestyle=(0, (1, 2)), zorder=0.5)
     return figure
 
 
@@ -95,70 +94,44 @@ def cam_figure(profile: CamProfile) -> Figure:
 @styled
 def pressure_angle_figure(profile: CamProfile) -> Figure:
     """Draw the pressure angle of each contact with its limit."""
-    figure, (axes,) = panels(1, height=2.9)
-    limit, drawn = math.degrees(profile.cam.limit), []
-    for k, flank in enumerate(profile.flanks):
-        gamma = np.degrees(flank.shape.rows["pressure_angle"])
-        x, y = _with_gaps(flank.shape.angle, gamma)
-        axes.plot(x, y, color=LINES[k], label=flank.contact.name if len(profile.flanks) > 1 else None)
+    limit, lines = math.degrees(profile.cam.limit), []
+    for flank, colour in zip(profile.flanks, LINES, strict=False):
+        x, y = _with_gaps(flank.shape.angle, np.degrees(flank.shape.rows["pressure_angle"]))
+        lines.append(Line(y, colour, flank.contact.name if len(profile.flanks) > 1 else "", x))
         for extreme in (flank.pressure_angle_max, flank.pressure_angle_min):
-            axes.plot(np.degrees(extreme.angle), np.degrees(extreme.value), "o", color=LINES[k], markersize=4)
-        drawn.append(gamma)
-    level(axes, limit, f"limit ±{limit:.3g}°", RED)
-    axes.axhline(-limit, color=RED, linewidth=1.1, linestyle=(0, (5, 3)))
-    roomy(axes, *drawn, np.array([-limit, limit]))
-    _joints(axes, profile)
-    zero_line(axes)
-    turn_axis(axes, label=False)
-    axes.set_xlabel(_ANGLE)
-    axes.set_ylabel("pressure angle γ [°]")
-    legend_above(axes)
-    return figure
+            at, value = np.degrees([extreme.angle, extreme.value])
+            lines.append(Line(np.array([value]), colour, x=np.array([at]), form="o", style={"markersize": 4}))
+    limits = [Level(limit, f"limit ±{limit:.3g}°", RED), Level(-limit, "", RED)]
+    panel = Panel("pressure angle γ [°]", [*lines, *limits], room=(-limit, limit))
+    return _over_cam(profile, panel, height=2.9)
 
 
 @styled
 def curvature_figure(profile: CamProfile) -> Figure:
     """Draw the curvature of the profile with what it may be."""
-    figure, (axes,) = panels(1, height=2.9)
-    drawn, parts = [], _parts(profile)
-    for k, flank in enumerate(parts):
+    lines, parts = [], _parts(profile)
+    for flank, colour in zip(parts, LINES, strict=False):
         with np.errstate(divide="ignore"):
             bend = 1e-3 / flank.curvature_radius
         # A sharp point bends without limit; what is beyond is not drawn.
         kept = np.where(np.abs(bend) < _most(profile), bend, np.nan)
         x, y = _with_gaps(flank.shape.angle, kept)
-        axes.plot(x, y, color=LINES[k], label=flank.contact.name if len(parts) > 1 else None)
-        drawn.append(kept[np.isfinite(kept)])
-    limits = _near(_curvature_limits(profile), np.concatenate(drawn))
-    for value, words, colour in limits:
-        level(axes, value, words, colour)
-    roomy(axes, *drawn, np.array([0.0, *(value for value, _, _ in limits)]))
-    _joints(axes, profile)
-    zero_line(axes)
-    turn_axis(axes, label=False)
-    axes.set_xlabel(_ANGLE)
-    axes.set_ylabel("curvature 1/ρ [1/mm]")
-    if axes.get_legend_handles_labels()[1]:
-        legend_above(axes)
-    return figure
+        lines.append(Line(y, colour, flank.contact.name if len(parts) > 1 else "", x))
+    drawn = np.concatenate([line.y for line in lines])
+    limits = _near(_curvature_limits(profile), drawn[np.isfinite(drawn)])
+    room = (0.0, *(limit.height for limit in limits))
+    return _over_cam(profile, Panel("curvature 1/ρ [1/mm]", [*lines, *limits], room), height=2.9)
 
 
 @styled
 def cam_force_figure(loaded: LoadedCam) -> Figure:
     """Draw the contact force, and the pressure by Hertz if there is one."""
-    rows = 1 if loaded.pressure is None else 2
-    figure, axes = panels(rows, height=2.7 * rows)
-    angle = np.degrees(loaded.crank_angle)
-    axes[0].plot(angle, loaded.force, color=BLUE)
-    axes[0].set_ylabel("normal force N [N]")
-    roomy(axes[0], loaded.force, np.zeros(1))
-    zero_line(axes[0])
+    drawn = [Panel("normal force N [N]", [Line(loaded.force, BLUE)], room=(0.0,))]
     if loaded.pressure is not None:
-        axes[1].plot(angle, 1e-6 * loaded.pressure, color=RED)
-        axes[1].set_ylabel("contact pressure [MPa]")
-        axes[1].set_ylim(bottom=0)
-    for axis in axes:
-        turn_axis(axis, label=axis is axes[-1])
+        drawn.append(Panel("contact pressure [MPa]", [Line(1e-6 * loaded.pressure, RED)], room=None))
+    figure = line_figure(np.degrees(loaded.crank_angle), *drawn, height=2.7 * len(drawn))
+    for axes in figure.axes[1:]:
+        axes.set_ylim(bottom=0)
     return figure
 
 
@@ -170,27 +143,22 @@ def _most(profile: CamProfile) -> float:
     return 100 / (1e3 * profile.base_radius)
 
 
-def _curvature_limits(profile: CamProfile) -> list[Limit]:
-    """Values [1/mm], words and colours of what the curvature may be."""
-    cam, curvature_limits = profile.cam, []
+def _curvature_limits(profile: CamProfile) -> list[Level]:
+    """What the curvature may be [1/mm]."""
+    cam, limits = profile.cam, []
     if cam.curvature_limit is not None:
-        curvature_limits.append(
-            (
-                1e-3 / cam.curvature_limit,
-                f"convex limit ρ = {quantity(cam.curvature_limit, 'm', usual='mm')}",
-                RED,
-            )
-        )
+        words = f"convex limit ρ = {quantity(cam.curvature_limit, 'm', usual='mm')}"
+        limits.append(Level(1e-3 / cam.curvature_limit, words, RED))
     if cam.cutter_radius is not None and profile.curvature_radius_concave_min is not None:
         words = f"cutter of {quantity(cam.cutter_radius, 'm', usual='mm')} in hollow parts"
-        curvature_limits.append((-1e-3 / cam.cutter_radius, words, LINES[3]))
-    return curvature_limits
+        limits.append(Level(-1e-3 / cam.cutter_radius, words, LINES[3]))
+    return limits
 
 
-def _near(limits: list[Limit], drawn: Floats) -> list[Limit]:
+def _near(limits: list[Level], drawn: Floats) -> list[Level]:
     """Limits that do not press the curve flat; those far away are kept with ease."""
     reach = _FAR * float(np.abs(drawn).max(initial=0.0))
-    return [limit for limit in limits if abs(limit[0]) <= reach]
+    return [limit for limit in limits if abs(limit.height) <= reach]
 
 
 def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:
@@ -199,12 +167,6 @@ def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:
     size = float(np.nanmax(np.abs(values))) if len(values) else 0.0
     jumps = np.flatnonzero(same & (np.abs(np.diff(values)) > 1e-6 * size)) + 1
     return np.insert(np.degrees(angle), jumps, np.nan), np.insert(values, jumps, np.nan)
-
-
-def _joints(axes: Axes, profile: CamProfile) -> None:
-    """Vertical lines at segment boundaries."""
-    for joint in profile.cam.programme.joints:
-        axes.axvline(math.degrees(joint.angle), color=SOFT, linewidth=0.8, linestyle=(0, (1, 2)), zorder=0.5)
 
 
 def _parts(profile: CamProfile) -> Sequence[Flank]:
@@ -275,22 +237,20 @@ _LABELS = ("lift f [–]", "velocity f′ [–]", "acceleration f″ [–]", "je
 @styled
 def motion_laws_figure(laws: Mapping[str, MotionLaw]) -> Figure:
     """Draw laws and their first three derivatives over their length."""
-    figure, axes = panels(4, height=8.2)
-    for n, (name, law) in enumerate(laws.items()):
-        colour, dash = LINES[n % len(LINES)], _DASHES[n // len(LINES) % len(_DASHES)]
-        for order, axis in enumerate(axes):
+    drawn = []
+    for order, label in enumerate(_LABELS):
+        lines = []
+        for n, (name, law) in enumerate(laws.items()):
             x, y = _law_course(law, order)
-            axis.plot(x, y, dash, color=colour, label=name)
-    for axis, label in zip(axes, _LABELS, strict=True):
-        axis.set_ylabel(label)
-        zero_line(axis)
-    axes[-1].set_xlabel("share z of the section [–]")
-    # More names than fit into one line take a second.
-    legend_above(axes[0])
-    return figure
+            dash = _DASHES[n // len(LINES) % len(_DASHES)]
+            lines.append(Line(y, LINES[n % len(LINES)], "" if order else name, x, dash))
+        drawn.append(Panel(label, lines))
+    # Beyond the ends, so that jumps are seen there.
+    ends = np.array([-0.05, 1.05])
+    return line_figure(ends, *drawn, height=8.2, over="share z of the section [–]")
 
 
-def _law_course(law: MotionLaw, order: int) -> tuple[list[float], list[float]]:
+def _law_course(law: MotionLaw, order: int) -> tuple[Floats, Floats]:
     """A derivative piece by piece, with the values on both sides of each break; rest at the outer ends."""
     derivative = law.derivative(order)
     u = np.linspace(0.0, 1.0, _LAW_POINTS)
@@ -298,7 +258,7 @@ def _law_course(law: MotionLaw, order: int) -> tuple[list[float], list[float]]:
     for low, high, piece in zip(law.breaks, law.breaks[1:], derivative.pieces, strict=False):
         x += (low + (high - low) * u).tolist()
         y += piece.at(u).tolist()
-    return [*x, law.end], [*y, y[-1] if order == 0 else 0.0]
+    return np.array([*x, law.end]), np.array([*y, y[-1] if order == 0 else 0.0])
 
 
 @styled

@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from io import StringIO
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.angle_zero import counted_columns
-from linkwright.kernel.page.numbers import NOISE, degrees, measured, parted
-from linkwright.kernel.page.out_units import shown_columns
+from linkwright.kernel.page.numbers import NOISE, degrees, measured, number, parted
+from linkwright.kernel.page.out_units import reader, shown_columns
 from linkwright.kernel.quantities import Label, in_table, shown
 from linkwright.kernel.result import Result
 
@@ -77,29 +78,91 @@ def rows_in(
     table: str,
     beside: Mapping[str, str] | None = None,
     *,
+    at: Callable[[float], str] = lambda _: "",
     without: Collection[str] = (),
     length: str = "",
 ) -> list[Row]:
     """Rows for the attributes of a result that are declared with a table.
 
-    `beside`: what the last column says, by attribute; `without`: attributes that this result has no use for;
-    `length`: usual unit of lengths.
+    `beside`: what the last column says, by attribute; `at`: makes what it says of other extremes, from the
+    angle where they are, an attribute such as `speed_max_angle`; `without`: attributes that this result has
+    no use for; `length`: usual unit of lengths.
     """
-    names = (name for name in in_table(type(result), table) if name not in without)
-    return [row(result, name, (beside or {}).get(name, ""), length=length) for name in names]
+    names = [name for name in in_table(type(result), table) if name not in without]
+    angles = {name: getattr(result, f"{name}_angle", None) for name in names}
+    places = {name: at(angle) for name, angle in angles.items() if angle is not None} | dict(beside or {})
+    return [row(result, name, places.get(name, ""), length=length) for name in names]
 
 
 def known_rows(
-    result: Result,
-    table: str,
-    beside: Mapping[str, str] | None = None,
-    *,
-    without: Collection[str] = (),
-    length: str = "",
+    result: Result, table: str, *beside: Mapping[str, str], without: Collection[str] = (), **how: Any
 ) -> list[Row]:
     """`rows_in`, without attributes that are None."""
     unknown = [name for name in in_table(type(result), table) if getattr(result, name) is None]
-    return rows_in(result, table, beside, without=[*unknown, *without], length=length)
+    return rows_in(result, table, *beside, without=[*unknown, *without], **how)
+
+
+class NamedPart:
+    """A shaft, a disc, a mode of a result: its name, and the numbers of the arrays that have one for it."""
+
+    def __init__(self, result: Result, name: str, *place: int) -> None:
+        self.result, self.name, self.place = result, name, place
+
+    def __getattr__(self, attribute: str) -> Any:
+        array = getattr(self.result, attribute)
+        return array[self.place[: array.ndim]].item()
+
+    def unit_of(self, attribute: str) -> str:
+        """SI unit of a number of the part."""
+        return self.result.unit_of(attribute)
+
+
+def parts_of(result: Result, axis: str, *at: int) -> list[NamedPart]:
+    """The parts that an attribute names, for `part_table`; `at`: place in arrays that run over more."""
+    return [NamedPart(result, name, n, *at) for n, name in enumerate(getattr(result, axis))]
+
+
+# Of a column of parts: an attribute, with its SI unit in brackets where no result declares it, or what makes
+# a text of a part.
+Cell = str | Callable[[Any], str]
+
+
+def part_table(
+    name: str, title: str, parts: Iterable[Any], heads: Row, *cells: Cell, digits: int | None = None
+) -> Table:
+    """A table with one row per part and a column per quantity.
+
+    A number has its declared unit, and is zero if it is rounding beside the largest of its column. A unit in
+    braces in a head, such as ``at {rpm}``, stands there for all numbers of the column, unless the reader
+    wants another one. A column without head and attribute is empty.
+    """
+    rows = list(parts)
+    columns = [_part_column(rows, digits, *column) for column in zip(heads, cells, strict=True)]
+    return Table(
+        name, title, tuple(head for head, _ in columns), list(zip(*(c for _, c in columns), strict=True))
+    )
+
+
+_HEAD_UNIT = re.compile(r"\{(.*)\}")
+
+
+def _part_column(parts: Sequence[Any], digits: int | None, head: str, cell: Cell) -> tuple[str, list[str]]:
+    """Head and cells of a column."""
+    if not cell or callable(cell):
+        return head, [cell(part) if callable(cell) else "" for part in parts]
+    attribute, _, unit = cell.removesuffix("]").partition(" [")
+    values = [getattr(part, attribute) for part in parts]
+    if not values or isinstance(values[0], str):
+        return head, values
+    if not unit and hasattr(parts[0], "unit_of"):
+        unit = parts[0].unit_of(attribute)
+    scale = max((abs(value) for value in values if value is not None and math.isfinite(value)), default=0.0)
+    usual = _HEAD_UNIT.search(head)
+    if usual is None:
+        return head, [measured(value, unit, scale, digits) for value in values]
+    unit, factor = reader().shown(unit, usual[1])
+    numbers = [number(None if value is None else value / factor, digits, scale / factor) for value in values]
+    return head.replace(usual[0], unit), numbers
 
 
 # Also in the wide forms of East Asian writing, which some spreadsheets take for the same.

@@ -60,7 +60,6 @@ class Diagnosis(Result):
             "–",
             "1 where it cannot be determined.",
             shape="(cylinders,)",
-            over="factor",
         ),
     ]
     deviation: Annotated[
@@ -71,7 +70,6 @@ class Diagnosis(Result):
             "–",
             "Infinite where it cannot be determined.",
             shape="(cylinders,)",
-            over="deviation",
         ),
     ]
     covariance: Annotated[
@@ -112,19 +110,11 @@ class Diagnosis(Result):
             "rad",
             "None if the measured orders do not determine it.",
             shape="(cylinders,)",
-            over="delay",
         ),
     ] = None
     delay_deviation: Annotated[
         Floats | None,
-        Label(
-            "standard deviation of the delay",
-            "",
-            "rad",
-            "Likewise.",
-            shape="(cylinders,)",
-            over="delay_deviation",
-        ),
+        Label("standard deviation of the delay", "", "rad", "Likewise.", shape="(cylinders,)"),
     ] = None
     compression: Annotated[
         Floats | None,
@@ -134,19 +124,11 @@ class Diagnosis(Result):
             "–",
             "Likewise.",
             shape="(cylinders,)",
-            over="compression",
         ),
     ] = None
     compression_deviation: Annotated[
         Floats | None,
-        Label(
-            "standard deviation of the compression",
-            "",
-            "–",
-            "Likewise.",
-            shape="(cylinders,)",
-            over="compression_deviation",
-        ),
+        Label("standard deviation of the compression", "", "–", "Likewise.", shape="(cylinders,)"),
     ] = None
 
     @public
@@ -266,9 +248,7 @@ class Diagnosis(Result):
     @property
     def relative(
         self,
-    ) -> Annotated[
-        Floats, Label("factor over the mean of the factors", "", "–", shape="(cylinders,)", over="relative")
-    ]:
+    ) -> Annotated[Floats, Label("factor over the mean of the factors", "", "–", shape="(cylinders,)")]:
         """For an engine whose load is not known."""
         relative: Floats = self.factor / self.factor.mean()
         return relative

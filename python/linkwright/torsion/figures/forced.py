@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.lines import Level, Line, Panel, dashed, line_figure
 from linkwright.kernel.figure.style import (
     BLUE,
     INK,
@@ -19,7 +20,6 @@ from linkwright.kernel.figure.style import (
     SKY,
     SOFT,
     legend_above,
-    level,
     named,
     panels,
     shortened,
@@ -49,25 +49,21 @@ def _rpm(speeds: Floats) -> Floats:
     return rpm
 
 
-def _over_speed(axes: Axes, speeds: Floats, label: str) -> None:
-    """Limits and words of axes over the speed."""
-    rpm = _rpm(speeds)
-    axes.set_xlim(rpm[0], rpm[-1])
-    axes.set_ylim(bottom=0)
-    axes.set_ylabel(label)
+def _over_speed(speeds: Floats, *drawn: Panel, height: float = _HEIGHT) -> Figure:
+    """Panels over the speed, from zero on."""
+    figure = line_figure(_rpm(speeds), *drawn, height=height, over="speed of the first disc [rpm]")
+    for axes in figure.axes:
+        axes.set_ylim(bottom=0)
+    return figure
 
 
 @styled
 def shaft_torques_figure(forced: ForcedVibration) -> Figure:
     """Draw the vibratory torque of the shafts over the speed. The shafts with the largest torques."""
-    figure, (axes,) = panels(1, height=_HEIGHT)
     size = forced.shaft_torque_vibratory
-    for s, colour in zip(_largest(size), LINES, strict=False):
-        axes.plot(_rpm(forced.speeds), size[s] / 1e3, color=colour, label=named(forced.shafts[s]))
-    _over_speed(axes, forced.speeds, "vibratory torque [kN m]")
-    axes.set_xlabel("speed of the first disc [rpm]")
-    legend_above(axes)
-    return figure
+    drawn = zip(_largest(size), LINES, strict=False)
+    lines = [Line(size[s] / 1e3, colour, named(forced.shafts[s])) for s, colour in drawn]
+    return _over_speed(forced.speeds, Panel("vibratory torque [kN m]", lines, room=None))
 
 
 @styled
@@ -80,17 +76,16 @@ def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Fi
     for s in _largest(stress.vibratory, len(stress.shafts)):
         groups.setdefault(stress.continuous[s].tobytes(), []).append(s)
     shown = list(groups.values())[:4]
-    figure, axes = panels(len(shown), height=0.4 + 2.3 * len(shown))
-    for panel, shafts in zip(axes, shown, strict=True):
-        for s, colour in zip(shafts[:_LINES_MAX], LINES, strict=False):
-            rpm = _rpm(stress.speeds)
-            panel.plot(rpm, stress.vibratory[s] / 1e6, color=colour, label=named(stress.shafts[s]))
-        _limits(panel, stress, shafts[0])
-        _over_speed(panel, stress.speeds, "stress [MPa]")
+    drawn = []
+    for shafts in shown:
+        coloured = zip(shafts[:_LINES_MAX], LINES, strict=False)
+        lines = [Line(stress.vibratory[s] / 1e6, colour, named(stress.shafts[s])) for s, colour in coloured]
+        drawn.append(Panel("stress [MPa]", [*lines, *_limits(stress, shafts[0])], room=None))
+    figure = _over_speed(stress.speeds, *drawn, height=0.4 + 2.3 * len(shown))
+    for axes, shafts in zip(figure.axes, shown, strict=True):
         names = [stress.shafts[s] for s in shafts]
-        _bar(panel, [span.barred for span in barred if span.shaft in names])
-        legend_above(panel)
-    axes[-1].set_xlabel("speed of the first disc [rpm]")
+        _bar(axes, [span.barred for span in barred if span.shaft in names])
+        legend_above(axes)
     return figure
 
 
@@ -102,15 +97,14 @@ def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
         axes.axvspan(*ends, color=RED, alpha=0.12, linewidth=0, label="" if n else "barred")
 
 
-def _limits(axes: Axes, stress: ShaftStress, s: int) -> None:
+def _limits(stress: ShaftStress, s: int) -> Iterator[Line]:
     """Permitted in continuous operation, and in transient passage."""
     for limit, words, dashes in (
         (stress.continuous[s], "continuous operation", (5, 3)),
         (stress.transient[s], "transient passage", (2, 2)),
     ):
         if np.isfinite(limit).any():
-            rpm = _rpm(stress.speeds)
-            axes.plot(rpm, limit / 1e6, color=SOFT, linewidth=1.2, linestyle=(0, dashes), label=words)
+            yield dashed(limit / 1e6, words, dashes, linewidth=1.2)
 
 
 @styled
@@ -122,18 +116,20 @@ def orders_figure(
     The largest orders by name, the others faint. `single`: (orders, speeds) amplitude of each order; `total`:
     (speeds,) all orders in phase.
     """
-    figure, (axes,) = panels(1, height=_HEIGHT + 0.2)
-    rpm = _rpm(forced.speeds)
     largest = _largest(single)
-    for k in range(len(single)):
-        if k not in largest:
-            axes.plot(rpm, single[k] * factor, color="#c3c9d0", linewidth=0.8)
-    for k, colour in zip(largest, LINES, strict=False):
-        axes.plot(rpm, single[k] * factor, color=colour, linewidth=1.3, label=f"order {forced.orders[k]:.4g}")
-    axes.plot(rpm, total * factor, color=INK, linewidth=2.0, label="all orders")
-    _over_speed(axes, forced.speeds, label)
-    axes.set_xlabel("speed of the first disc [rpm]")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.6)
+    faint = [
+        Line(row * factor, "#c3c9d0", style={"linewidth": 0.8})
+        for k, row in enumerate(single)
+        if k not in largest
+    ]
+    named_orders = [
+        Line(single[k] * factor, colour, f"order {forced.orders[k]:.4g}", style={"linewidth": 1.3})
+        for k, colour in zip(largest, LINES, strict=False)
+    ]
+    every = Line(total * factor, INK, "all orders", style={"linewidth": 2.0})
+    panel = Panel(label, [*faint, *named_orders, every], room=None)
+    figure = _over_speed(forced.speeds, panel, height=_HEIGHT + 0.2)
+    figure.axes[0].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.6)
     return figure
 
 
@@ -164,7 +160,9 @@ def torsion_unevenness_figure(forced: ForcedVibration, row: list[int], speed: fl
         over.plot(_rpm(forced.speeds), forced.unevenness[d], color=colour, label=named(forced.discs[d]))
     rigid = forced.unevenness_rigid[0]
     over.plot(_rpm(forced.speeds), rigid, color=SOFT, linestyle=(0, (5, 3)), label="rigid-body rotation")
-    _over_speed(over, forced.speeds, "speed fluctuation δ")
+    over.set_xlim(_rpm(forced.speeds)[0], _rpm(forced.speeds)[-1])
+    over.set_ylim(bottom=0)
+    over.set_ylabel("speed fluctuation δ")
     over.set_xlabel("speed of the first disc [rpm]")
     legend_above(over)
     return figure
@@ -196,19 +194,14 @@ def gear_figure(meshes: MeshTorque) -> Figure:
 @styled
 def overlay_figure(one: Overlay) -> Figure:
     """Draw a measured curve over the computed one."""
-    figure, (axes,) = panels(1, height=_HEIGHT)
     unit, factor = _SHOWN[one.what]
-    axes.plot(_rpm(one.run_speeds), one.run_computed * factor, color=BLUE, label="computed")
-    axes.plot(_rpm(one.speeds), one.measured * factor, "o", color=RED, markersize=3.5, label="measured")
+    lines = [
+        Line(one.run_computed * factor, BLUE, "computed"),
+        Line(one.measured * factor, RED, "measured", _rpm(one.speeds), "o", {"markersize": 3.5}),
+    ]
     if one.permitted is not None:
-        rpm = _rpm(one.speeds)
-        axes.plot(
-            rpm, one.permitted * factor, color=SOFT, linestyle=(0, (5, 3)), label="continuous operation"
-        )
-    _over_speed(axes, one.run_speeds, f"{one.what} [{unit}]")
-    axes.set_xlabel("speed of the first disc [rpm]")
-    legend_above(axes)
-    return figure
+        lines.append(dashed(one.permitted * factor, "continuous operation")._replace(x=_rpm(one.speeds)))
+    return _over_speed(one.run_speeds, Panel(f"{one.what} [{unit}]", lines, room=None))
 
 
 # Units in which measured quantities are drawn.
@@ -218,15 +211,9 @@ _SHOWN = {"stress": ("MPa", 1e-6), "torque": ("kN m", 1e-3), "angle": ("°", 180
 @styled
 def heat_figure(forced: ForcedVibration, parts: list[str]) -> Figure:
     """Draw the heat of dampers and couplings over the speed."""
-    figure, (axes,) = panels(1, height=_HEIGHT)
-    for name, colour in zip(parts, LINES, strict=False):
-        axes.plot(
-            _rpm(forced.speeds), forced.shaft_heat[forced.shafts.index(name)], color=colour, label=named(name)
-        )
-    _over_speed(axes, forced.speeds, "heat [W]")
-    axes.set_xlabel("speed of the first disc [rpm]")
-    legend_above(axes)
-    return figure
+    heat = {name: forced.shaft_heat[forced.shafts.index(name)] for name in parts}
+    lines = [Line(heat[name], colour, named(name)) for name, colour in zip(parts, LINES, strict=False)]
+    return _over_speed(forced.speeds, Panel("heat [W]", lines, room=None))
 
 
 def _largest(rows: Floats, count: int = _LINES_MAX) -> list[int]:
@@ -243,18 +230,13 @@ _TOP = 3.0
 @styled
 def damper_figure(design: DamperDesign) -> Figure:
     """Draw the twist of the watched shaft over the frequency, without damper and with it."""
-    figure, (axes,) = panels(1, height=3.2)
-    lines = (
-        (design.response_bare, SOFT, "without damper"),
-        (design.response_rule, RED, "mode alone"),
-        (design.response_best, BLUE, "best"),
-    )
-    for response, colour, label in lines:
-        axes.plot(design.frequencies, response, color=colour, label=label)
-    level(axes, design.magnification, "promised")
-    axes.set_ylim(0, _TOP * max(design.magnification_best, design.magnification))
-    axes.set_xlim(design.frequencies[0], design.frequencies[-1])
-    axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel(f"twist of {design.watched}\nover that at rest [–]")
-    legend_above(axes)
+    lines: list[Line | Level] = [
+        Line(design.response_bare, SOFT, "without damper"),
+        Line(design.response_rule, RED, "mode alone"),
+        Line(design.response_best, BLUE, "best"),
+        Level(design.magnification, "promised"),
+    ]
+    panel = Panel(f"twist of {design.watched}\nover that at rest [–]", lines, room=None)
+    figure = line_figure(design.frequencies, panel, height=3.2, over="frequency [Hz]")
+    figure.axes[0].set_ylim(0, _TOP * max(design.magnification_best, design.magnification))
     return figure

@@ -93,12 +93,9 @@ class TorsionTransient(Result):
             "N m",
             "Of the whole motion, between the samples as well.",
             shape="(shafts,)",
-            over="torque_max",
         ),
     ]
-    torque_max_time: Annotated[
-        Floats, Label("time of the maximum torque", "", "s", shape="(shafts,)", over="torque_max_time")
-    ]
+    torque_max_time: Annotated[Floats, Label("time of the maximum torque", "", "s", shape="(shafts,)")]
     torque_min: Annotated[
         Floats,
         Label(
@@ -107,12 +104,9 @@ class TorsionTransient(Result):
             "N m",
             "Of the whole motion, between the samples as well.",
             shape="(shafts,)",
-            over="torque_min",
         ),
     ]
-    torque_min_time: Annotated[
-        Floats, Label("time of the minimum torque", "", "s", shape="(shafts,)", over="torque_min_time")
-    ]
+    torque_min_time: Annotated[Floats, Label("time of the minimum torque", "", "s", shape="(shafts,)")]
     speed_max: Annotated[
         Floats,
         Label(
@@ -121,12 +115,9 @@ class TorsionTransient(Result):
             "rad/s",
             "Of the whole motion, between the samples as well.",
             shape="(discs,)",
-            over="speed_max",
         ),
     ]
-    speed_max_time: Annotated[
-        Floats, Label("time of the maximum speed", "", "s", shape="(discs,)", over="speed_max_time")
-    ]
+    speed_max_time: Annotated[Floats, Label("time of the maximum speed", "", "s", shape="(discs,)")]
     speed_min: Annotated[
         Floats,
         Label(
@@ -135,12 +126,9 @@ class TorsionTransient(Result):
             "rad/s",
             "Of the whole motion, between the samples as well.",
             shape="(discs,)",
-            over="speed_min",
         ),
     ]
-    speed_min_time: Annotated[
-        Floats, Label("time of the minimum speed", "", "s", shape="(discs,)", over="speed_min_time")
-    ]
+    speed_min_time: Annotated[Floats, Label("time of the minimum speed", "", "s", shape="(discs,)")]
     work: Annotated[dict[str, float], About("Work of each torque from outside [J].")]
     loss: Annotated[
         dict[str, float],

@@ -376,12 +376,9 @@ class TorquePeaks(Result):
             "N m",
             "Half the peak-to-peak torque; infinite at a resonance that nothing damps.",
             shape="(shafts,)",
-            over="vibratory",
         ),
     ]
-    speed: Annotated[
-        Floats, Label("speed of the first disc there", "ω", "rad/s", shape="(shafts,)", over="speed")
-    ]
+    speed: Annotated[Floats, Label("speed of the first disc there", "ω", "rad/s", shape="(shafts,)")]
 
 
 def torque_peaks(seen: Survey) -> TorquePeaks:

@@ -49,23 +49,19 @@ class HolzerTable(Result):
 
     frequency: Annotated[float, Label("frequency of the swing", "ω/2π", "Hz")]
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file.")]
-    inertia: Annotated[
-        Floats, Label("moment of inertia of each disc", "J", "kg m²", shape="(discs,)", over="inertia")
-    ]
+    inertia: Annotated[Floats, Label("moment of inertia of each disc", "J", "kg m²", shape="(discs,)")]
     inertia_squared: Annotated[
-        Floats, Label("inertia times the square of the frequency", "J ω²", "N m/rad", over="inertia_squared")
+        Floats, Label("inertia times the square of the frequency", "J ω²", "N m/rad", shape="(discs,)")
     ]
     amplitude: Annotated[
-        Floats, Label("angle of each disc", "θ", "rad", "1 at the first disc.", over="amplitude")
+        Floats, Label("angle of each disc", "θ", "rad", "1 at the first disc.", shape="(discs,)")
     ]
     torque: Annotated[
         Floats,
-        Label("inertia torque of each disc", "J ω² θ", "N m", "At the speed of the disc.", over="torque"),
+        Label("inertia torque of each disc", "J ω² θ", "N m", "At the speed of the disc.", shape="(discs,)"),
     ]
     shafts: Annotated[tuple[str, ...], About("Shafts, then elastic meshes.")]
-    stiffness: Annotated[
-        Floats, Label("stiffness of each shaft", "k", "N m/rad", shape="(shafts,)", over="stiffness")
-    ]
+    stiffness: Annotated[Floats, Label("stiffness of each shaft", "k", "N m/rad", shape="(shafts,)")]
     twist: Annotated[
         Floats,
         Label(
@@ -74,7 +70,6 @@ class HolzerTable(Result):
             "rad",
             "Angle of the first end less that of the second.",
             shape="(shafts,)",
-            over="twist",
         ),
     ]
     shaft_torque: Annotated[
@@ -85,7 +80,6 @@ class HolzerTable(Result):
             "N m",
             "In a chain the sum of all torques before it.",
             shape="(shafts,)",
-            over="shaft_torque",
         ),
     ]
     end: Annotated[str, About("Disc that is not in equilibrium.")]

@@ -76,14 +76,12 @@ class Scheme(Result):
     """A train referred to the speed of its first disc."""
 
     discs: Annotated[tuple[str, ...], About("Discs in the order of the file; rings of dampers last.")]
-    speed: Annotated[
-        Floats, Label("speed of each disc over that of the first", "n", "", shape="(discs,)", over="speed")
-    ]
+    speed: Annotated[Floats, Label("speed of each disc over that of the first", "n", "", shape="(discs,)")]
     inertia: Annotated[
-        Floats, Label("moment of inertia of each disc", "J", "kg m²", "At its own speed.", over="inertia")
+        Floats, Label("moment of inertia of each disc", "J", "kg m²", "At its own speed.", shape="(discs,)")
     ]
     inertia_referred: Annotated[
-        Floats, Label("referred moment of inertia of each disc", "n² J", "kg m²", over="inertia_referred")
+        Floats, Label("referred moment of inertia of each disc", "n² J", "kg m²", shape="(discs,)")
     ]
     connections: Annotated[tuple[Connection, ...], About("Shafts, couplings and dampers, then gear stages.")]
     diameter: Annotated[float, Label("diameter of the solid steel shaft of the equivalent lengths", "", "m")]

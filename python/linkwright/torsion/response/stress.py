@@ -54,18 +54,9 @@ class ShaftStress(Result):
     shafts: Annotated[tuple[str, ...], About("Shafts with sections, or with a section in their limit.")]
     section_modulus: Annotated[
         Floats,
-        Label(
-            "section modulus of each shaft",
-            "W",
-            "m³",
-            "Torque per nominal stress.",
-            shape="(shafts,)",
-            over="section_modulus",
-        ),
+        Label("section modulus of each shaft", "W", "m³", "Torque per nominal stress.", shape="(shafts,)"),
     ]
-    concentration: Annotated[
-        Floats, Label("stress concentration of each shaft", "K", "", shape="(shafts,)", over="concentration")
-    ]
+    concentration: Annotated[Floats, Label("stress concentration of each shaft", "K", "", shape="(shafts,)")]
     mean: Annotated[Floats, Label("mean stress of each shaft", "", "Pa", shape="(shafts, speeds)")]
     vibratory: Annotated[
         Floats,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from linkwright.kernel.page.numbers import measured, parted, quantity
 from linkwright.kernel.page.out_units import reader
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Cell, Row, Table, part_table
 from linkwright.kernel.units.kinds import PRESSURE, Kind
 from linkwright.torsion.limits.barred_range import BarredRange
 from linkwright.torsion.limits.crank_fatigue import ACCEPTABLE, CrankshaftFatigue
@@ -21,74 +22,61 @@ _STATES = {"ok": "within limit", "bar": "barred speed range required", "exceeds"
 
 def limit_tables(study: TorsionStudy) -> Iterator[Table]:
     """Each limit and whether it is kept."""
-    heads = ("limit", "", "found", "permitted")
     if study.verdict is not None and study.verdict.judgements:
-        rows = [
-            _row(
-                row.part,
-                row.what,
-                row.found,
-                row.permitted,
-                row.kind,
-                row.rule or "–",
-                rpm(row.speed),
-                _STATES[row.state],
-            )
-            for row in study.verdict.judgements
-        ]
-        yield Table("limits", "Limits", (*heads, "by", f"at {per_minute()}", "verdict"), rows)
+        heads, cells = ("by", "at {rpm}", "verdict"), (lambda row: row.rule or "–", "speed [rad/s]", _state)
+        yield _limits("limits", "Limits", study.verdict.judgements, heads, *cells)
         if study.verdict.barred:
             yield _barred(study.verdict.barred)
     if study.misfire is not None and study.misfire.judgements:
-        rows = [
-            _row(
-                row.part,
-                row.what,
-                row.found,
-                row.permitted,
-                row.kind,
-                rpm(row.speed),
-                row.cylinder,
-                "within limit" if row.is_kept else "restricted operation",
-            )
-            for row in study.misfire.judgements
-        ]
-        title = "Limits with one cylinder misfiring, worst case"
-        yield Table("misfire", title, (*heads, f"at {per_minute()}", "cylinder", "verdict"), rows)
+        title, heads = "Limits with one cylinder misfiring, worst case", ("at {rpm}", "cylinder", "verdict")
+        yield _limits(
+            "misfire", title, study.misfire.judgements, heads, "speed [rad/s]", "cylinder", _restricted
+        )
     if study.transient is not None and study.transient.judgements:
-        rows = [
-            _row(
-                row.part,
-                row.what,
-                row.found,
-                row.permitted,
-                row.kind,
-                quantity(row.time, "s"),
-                _STATES["ok" if row.is_kept else "exceeds"],
-            )
-            for row in study.transient.judgements
-        ]
-        yield Table("manoeuvre_limits", "Limits in the manoeuvre", (*heads, "at", "verdict"), rows)
+        judgements = study.transient.judgements
+        yield _limits(
+            "manoeuvre_limits", "Limits in the manoeuvre", judgements, ("at", "verdict"), "time [s]", _kept
+        )
+
+
+def _state(row: Any) -> str:
+    return _STATES[row.state]
+
+
+def _kept(row: Any) -> str:
+    return _STATES["ok" if row.is_kept else "exceeds"]
+
+
+def _restricted(row: Any) -> str:
+    return "within limit" if row.is_kept else "restricted operation"
+
+
+def _limits(name: str, title: str, judgements: Sequence[Any], heads: Row, *cells: Cell) -> Table:
+    """Limits: what, found, permitted, and where."""
+    heads = ("limit", "", "found", "permitted", *heads)
+    both = (of_kind("found"), of_kind("permitted"))
+    return part_table(
+        name, title, judgements, heads, lambda row: f"{row.part}: {row.what}", "", *both, *cells
+    )
 
 
 def _barred(ranges: Sequence[BarredRange]) -> Table:
     """Ranges of speeds in which a shaft is stressed more than it may be in continuous operation."""
-    rows: list[Row] = [
-        (
-            one.shaft,
-            "",
-            f"{rpm(one.barred[0])} to {rpm(one.barred[1])}",
-            "–" if one.critical_speed is None else rpm(one.critical_speed),
-            "–" if one.order is None else f"{one.order:.4g}",
-            shown(one.continuous, PRESSURE),
-            "–" if one.transient is None else shown(one.transient, PRESSURE),
-            _passage(one),
-        )
-        for one in ranges
-    ]
-    speed = per_minute()
-    heads = ("shaft", "", f"barred [{speed}]", f"critical {speed}", "order", "τ_C", "τ_T", "passage")
-    return Table("barred", "Barred speed ranges", heads, rows)
+    heads = ("shaft", "", f"barred [{per_minute()}]", "critical {rpm}", "order", "τ_C", "τ_T", "passage")
+    return part_table(
+        "barred",
+        "Barred speed ranges",
+        ranges,
+        heads,
+        "shaft",
+        "",
+        lambda one: " to ".join(map(rpm, one.barred)),
+        "critical_speed",
+        lambda one: "–" if one.order is None else f"{one.order:.4g}",
+        of_kind("continuous", PRESSURE),
+        of_kind("transient", PRESSURE),
+        _passage,
+    )
 
 
 def _passage(one: BarredRange) -> str:
@@ -105,43 +93,35 @@ def critical_table(responses: Sequence[CriticalResponse]) -> Table:
 
     At the critical speed itself where the order has no peak of its own.
     """
-    rows: list[Row] = [
-        (
-            f"mode {one.mode}, order {one.order:.4g}",
-            "",
-            rpm(one.critical_speed),
-            rpm(one.speed) if one.is_peak else "–",
-            one.shaft,
-            shown(one.single, one.kind),
-            shown(one.total, one.kind),
-            "–" if one.permitted is None else shown(one.permitted, one.kind),
-        )
-        for one in responses
-    ]
-    at = f"peaks at {per_minute()}"
-    heads = ("critical speed", "", per_minute(), at, "shaft", "order alone", "all orders", "permitted")
-    return Table("synthesis", "Synthesis at the most severe critical speeds", heads, rows)
+    heads = ("critical speed", "", "{rpm}", f"peaks at {per_minute()}")
+    return part_table(
+        "synthesis",
+        "Synthesis at the most severe critical speeds",
+        responses,
+        (*heads, "shaft", "order alone", "all orders", "permitted"),
+        lambda one: f"mode {one.mode}, order {one.order:.4g}",
+        "",
+        "critical_speed",
+        lambda one: rpm(one.speed) if one.is_peak else "–",
+        "shaft",
+        *map(of_kind, ("single", "total", "permitted")),
+    )
 
 
 def fatigue_table(fatigue: CrankshaftFatigue) -> Table:
     """Each place of a throw by IACS UR M53: stresses with their concentration, fatigue strength, Q."""
-    rows: list[Row] = [
-        (
-            one.place,
-            "",
-            shown(one.bending, PRESSURE),
-            shown(one.torsion, PRESSURE),
-            shown(one.equivalent, PRESSURE),
-            shown(one.strength, PRESSURE),
-            f"{one.acceptability:.3f}",
-            "sufficient" if one.acceptability >= ACCEPTABLE else "not sufficient",
-        )
-        for one in fatigue.places
-    ]
-    heads = ("place", "", "bending", "torsion", "σ_v", "σ_DW", "Q", "Q ≥ 1.15")
     name = f"Crankshaft {fatigue.engine}".rstrip()
-    title = f"{name}: fatigue by IACS UR M53, alternating stresses with their concentration"
-    return Table(f"fatigue_{fatigue.engine}".rstrip("_"), title, heads, rows)
+    return part_table(
+        f"fatigue_{fatigue.engine}".rstrip("_"),
+        f"{name}: fatigue by IACS UR M53, alternating stresses with their concentration",
+        fatigue.places,
+        ("place", "", "bending", "torsion", "σ_v", "σ_DW", "Q", "Q ≥ 1.15"),
+        "place",
+        "",
+        *(of_kind(name, PRESSURE) for name in ("bending", "torsion", "equivalent", "strength")),
+        lambda one: f"{one.acceptability:.3f}",
+        lambda one: "sufficient" if one.acceptability >= ACCEPTABLE else "not sufficient",
+    )
 
 
 def nominal_table(fatigue: CrankshaftFatigue) -> Table:
@@ -168,21 +148,16 @@ def nominal_table(fatigue: CrankshaftFatigue) -> Table:
     return Table(f"fatigue_nominal_{fatigue.engine}".rstrip("_"), title, ("quantity", "", "value"), rows)
 
 
-def _row(part: str, what: str, reached: float, permitted: float, kind: Kind, *rest: str) -> Row:
-    """One limit: what, found, permitted, and where."""
-    return (f"{part}: {what}", "", shown(reached, kind), shown(permitted, kind), *rest)
-
-
-def shown(value: float, kind: Kind) -> str:
+def shown(value: float | None, kind: Kind) -> str:
     """A quantity for people: stresses in MPa and angles in degrees unless another unit is wanted."""
-    if np.isinf(value):
+    if value is not None and np.isinf(value):
         return "unbounded"
     return measured(value, kind.unit, usual={"Pa": "MPa", "rad": "deg"}.get(kind.unit, ""))
 
 
-def rpm(speed: float) -> str:
+def rpm(speed: float | None) -> str:
     """A speed in revolutions per minute, unless another unit is wanted."""
-    return parted(speed, "rad/s", usual="rpm")[0]
+    return "–" if speed is None else parted(speed, "rad/s", usual="rpm")[0]
 
 
 def per_minute() -> str:
@@ -190,23 +165,28 @@ def per_minute() -> str:
     return reader().shown("rad/s", "rpm")[0]
 
 
+def of_kind(attribute: str, kind: Kind | None = None) -> Cell:
+    """A column of a kind of quantity, which each row has of its own if it is not given."""
+    return lambda one: shown(getattr(one, attribute), kind or one.kind)
+
+
 def measured_tables(overlays: Sequence[Overlay]) -> Iterator[Table]:
     """Each measured peak beside the computed one."""
+    heads = ("peak", "", f"measured {per_minute()}", "computed", "differs", "measured", "computed", "differs")
     rows: list[Row] = [
         (
             f"{one.name}: {words(one)}" if one.name != one.part else words(one),
             "",
             rpm(peak.speed),
-            "–" if peak.speed_computed is None else rpm(peak.speed_computed),
+            rpm(peak.speed_computed),
             percent(peak.speed_difference),
             shown(peak.value, one.kind),
-            "–" if peak.value_computed is None else shown(peak.value_computed, one.kind),
+            shown(peak.value_computed, one.kind),
             percent(peak.value_difference),
         )
         for one in overlays
         for peak in one.peaks
     ]
-    heads = ("peak", "", f"measured {per_minute()}", "computed", "differs", "measured", "computed", "differs")
     if rows:
         yield Table("measured", "Measured and computed peaks", heads, rows)
 

@@ -7,10 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.kernel.page.numbers import quantity
-from linkwright.kernel.page.table import Row, Table
-from linkwright.torsion.in_time.ice_impacts import IceMilling
+from linkwright.kernel.page.table import Row, Table, part_table, parts_of
 from linkwright.torsion.in_time.transient import TorsionTransient
-from linkwright.torsion.tables.limits import per_minute, rpm
 
 
 def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
@@ -24,39 +22,18 @@ def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
 
 def _ice(moved: TorsionTransient) -> Table:
     """Each sequence of impacts, and how the propeller slows down in it."""
-    rows: list[Row] = [_ice_row(one) for one in moved.ice]
-    speed = per_minute()
     heads: Row = ("propeller", "", "Q_max", "C_q", "α_i", "impacts", "first at", "last passed at")
-    return Table("ice_impacts", "Ice impacts", (*heads, f"{speed} before", f"minimum {speed}"), rows)
-
-
-def _ice_row(one: IceMilling) -> Row:
-    return (
-        one.on,
-        "",
-        quantity(one.torque_max, "N m"),
-        f"{one.amplitude:.4g}",
-        quantity(one.duration, "rad", usual="deg"),
-        str(one.impacts),
-        quantity(one.start, "s"),
-        "–" if one.end is None else quantity(one.end, "s"),
-        rpm(one.speed_before),
-        rpm(one.speed_min),
-    )
+    cells = ("on", "", "torque_max [N m]", "amplitude", "duration [rad]", "impacts", "start [s]", "end [s]")
+    speeds = ("speed_before [rad/s]", "speed_min [rad/s]")
+    heads = (*heads, "{rpm} before", "minimum {rpm}")
+    return part_table("ice_impacts", "Ice impacts", moved.ice, heads, *cells, *speeds)
 
 
 def _shafts(moved: TorsionTransient) -> Table:
-    columns = (moved.torque_max, moved.torque_max_time, moved.torque_min, moved.torque_min_time)
-    units = ("N m", "s") * 2
-    rows: list[Row] = [
-        (name, "", *(quantity(*column) for column in zip(values, units, strict=True)))
-        for name, values in zip(
-            moved.shafts, zip(*(column.tolist() for column in columns), strict=True), strict=True
-        )
-    ]
     heads = ("shaft", "", "maximum", "at", "minimum", "at")
+    cells = ("name", "", "torque_max", "torque_max_time", "torque_min", "torque_min_time")
     title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's')}: torques of the shafts"
-    return Table("manoeuvre", title, heads, rows)
+    return part_table("manoeuvre", title, parts_of(moved, "shafts"), heads, *cells)
 
 
 def _stages(moved: TorsionTransient) -> Table:

@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
-from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.table import Row, Table, columns_csv
+from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.page.table import Row, Table, columns_csv, part_table
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.forced import ForcedVibration
-from linkwright.torsion.tables.limits import per_minute, rpm
 
 # Share of the largest torque of a disc below which an order is rounding.
 _ROUNDING = 1e-9
@@ -100,20 +99,16 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
 
 def star_table(stars: Sequence[PhaseVectors]) -> Table:
     """Phase vector sums of orders in modes."""
-    rows: list[Row] = [
-        (
-            f"mode {star.mode}, order {star.order:.4g}",
-            "",
-            rpm(star.speed),
-            number(star.vector_sum),
-            number(star.largest_sum),
-            quantity(star.torque, "N m"),
-            quantity(star.vector_sum * star.torque, "N m"),
-        )
-        for star in stars
-    ]
-    heads = ("critical speed", "", per_minute(), "vector sum", "sum of lengths", "torque", "work per angle")
-    return Table("phase_vectors", "Phase vector sums of the most severe critical speeds", heads, rows)
+    heads = ("critical speed", "", "{rpm}", "vector sum", "sum of lengths", "torque", "work per angle")
+    return part_table(
+        "phase_vectors",
+        "Phase vector sums of the most severe critical speeds",
+        stars,
+        heads,
+        lambda star: f"mode {star.mode}, order {star.order:.4g}",
+        *("", "speed", "vector_sum", "largest_sum", "torque"),
+        lambda star: quantity(star.vector_sum * star.torque, "N m"),
+    )
 
 
 def _shown(at: ExcitedTrain, size: Floats) -> Mapping[str, int]:

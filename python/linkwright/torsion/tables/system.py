@@ -10,7 +10,13 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.table import Row, Table, columns_csv
+from linkwright.kernel.page.table import (
+    Row,
+    Table,
+    columns_csv,
+    part_table,
+    parts_of,
+)
 from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.modes.scheme import Connection, Scheme
@@ -20,61 +26,41 @@ from linkwright.torsion.tables.limits import per_minute, rpm
 
 def gear_tables(meshes: MeshTorque, place: int) -> Iterator[Table]:
     """Each stage in service, and where its vibratory torque is largest. `place`: of the service speed."""
-    rows: list[Row] = []
-    for stage, name in enumerate(meshes.stages):
-        vibratory = meshes.vibratory[stage]
-        if np.isnan(vibratory).all():
-            rows.append((name, "", *("–",) * 6, "statically indeterminate"))
-            continue
-        worst = int(np.nan_to_num(vibratory, nan=-1.0).argmax())
-        rows.append(
-            (
-                name,
-                "",
-                quantity(float(abs(meshes.mean[stage, place])), "N m"),
-                quantity(float(vibratory[place]), "N m"),
-                _factor(float(meshes.application_factor[stage, place])),
-                quantity(float(vibratory[worst]), "N m"),
-                rpm(float(meshes.speeds[worst])),
-                _factor(float(meshes.application_factor[stage].max())),
-                _contact(meshes, stage),
-            )
-        )
-    heads = (
-        "stage",
-        "",
-        "mean",
-        "vibratory",
-        "K_A",
-        "largest vibratory",
-        f"at {per_minute()}",
-        "largest K_A",
-        "teeth",
-    )
+    # A stage without vibratory torque is statically indeterminate.
+    vibratory = meshes.vibratory
+    worst = [int(np.nan_to_num(row, nan=-1.0).argmax()) for row in vibratory]
+    known = [bool(np.isfinite(row).any()) for row in vibratory]
+    at = per_minute()
+    heads = ("stage", "", "mean", "vibratory", "K_A", "largest vibratory", f"at {at}", "largest K_A", "teeth")
     service = rpm(float(meshes.speeds[place]))
-    title = f"Gear stages: torque at the first wheel, at {service} {per_minute()} and over the speeds"
-    yield Table("gears", title, heads, rows)
+    yield part_table(
+        "gears",
+        f"Gear stages: torque at the first wheel, at {service} {at} and over the speeds",
+        range(len(meshes.stages)),
+        heads,
+        lambda n: meshes.stages[n],
+        "",
+        lambda n: quantity(float(abs(meshes.mean[n, place])) if known[n] else None, "N m"),
+        lambda n: quantity(float(vibratory[n, place]), "N m"),
+        lambda n: _factor(float(meshes.application_factor[n, place])),
+        lambda n: quantity(float(vibratory[n, worst[n]]), "N m"),
+        lambda n: rpm(float(meshes.speeds[worst[n]]) if known[n] else None),
+        lambda n: _factor(float(meshes.application_factor[n].max())),
+        lambda n: _contact(meshes, n) if known[n] else "statically indeterminate",
+    )
 
 
 def misfire_gear_table(verdict: MisfireVerdict, service: float) -> Table:
     """Each stage with the cylinders whose misfire is worst for it. `service`: speed [rad/s]."""
-    rows: list[Row] = [
-        (
-            gear.stage,
-            "",
-            quantity(gear.vibratory, "N m"),
-            _factor(gear.application_factor),
-            gear.cylinder,
-            _factor(gear.application_factor_max),
-            rpm(gear.speed),
-            gear.cylinder_max,
-        )
-        for gear in verdict.gears
-    ]
-    at = f"at {per_minute()}"
-    heads = ("stage", "", "vibratory", "K_A", "cylinder", "largest K_A", at, "cylinder")
     where = f"at {rpm(service)} {per_minute()} and over the speeds"
-    return Table("misfire_gears", f"Gear stages with one cylinder misfiring, {where}", heads, rows)
+    return part_table(
+        "misfire_gears",
+        f"Gear stages with one cylinder misfiring, {where}",
+        verdict.gears,
+        ("stage", "", "vibratory", "K_A", "cylinder", "largest K_A", "at {rpm}", "cylinder"),
+        *("stage", "", "vibratory [N m]", lambda gear: _factor(gear.application_factor), "cylinder"),
+        *(lambda gear: _factor(gear.application_factor_max), "speed [rad/s]", "cylinder_max"),
+    )
 
 
 def _factor(value: float) -> str:
@@ -122,18 +108,10 @@ def system_tables(
     scheme: Scheme, sections: Mapping[str, tuple[StressedSection, ShaftLimit]]
 ) -> Iterator[Table]:
     """Masses, then what joins them. `sections`: where stresses count, by shaft."""
-    rows: list[Row] = [
-        (
-            f"{n + 1} {name}",
-            "",
-            quantity(float(scheme.inertia[n]), "kg m²"),
-            number(float(scheme.speed[n])),
-            quantity(float(scheme.inertia_referred[n]), "kg m²"),
-        )
-        for n, name in enumerate(scheme.discs)
-    ]
     heads = ("mass", "", "moment of inertia", "speed ratio n", "referred n² J")
-    yield Table("masses", f"Masses, referred to {scheme.discs[0]}", heads, rows)
+    cells = (lambda disc: f"{disc.place[0] + 1} {disc.name}", "", "inertia", "speed", "inertia_referred")
+    title = f"Masses, referred to {scheme.discs[0]}"
+    yield part_table("masses", title, parts_of(scheme, "discs"), heads, *cells)
     if not scheme.connections:
         return
     place = {name: str(n + 1) for n, name in enumerate(scheme.discs)}

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.page.table import Cell, NamedPart, Row, Table, part_table, parts_of
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram
@@ -119,51 +119,40 @@ def _severest(
 
 def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
     """Natural frequencies with their damping."""
-    columns = (
-        damped.natural_frequencies,
-        damped.damped_frequencies,
-        damped.damping_ratios,
-        damped.logarithmic_decrements,
-    )
-    rows: list[Row] = [
-        (_kind(values[0], values[1]), "", *(_finite(value) for value in values))
-        for values in zip(*(column.tolist() for column in columns), strict=True)
-    ]
-    heads = ("motion", "", "Hz", "damped Hz", "ζ", "log. decrement")
+    heads = ("motion", "", "{Hz}", "damped {Hz}", "ζ", "log. decrement")
+    cells = ("natural_frequencies", "damped_frequencies", "damping_ratios", "logarithmic_decrements")
     run = study.machine.train.run if study.machine.train is not None else None
     at = f" at {rpm(run.service)} {per_minute()}, with loads and mean torques" if run and study.forced else ""
-    return Table("damped", f"Damped modes{at}", heads, rows)
+    modes = parts_of(damped, "natural_frequencies")
+    return part_table("damped", f"Damped modes{at}", modes, heads, _motion, "", *cells)
 
 
-def _kind(natural: float, damped: float) -> str:
+def _motion(mode: NamedPart) -> str:
     """What a mode with damping does."""
-    if natural == 0:
+    if mode.natural_frequencies == 0:
         return "rigid-body rotation"
-    return "underdamped (oscillatory)" if damped > 0 else "overdamped (aperiodic)"
+    return "underdamped (oscillatory)" if mode.damped_frequencies > 0 else "overdamped (aperiodic)"
 
 
 def _critical(diagram: CampbellDiagram) -> Table:
     """The most severe critical speeds, by speed, with peak and amplitude of the mode alone."""
     by_severity = sorted(diagram.critical, key=lambda point: point.resonance_amplitude or 0.0, reverse=True)
     kept = set(by_severity[:_CRITICAL])
-    rows: list[Row] = [
-        (
-            f"order {crossing.order:.4g}",
-            "",
-            str(crossing.mode),
-            f"{crossing.frequency:.5g}",
-            rpm(crossing.speed),
-            "–" if crossing.peak_speed is None else rpm(crossing.peak_speed),
-            _amplitude(crossing.resonance_amplitude),
-        )
-        for crossing in diagram.critical
-        if crossing in kept
-    ]
-    alone = (f"mode alone: peak [{per_minute()}]", "mode alone: amplitude")
-    heads = ("order", "", "mode", "Hz", per_minute(), *alone)
-    more = len(diagram.critical) - len(rows)
-    title = "Critical speeds" + (f", the most severe of {len(diagram.critical)}" if more else "")
-    return Table("critical_speeds", title, heads, rows)
+    more = f", the most severe of {len(diagram.critical)}" if len(diagram.critical) > _CRITICAL else ""
+    heads = ("order", "", "mode", "Hz", "{rpm}", "mode alone: peak [{rpm}]", "mode alone: amplitude")
+    return part_table(
+        "critical_speeds",
+        f"Critical speeds{more}",
+        [crossing for crossing in diagram.critical if crossing in kept],
+        heads,
+        lambda crossing: f"order {crossing.order:.4g}",
+        "",
+        "mode",
+        lambda crossing: f"{crossing.frequency:.5g}",
+        "speed [rad/s]",
+        "peak_speed [rad/s]",
+        lambda crossing: _amplitude(crossing.resonance_amplitude),
+    )
 
 
 def _amplitude(theta: float | None) -> str:
@@ -177,38 +166,31 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Torques of every shaft at their worst, and in service."""
     at, peaks = service_place(study, forced), study.peaks
     assert peaks is not None
-    rows: list[Row] = []
-    for s, name in enumerate(forced.shafts):
-        numbers = (
-            float(peaks.vibratory[s]),
-            forced.mean_torques[s, at],
-            forced.shaft_torque_vibratory[s, at],
-            forced.shaft_torque_max[s, at],
-            forced.shaft_heat[s, at],
-        )
-        units = ("N m", "N m", "N m", "N m", "W")
-        cells = [quantity(float(value), unit) for value, unit in zip(numbers, units, strict=True)]
-        rows.append((name, "", cells[0], rpm(float(peaks.speed[s])), *cells[1:]))
     service = rpm(forced.speeds[at])
-    heads = ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat")
-    title = f"Shaft torques: maximum over speeds and resonances; at {service} {per_minute()}, with heat"
-    return Table("shaft_torques", title, heads, rows)
+    return part_table(
+        "shaft_torques",
+        f"Shaft torques: maximum over speeds and resonances; at {service} {per_minute()}, with heat",
+        parts_of(forced, "shafts", at),
+        ("shaft", "", "vibratory", f"at {per_minute()}", "mean", "vibratory", "maximum", "heat"),
+        "name",
+        "",
+        lambda shaft: quantity(float(peaks.vibratory[shaft.place[0]]), "N m"),
+        lambda shaft: rpm(float(peaks.speed[shaft.place[0]])),
+        *("mean_torques", "shaft_torque_vibratory", "shaft_torque_max", "shaft_heat"),
+    )
 
 
 def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
     """Speed fluctuation along the train in service."""
     at = service_place(study, forced)
-    parts = [forced.unevenness, forced.unevenness_rigid, forced.unevenness_torsional]
-    columns = [[_finite(value, 3) for value in part[:, at].tolist()] for part in parts]
-    heads = ["disc", "", "δ", "rigid-body", "torsional"]
-    if study.along is not None:
-        heads += ["N", "spread of N"]
-        columns += [
-            [_finite(v, 3) for v in curve.tolist()] for curve in (study.along.unevenness, study.along.spread)
-        ]
-    rows: list[Row] = [(name, "", *cells) for name, *cells in zip(forced.discs, *columns, strict=True)]
     title = f"Speed fluctuation at {rpm(forced.speeds[at])} {per_minute()}"
-    return Table("unevenness", title, tuple(heads), rows)
+    heads: Row = ("disc", "", "δ", "rigid-body", "torsional")
+    cells: list[Cell] = ["name", "", "unevenness", "unevenness_rigid", "unevenness_torsional"]
+    if (along := study.along) is not None:
+        heads = (*heads, "N", "spread of N")
+        cells.append(lambda disc: number(float(along.unevenness[disc.place[0]]), 3))
+        cells.append(lambda disc: number(float(along.spread[disc.place[0]]), 3))
+    return part_table("unevenness", title, parts_of(forced, "discs", at), heads, *cells, digits=3)
 
 
 def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
@@ -227,11 +209,6 @@ def _signed(text: str) -> str:
     return (text if float(text) else text.removeprefix("-")).replace("-", "−")
 
 
-def _finite(value: float, digits: int | None = None) -> str:
-    """A number, or a dash at a resonance that nothing damps."""
-    return number(value, digits) if np.isfinite(value) else "–"
-
-
 def shape_tables(free: FreeVibration) -> Iterator[Table]:
     """Shapes of the modes, some modes beside each other."""
     for start in range(0, len(free.natural_frequencies), _SHAPES):
@@ -239,19 +216,19 @@ def shape_tables(free: FreeVibration) -> Iterator[Table]:
 
 
 def _frequencies(free: FreeVibration) -> Table:
-    rows: list[Row] = [
-        (
-            _energy(free, k),
-            f"f_{k}",
-            number(f),
-            number(60 * f),
-            str(len(free.nodes[k])) if f > 0 else "–",
-            _nodes(free.nodes[k]) if f > 0 else "–",
-        )
-        for k, f in enumerate(free.natural_frequencies.tolist())
-    ]
-    heads = ("dominant strain energy; kinetic energy", "", "Hz", "cycles/min", "nodes", "at")
-    return Table("natural_frequencies", "Natural frequencies", heads, rows)
+    frequency, nodes = free.natural_frequencies, free.nodes
+    return part_table(
+        "natural_frequencies",
+        "Natural frequencies",
+        range(len(frequency)),
+        ("dominant strain energy; kinetic energy", "", "Hz", "cycles/min", "nodes", "at"),
+        lambda k: _energy(free, k),
+        lambda k: f"f_{k}",
+        lambda k: number(float(frequency[k])),
+        lambda k: number(60 * float(frequency[k])),
+        lambda k: str(len(nodes[k])) if frequency[k] > 0 else "–",
+        lambda k: _nodes(nodes[k]) if frequency[k] > 0 else "–",
+    )
 
 
 def _nodes(nodes: Sequence[Node]) -> str:
@@ -294,18 +271,20 @@ def _shapes(free: FreeVibration, modes: range) -> Table:
 
 def holzer_tables(table: HolzerTable) -> Iterator[Table]:
     """Holzer's table: discs, then shafts."""
-    columns = (table.inertia, table.inertia_squared, table.amplitude, table.torque)
-    rows: list[Row] = [
-        (name, "", *(number(column[n], 6) for column in columns)) for n, name in enumerate(table.discs)
-    ]
-    largest = float(np.abs(table.torque).max())
-    rows.append(("residual at " + table.end, "", "", "", "", number(table.residual_torque, 6, largest)))
-    heads: Row = ("disc", "", "J [kg m²]", "J ω² [N m/rad]", "amplitude θ", "J ω² θ [N m]")
-    yield Table("holzer_discs", f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}", heads, rows)
-    of_shafts = (table.stiffness, table.twist, table.shaft_torque)
-    rows = [
-        (name, "", *(number(column[n], 6) for column in of_shafts)) for n, name in enumerate(table.shafts)
-    ]
-    yield Table(
-        "holzer_shafts", "Holzer's table: shafts", ("shaft", "", "k [N m/rad]", "twist", "torque [N m]"), rows
+    heads: Row = ("disc", "", "J [{kg m²}]", "J ω² [{N m/rad}]", "amplitude θ", "J ω² θ [{N m}]")
+    cells: tuple[Cell, ...] = (
+        "name",
+        "",
+        "inertia",
+        "inertia_squared",
+        lambda disc: number(disc.amplitude, 6),
+        "torque",
     )
+    title = f"Holzer's table at {quantity(table.frequency, 'Hz', 6)}"
+    discs = part_table("holzer_discs", title, parts_of(table, "discs"), heads, *cells, digits=6)
+    residual = number(table.residual_torque, 6, float(np.abs(table.torque).max()))
+    yield discs._replace(rows=[*discs.rows, ("residual at " + table.end, "", "", "", "", residual)])
+    heads = ("shaft", "", "k [{N m/rad}]", "twist", "torque [{N m}]")
+    cells = ("name", "", "stiffness", lambda shaft: number(shaft.twist, 6), "shaft_torque")
+    title = "Holzer's table: shafts"
+    yield part_table("holzer_shafts", title, parts_of(table, "shafts"), heads, *cells, digits=6)
