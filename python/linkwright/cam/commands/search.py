@@ -6,12 +6,14 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_to, option_value
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Json, Output, belong_to
 from linkwright.kernel.command.out import Force
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Group, Option
+from linkwright.kernel.command.value import option_value
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
+from linkwright.machine.file_argument import File
 from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
@@ -58,6 +60,8 @@ Count = Annotated[
     int, Option("--count", metavar="N", help="Number of cams to show, the smallest first.", min=1)
 ]
 
+To = Annotated[Output, Group(Output, {"json": Json, "force": Force})]
+
 # Cams that are computed exactly at once.
 _PORTION = 16
 
@@ -66,15 +70,13 @@ def search(
     file: File,
     vary: Vary = None,
     law: Laws = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
     cam: CamName = None,
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
     count: Count = 10,
     study: ToStudy = None,
-    json: Json = False,
-    force: Force = False,
+    *,
+    to: To,
 ) -> None:
     """Find the smallest cams within their limits.
 
@@ -85,11 +87,10 @@ def search(
     from linkwright.cam.profile.profile import the_cam
     from linkwright.cam.search import search_cams
     from linkwright.kernel.description.schema_walk import quantity_of
-    from linkwright.machine.read import read
     from linkwright.studies.cams import cam_search_study, search_entries
 
     require_within(SHOWN, count, "--count", "show fewer")
-    machine = read(file, set or [], allow_outside=allow_outside)
+    machine = file.read()
     name, chosen = the_cam(machine, cam)
     steep, tight = chosen.limit, chosen.curvature_limit or 0.0
     if pressure_angle is not None:
@@ -107,7 +108,7 @@ def search(
     if study is None:
         belong_to("--study", "force")
     else:
-        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
+        hand_over_study(plan, study, file, machine, to)
     columns = plan.rows(0, plan.n_rows)
     cams = search_cams(
         machine, name, entries=search_entries(plan, columns), laws=law or [], law=columns.get("law")
@@ -115,14 +116,13 @@ def search(
     keeps = cams.keeps(steep, tight)
     best = _smallest(plan, cams, keeps, count)
     answer = Answer(
-        machine=machine.name,
-        units=machine.units,
-        results=lambda _: {"cam_search": _results(cams, keeps, best)},
+        machine=machine,
+        results={"cam_search": _results(cams, keeps, best)},
         findings=_findings(keeps, best),
-        head=partial(_head, cams, keeps),
+        head=_head(cams, keeps),
         tables=partial(_tables, cams, best),
     )
-    hand_over(answer, json=json)
+    to.hand_over(answer)
 
 
 def _levels(wanted: list[str]) -> dict[str, Levels]:

@@ -1,0 +1,63 @@
+"""Values of options that are quantities, such as ``--at "30 deg"``."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from linkwright.kernel.errors import InputError, UnitError, cut
+
+if TYPE_CHECKING:
+    from linkwright.kernel.units import Kind, Quantity
+
+
+def option_value(option: str, text: str, of: Kind | Quantity) -> float:
+    """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
+
+    Raises `InputError`, which names the option, for anything else, for what is beyond the bound of a mark,
+    and for an angle, a speed or a power without its unit.
+    """
+    from linkwright.kernel.units import ANGLE, POWER, SPEED, Quantity, parse
+
+    mark = of if isinstance(of, Quantity) else Quantity(of)
+    kind = mark.kind
+
+    # On a command line people mean degrees as often as radians; zero is the same in both.
+    choices = {
+        ANGLE.dimension: ("deg", "rad"),
+        SPEED.dimension: ("rpm", "rad/s"),
+        POWER.dimension: ("kW", "W"),
+    }
+    units = choices.get(kind.dimension)
+    if _is_number(text) and not math.isfinite(float(text)):
+        raise InputError(f"{option}: found {cut(text)}, expected a finite number with its unit")
+    if units and _is_number(text) and float(text) != 0:
+        text = cut(text)
+        one, other = (f'"{text} {unit}"' for unit in units)
+        before = "" if "=" in option else f"{option} "
+        raise InputError(
+            f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
+            f"{before}{one} or {before}{other}"
+        )
+    try:
+        value = parse(float(text) if _is_number(text) else text, kind)
+    except UnitError as error:
+        problem = error.problem
+        # The file takes a bare number there, the command line does not.
+        expected = problem.expected.partition(" or a number in ")[0] if units else problem.expected
+        remedy = f"; {cut(problem.remedy)}" if problem.remedy else ""
+        raise InputError(f"{option}: found {cut(problem.found)}, expected {expected}{remedy}") from None
+    if not mark.holds(value):
+        hint = mark.remedy(value) or f'such as "{kind.example}"'
+        expected = f"{kind.word}{mark.bound.words.rstrip(',')}; {hint}"
+        raise InputError(f"{option}: found {cut(text)}, expected {expected}")
+    return value
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
