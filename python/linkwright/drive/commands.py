@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Curves, FolderOutput, ZeroAt, to_folder
@@ -16,13 +15,9 @@ from linkwright.kernel.units import ANGLE, SPEED, TIME
 from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
-    from linkwright.drive.motion_events import MotionEvent, MotionExtreme
     from linkwright.drive.transient import Transient
-    from linkwright.kernel.findings import Findings
     from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kinetostatics.contact_in_time import ContactLoss
     from linkwright.linkages.motion import Motion
-    from linkwright.machine.machine import Machine
 
 FromAngle = Annotated[float, Value("--from-angle", ANGLE, 'Crank angle at the start, such as "90 deg".', "0")]
 FromSpeed = Annotated[
@@ -37,7 +32,7 @@ FromSpeed = Annotated[
 Duration = Annotated[float | None, Value("--duration", TIME, "Duration of the motion.")]
 Revolutions = Annotated[
     float | None,
-    Option("--revolutions", metavar="N", help="Revolutions of the crank. Default, without --duration: 10."),
+    Option("--revolutions", "N", "Revolutions of the crank. Default, without --duration: 10."),
 ]
 NoMotor = Annotated[bool, Option("--no-motor", help="Switch the motor off.")]
 Clockwise = Annotated[
@@ -45,10 +40,8 @@ Clockwise = Annotated[
     Option("--clockwise", help="Motor drives the crank clockwise, also in a start from rest."),
 ]
 WithBrake = Annotated[bool, Option("--brake", help="Apply the brake of the file.")]
-Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of a step.")]
-Steps = Annotated[
-    int, Option("--steps", metavar="N", help="Number of equal time intervals in CSV and --curves.", min=1)
-]
+Accuracy = Annotated[float, Option("--accuracy", "X", "Relative accuracy of a step.")]
+Steps = Annotated[int, Option("--steps", "N", "Number of equal time intervals in CSV and --curves.", min=1)]
 To = Annotated[
     FolderOutput,
     to_folder("Write results.json, transient.csv and the figure as SVG and PNG there.", curves=Curves),
@@ -59,30 +52,6 @@ _REVOLUTIONS = 10.0
 
 # Intervals of the table on the terminal.
 _ROWS = 12
-
-
-@dataclass(frozen=True)
-class _MotionReport:
-    """A motion with what is reported of it."""
-
-    machine: Machine
-    motion: Transient
-    zero: Zero
-    steps: int
-    losses: tuple[ContactLoss, ...]
-    findings: Findings
-
-    @property
-    def events(self) -> tuple[MotionEvent, ...]:
-        from linkwright.drive.motion_events import motion_events
-
-        return motion_events(self.machine, self.motion)
-
-    @property
-    def extremes(self) -> tuple[MotionExtreme, ...]:
-        from linkwright.drive.motion_events import motion_extremes
-
-        return motion_extremes(self.motion)
 
 
 def transient(
@@ -106,10 +75,12 @@ def transient(
     exact extremes of speed and acceleration.
     """
     from linkwright.drive.cautions import unjudged_limits
+    from linkwright.drive.motion_events import course, motion_events, motion_extremes
     from linkwright.drive.tables_in_time import end_sentence
     from linkwright.drive.transient import transient as follow
     from linkwright.kernel.findings import Findings
     from linkwright.kinetostatics.contact_in_time import contact_losses
+    from linkwright.linkages.motion import motion_along
     from linkwright.linkages.zero import zero_of
 
     require_within(ROWS_OUT, steps, "--steps", "take fewer")
@@ -136,69 +107,62 @@ def transient(
         (findings.warn if no_motor else findings.add)([end_sentence(motion, counted)])
     losses = findings.beside_of(contact_losses, machine, motion) or ()
     findings.add(loss.sentence(counted) for loss in losses)
-    of = _MotionReport(machine, motion, counted, steps, losses, findings)
+    extremes, events = motion_extremes(motion), motion_events(machine, motion)
+
+    def even(intervals: int) -> Motion:
+        """The motion of everything at even times."""
+        return motion_along(machine, *course(motion, intervals))
+
+    results = {
+        "end": motion.end.name.lower(),
+        "duration": float(motion.time[-1]),
+        "turns": motion.turns,
+        "angle_zero": counted.angle,
+        "zero": counted.words,
+        "torque_drive_end": motion.torque_drive_end,
+        "torque_load_end": motion.torque_load_end,
+        "evaluations": motion.evaluations,
+        "steps": motion.steps,
+        "methods": [method._asdict() for method in motion.methods],
+        "extremes": [extreme._asdict() for extreme in extremes],
+        "events": [event._asdict() for event in events],
+        "contact_losses": [loss._asdict() for loss in losses],
+    }
     answer = Answer(
         machine=machine,
         is_described=True,
-        results=partial(_results, of),
+        results=lambda curves: {"transient": results | (_lists(even(steps)) if curves else {})},
         findings=list(findings.findings),
         warnings=[*findings.warnings, *unjudged_limits(machine)],
-        head=partial(_head, of),
+        head=partial(_head, motion, counted),
         tables=lambda: at_place("drive.tables_in_time:in_time_tables")(
-            motion, of.extremes, of.events, _course(of, _ROWS), counted
+            motion, extremes, events, even(_ROWS), counted
         ),
-        files=partial(_files, of),
-        figures={"transient": later("drive.figures:in_time_figure", motion, of.extremes)},
+        files={"transient.csv": lambda: _csv(even(steps), counted)},
+        figures={"transient": later("drive.figures:in_time_figure", motion, extremes)},
     )
     to.hand_over(answer)
 
 
-def _head(of: _MotionReport) -> str:
+def _head(motion: Transient, zero: Zero) -> str:
     """How far the angles are from those of the file; the methods of a motion that took implicit steps."""
     from linkwright.drive.tables_in_time import methods_sentence
     from linkwright.kernel.page.numbers import zero_words
 
     lines = []
-    if of.zero.words:
-        lines.append(zero_words(of.zero))
-    if of.motion.implicit.any():
-        lines.append(f"Integrated in {methods_sentence(of.motion)}")
+    if zero.words:
+        lines.append(zero_words(zero))
+    if motion.implicit.any():
+        lines.append(f"Integrated in {methods_sentence(motion)}")
     return "\n".join(lines)
 
 
-def _results(of: _MotionReport, curves: bool) -> dict[str, Any]:
-    """Extremes, events, and the curves at even times."""
-    results: dict[str, Any] = {
-        "end": of.motion.end.name.lower(),
-        "duration": float(of.motion.time[-1]),
-        "turns": of.motion.turns,
-        "angle_zero": of.zero.angle,
-        "zero": of.zero.words,
-        "torque_drive_end": of.motion.torque_drive_end,
-        "torque_load_end": of.motion.torque_load_end,
-        "evaluations": of.motion.evaluations,
-        "steps": of.motion.steps,
-        "methods": [method._asdict() for method in of.motion.methods],
-        "extremes": [extreme._asdict() for extreme in of.extremes],
-        "events": [event._asdict() for event in of.events],
-        "contact_losses": [loss._asdict() for loss in of.losses],
-    }
-    if curves:
-        results |= {name: values.tolist() for name, values in _course(of).curves().items()}
-    return {"transient": results}
+def _lists(course: Motion) -> dict[str, list[float]]:
+    return {name: values.tolist() for name, values in course.curves().items()}
 
 
-def _course(of: _MotionReport, intervals: int | None = None) -> Motion:
-    """The motion of everything at even times."""
-    from linkwright.drive.motion_events import course
-    from linkwright.linkages.motion import motion_along
-
-    return motion_along(of.machine, *course(of.motion, intervals or of.steps))
-
-
-def _files(of: _MotionReport) -> dict[str, str]:
+def _csv(course: Motion, zero: Zero) -> str:
     from linkwright.kernel.page.table import columns_csv, head
 
-    course = _course(of)
-    curves = course.curves() | {"crank_angle": course.crank_angle - of.zero.angle}
-    return {"transient.csv": columns_csv({head(course, name): curve for name, curve in curves.items()})}
+    curves = course.curves() | {"crank_angle": course.crank_angle - zero.angle}
+    return columns_csv({head(course, name): curve for name, curve in curves.items()})

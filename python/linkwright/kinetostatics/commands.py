@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,8 +26,7 @@ from linkwright.kernel.units import ANGLE, ANGULAR_ACCELERATION, LENGTH, SPEED
 from linkwright.machine.file_argument import File, MachineFile
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.balancing import Balance
     from linkwright.kinetostatics.friction import Friction
@@ -46,8 +46,8 @@ Span = Annotated[
     str | None,
     Option(
         "--angles",
-        metavar='"FROM, TO"',
-        help='With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
+        '"FROM, TO"',
+        'With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
         "that does not rotate fully.",
     ),
 ]
@@ -71,18 +71,14 @@ To = Annotated[
 ]
 Cases = Annotated[
     list[str] | None,
-    Option(
-        "--case",
-        metavar='"NAME: PATH=VALUE; …"',
-        help='A load case, such as "idle: loads.work.force=0". Repeatable.',
-    ),
+    Option("--case", '"NAME: PATH=VALUE; …"', 'A load case, such as "idle: loads.work.force=0". Repeatable.'),
 ]
 Frictions = Annotated[
     list[str] | None,
     Option(
         "--friction",
-        metavar='"PAIR: KEY=VALUE, …"',
-        help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
+        '"PAIR: KEY=VALUE, …"',
+        'Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
         'coefficient=0.1"; also viscous, and length of a guide. Repeatable.',
     ),
 ]
@@ -155,7 +151,6 @@ def forces(
             for end, result in _numbered(cases)
         },
         figures=partial(_figures, cases),
-        captions=partial(_captions, cases),
     )
     to.hand_over(answer)
 
@@ -306,36 +301,17 @@ def _results(
     return results
 
 
-def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
-    """Figures by name; none where no pair bears a force."""
-    from linkwright.kinetostatics.figures import (
-        cases_figure,
-        forces_figure,
-        has_reactions,
-        hodograph_figure,
-        polar_figure,
-    )
+def _figures(cases: dict[str, Forces]) -> Iterator[CaptionedFigure]:
+    """Figures with their captions, none where no pair bears a force; a title says which case of several."""
+    from linkwright.kernel.figure.style import CaptionedFigure
+    from linkwright.kinetostatics.figures import captioned_forces, cases_figure
 
-    drawn = {}
-    for end, result in _numbered(cases):
-        if not has_reactions(result) or len(result.crank_angle) == 1:
-            continue
-        drawn[f"forces{end}"] = forces_figure(result)
-        drawn[f"hodograph{end}"] = hodograph_figure(result)
-        drawn[f"polar{end}"] = polar_figure(result)
-    return drawn if len(cases) == 1 else {"load_cases": cases_figure(cases), **drawn}
-
-
-def _captions(cases: dict[str, Forces]) -> dict[str, tuple[str, str]]:
-    """Title and caption of each figure; a title says which case, where there are several."""
-    from linkwright.kinetostatics.figures import forces_words
-
-    several = {} if len(cases) == 1 else {"load_cases": ("Load cases", "")}
-    return several | {
-        f"{figure}{end}": (f"{title}, {case}" if end else title, caption)
-        for (end, result), case in zip(_numbered(cases), cases, strict=True)
-        for figure, (title, caption) in forces_words(result).items()
-    }
+    if len(cases) > 1:
+        yield CaptionedFigure("load_cases", "Load cases", "", cases_figure(cases))
+    for (end, result), case in zip(_numbered(cases), cases, strict=True):
+        for one in captioned_forces(result) if len(result.crank_angle) > 1 else ():
+            title = f"{one.title}, {case}" if end else one.title
+            yield one._replace(name=f"{one.name}{end}", title=title)
 
 
 def _numbered(cases: dict[str, Forces]) -> list[tuple[str, Forces]]:
@@ -347,21 +323,19 @@ Links = Annotated[
     str | None,
     Option(
         "--links",
-        metavar="LINK,…",
-        help="Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
+        "LINK,…",
+        "Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
     ),
 ]
 Partial = Annotated[
     str | None,
     Option(
         "--slider",
-        metavar="SLIDER",
-        help="Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
+        "SLIDER",
+        "Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
     ),
 ]
-Share = Annotated[
-    float, Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
-]
+Share = Annotated[float, Option("--share", "X", "With --slider: share of the reciprocating mass.")]
 Radius = Annotated[
     float | None,
     Value(
@@ -374,8 +348,8 @@ Planes = Annotated[
     str | None,
     Option(
         "--planes",
-        metavar='"LENGTH, LENGTH"',
-        help="With --links: one or two places along the crankshaft, each with a counterweight on every link; "
+        '"LENGTH, LENGTH"',
+        "With --links: one or two places along the crankshaft, each with a counterweight on every link; "
         "two balance the shaking couple of bodies with axial as well.",
     ),
 ]

@@ -50,8 +50,8 @@ LawText = Annotated[
     str | None,
     Option(
         "--law",
-        metavar="FORMULA|FILE",
-        help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
+        "FORMULA|FILE",
+        'Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
     ),
 ]
 Duration = Annotated[
@@ -60,7 +60,7 @@ Duration = Annotated[
 ]
 Steps = Annotated[
     int,
-    Option("--steps", metavar="N", help="Number of intervals of the revolution or of the duration.", min=1),
+    Option("--steps", "N", "Number of intervals of the revolution or of the duration.", min=1),
 ]
 Csv = Annotated[bool, Option("--csv", help="CSV with all columns, in SI.")]
 To = Annotated[Output, to_file("Write there.")]

@@ -17,17 +17,13 @@ Of = Annotated[
     list[str] | None,
     Option(
         "--of",
-        metavar="RESPONSE",
-        help='Result or analysis, such as "steady_state.unevenness", "free_vibration". Repeatable.',
+        "RESPONSE",
+        'Result or analysis, such as "steady_state.unevenness", "free_vibration". Repeatable.',
     ),
 ]
 By = Annotated[
     list[str] | None,
-    Option(
-        "--by",
-        metavar="ADDRESS",
-        help='Entry, such as "mechanism.cranks.A2.phase". Repeatable. Default: all.',
-    ),
+    Option("--by", "ADDRESS", 'Entry, such as "mechanism.cranks.A2.phase". Repeatable. Default: all.'),
 ]
 To = Annotated[FolderOutput, to_folder("Write results.json and a figure for each response there.")]
 

@@ -27,14 +27,10 @@ if TYPE_CHECKING:
     from linkwright.sizing.motor import Candidate, MotorChoice
     from linkwright.studies.plan import StudyPlan
 
-Reserve = Annotated[
-    float, Option("--power-reserve", metavar="X", help="Minimum ratio of rated to required power.")
-]
+Reserve = Annotated[float, Option("--power-reserve", "X", "Minimum ratio of rated to required power.")]
 Unevenness = Annotated[
     float,
-    Option(
-        "--unevenness", metavar="X", help="Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean."
-    ),
+    Option("--unevenness", "X", "Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean."),
 ]
 By = Annotated[
     Literal["all", "fixed-start", "power"],
@@ -50,18 +46,14 @@ Together = Annotated[
 ]
 Inertia = Annotated[
     list[str] | None,
-    Option(
-        "--inertia",
-        metavar="TYPE=VALUE",
-        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.',
-    ),
+    Option("--inertia", "TYPE=VALUE", 'Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.'),
 ]
 Catalogue = Annotated[
     Path | None,
     Option(
         "--catalogue",
-        metavar="FILE",
-        help="Choose from the motors of a CSV file (induction, DC or servo) instead of the catalogue.",
+        "FILE",
+        "Choose from the motors of a CSV file (induction, DC or servo) instead of the catalogue.",
     ),
 ]
 KeepMotor = Annotated[
@@ -73,17 +65,11 @@ MinimumCost = Annotated[
 ]
 PerKilowatt = Annotated[
     float | None,
-    Option(
-        "--per-kilowatt", metavar="X", help="Price per kilowatt of motor, with --minimum-cost. Default: 150."
-    ),
+    Option("--per-kilowatt", "X", "Price per kilowatt of motor, with --minimum-cost. Default: 150."),
 ]
 PerKilogram = Annotated[
     float | None,
-    Option(
-        "--per-kilogram",
-        metavar="X",
-        help="Price per kilogram of flywheel, with --minimum-cost. Default: 1.5.",
-    ),
+    Option("--per-kilogram", "X", "Price per kilogram of flywheel, with --minimum-cost. Default: 1.5."),
 ]
 FlywheelRadius = Annotated[
     float | None,
@@ -100,15 +86,11 @@ ContactStress = Annotated[
 ]
 ShaftName = Annotated[
     str | None,
-    Option(
-        "--shaft", metavar="SHAFT", help="Size the smallest damper that keeps this shaft within its limit."
-    ),
+    Option("--shaft", "SHAFT", "Size the smallest damper that keeps this shaft within its limit."),
 ]
 Stress = Annotated[float | None, Value("--stress", PRESSURE, "Permitted vibratory stress of that shaft.")]
 TorqueLimit = Annotated[float | None, Value("--torque", TORQUE, "Permitted vibratory torque of that shaft.")]
-Part = Annotated[
-    str | None, Option("--part", metavar="NAME", help="Name of the cam or damper, if there are several.")
-]
+Part = Annotated[str | None, Option("--part", "NAME", "Name of the cam or damper, if there are several.")]
 To = Annotated[Output, to_file("Write the machine with motor and flywheel there.")]
 
 # Places from which derivatives lead to the minimum cost.
@@ -492,11 +474,9 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     ]
 
 
-Poles = Annotated[int | None, Option("--poles", metavar="N", help="Only motors with this number of poles.")]
-PowerMin = Annotated[
-    str, Option("--power-min", metavar="POWER", help='Minimum rated power, such as "5.5 kW".')
-]
-Series = Annotated[str, Option("--series", metavar="NAME", help="Only motors of this series.")]
+Poles = Annotated[int | None, Option("--poles", "N", "Only motors with this number of poles.")]
+PowerMin = Annotated[str, Option("--power-min", "POWER", 'Minimum rated power, such as "5.5 kW".')]
+Series = Annotated[str, Option("--series", "NAME", "Only motors of this series.")]
 
 
 def motors(

@@ -58,25 +58,19 @@ Stroke = Annotated[float | None, Value("--stroke", LENGTH, "Stroke of the slider
 TimeRatio = Annotated[
     float,
     Option(
-        "--time-ratio",
-        metavar="X",
-        help="Crank angle from outer to inner dead centre over the rest of the revolution.",
+        "--time-ratio", "X", "Crank angle from outer to inner dead centre over the rest of the revolution."
     ),
 ]
 Frame = Annotated[float, Value("--frame", LENGTH, "Distance between the pivots of a crank-rocker.", "1 m")]
 CouplerMax = Annotated[
-    float, Option("--coupler-max", metavar="X", help="Maximum ratio of coupler to rocker of a crank-rocker.")
+    float, Option("--coupler-max", "X", "Maximum ratio of coupler to rocker of a crank-rocker.")
 ]
 Rod = Annotated[float | None, Value("--rod", LENGTH, "Rod of a slider-crank. Default: the best one.")]
-Kind = Annotated[str | None, Option("--kind", metavar="KIND", help="Kind of linkage; --list lists them.")]
+Kind = Annotated[str | None, Option("--kind", "KIND", "Kind of linkage; --list lists them.")]
 Length = Annotated[float, Value("--length", LENGTH, "Length of the straight line.", "1 m")]
 Proportions = Annotated[
     list[str] | None,
-    Option(
-        "--proportion",
-        metavar="NAME=X",
-        help="Proportion other than the default; only ratios matter. Repeatable.",
-    ),
+    Option("--proportion", "NAME=X", "Proportion other than the default; only ratios matter. Repeatable."),
 ]
 List = Annotated[bool, Option("--list", help="List the catalogue for this length of the line.")]
 

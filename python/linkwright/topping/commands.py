@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import FolderOutput, Level, to_folder
 from linkwright.kernel.command.parameter import Option
-from linkwright.kernel.command.value import option_value
-from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.command.value import stepped
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.later import at_place, later
 from linkwright.kernel.limits import FIELD_VARIANTS
 from linkwright.machine.file_argument import File
@@ -25,14 +25,14 @@ Over = Annotated[
     list[str] | None,
     Option(
         "--over",
-        metavar="NAME=LOW:HIGH:N",
-        help='Variable, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
+        "NAME=LOW:HIGH:N",
+        'Variable, such as edge_length=0.1:0.3:21 or edge_angle="0 deg":"40 deg":9: edge_length, '
         "edge_angle, forward_speed, knife_speed, cut_height. A second one: all combinations.",
     ),
 ]
 Seed = Annotated[
     int | None,
-    Option("--seed", metavar="N", help="Seed of the random generator, instead of that of the field."),
+    Option("--seed", "N", "Seed of the random generator, instead of that of the field."),
 ]
 To = Annotated[
     FolderOutput, to_folder("Write results.json, curves as CSV, and figures as SVG and PNG there.")
@@ -80,18 +80,17 @@ def field(
         with bar("lengths") as watch:
             return sweep_field(machine, {"edge_length": lengths}, seed=seed, level=level, watch=watch)
 
-    csv, drawn = "topping.tables.field:field_csv", "topping.figures.field:"
     results: dict[str, Any] = {"topper_field": result.to_dict()}
     tables = [later("topping.tables.field:field_tables", result)]
     files: dict[str, Any] = {
-        "share.csv": later(csv, result.curves()),
-        "haulm.csv": lambda: at_place(csv)(over_lengths().columns()),
+        "share.csv": later("topping.tables.field:field_csv", result.curves()),
+        "haulm.csv": lambda: at_place("topping.tables.field:field_csv")(over_lengths().columns()),
     }
     if swept is not None:
         columns = {key: column.tolist() for key, column in swept.columns().items()}
         results["topper_field_sweep"] = {"shape": list(swept.shape), **columns}
         tables.append(later("topping.tables.field:sweep_table", swept))
-        files["sweep.csv"] = later(csv, swept.columns())
+        files["sweep.csv"] = later("topping.tables.field:field_csv", swept.columns())
     answer = Answer(
         machine=machine,
         results=results,
@@ -101,10 +100,10 @@ def field(
         tables=tables,
         files=files,
         figures=lambda: {
-            "share": at_place(f"{drawn}field_share_figure")(result),
-            "length_needed": at_place(f"{drawn}field_length_figure")(result),
-            "haulm_and_loss": at_place(f"{drawn}field_haulm_figure")(result, over_lengths()),
-            **({} if swept is None else at_place(f"{drawn}sweep_figures")(swept)),
+            "share": at_place("topping.figures.field:field_share_figure")(result),
+            "length_needed": at_place("topping.figures.field:field_length_figure")(result),
+            "haulm_and_loss": at_place("topping.figures.field:field_haulm_figure")(result, over_lengths()),
+            **({} if swept is None else at_place("topping.figures.field:sweep_figures")(swept)),
         },
     )
     to.hand_over(answer)
@@ -112,34 +111,15 @@ def field(
 
 def _axes(wanted: list[str]) -> dict[str, Any]:
     """Values of all entries that vary."""
-    axes = dict(_axis(text) for text in wanted)
-    if len(axes) < len(wanted):
-        raise InputError("--over: found the same name twice, expected each once")
-    if len(axes) > 2:
-        raise InputError(f"--over: found {len(axes)} names, expected two at most")
-    return axes
-
-
-def _axis(text: str) -> tuple[str, Any]:
-    """Name and values of one ``NAME=LOW:HIGH:N``."""
     import numpy as np
 
-    from linkwright.kernel.description.base import suggestion
     from linkwright.topping.sweep import ENTRIES
 
-    name, _, values = text.partition("=")
-    parts = [part.strip().strip("\"'") for part in values.split(":")]
-    if name not in ENTRIES:
-        expected = "expected an entry of the knife; "
-        raise InputError(f'--over {text}: found "{name}", {expected}{suggestion(name, ENTRIES)}')
-    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
-        remedy = "such as edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"
-        raise InputError(f'--over {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
-    low, high = (option_value(f"--over {text}", part, ENTRIES[name]) for part in parts[:2])
-    # A count of thousands of digits is no number for Python.
-    count = int(parts[2][:16])
-    require_within(FIELD_VARIANTS, count, text, "take fewer values")
-    return name, np.linspace(low, high, count)
+    example = "edge_length=0.1:0.3:21 for 21 values from 0.1 to 0.3 m"
+    axes = stepped("--over", wanted, ENTRIES, "an entry of the knife", example, FIELD_VARIANTS)
+    if len(axes) > 2:
+        raise InputError(f"--over: found {len(axes)} names, expected two at most")
+    return {name: np.linspace(*steps) for name, steps in axes.items()}
 
 
 class Objective(StrEnum):

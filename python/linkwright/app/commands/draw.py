@@ -21,8 +21,8 @@ Places = Annotated[
     list[str] | None,
     Option(
         "--out",
-        metavar="FILE",
-        help="A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
+        "FILE",
+        "A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
         "Repeatable. Default: drawing.svg.",
     ),
 ]

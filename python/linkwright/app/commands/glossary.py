@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Words = Annotated[
     list[str] | None,
-    Argument(metavar="[WORD]...", help="A term, a symbol, a key or an older word. Default: all terms."),
+    Argument("[WORD]...", "A term, a symbol, a key or an older word. Default: all terms."),
 ]
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Number = Annotated[
     int | None,
-    Argument(metavar="[N]", help="Number of the paper. Default: a list of all."),
+    Argument("[N]", "Number of the paper. Default: a list of all."),
 ]
 To = Annotated[FolderOutput, to_folder("Write figures as SVG and PNG and a page there.")]
 

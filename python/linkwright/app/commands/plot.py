@@ -30,16 +30,16 @@ Over = Annotated[
     str | None,
     Option(
         "--over",
-        metavar="QUANTITY",
-        help="Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
+        "QUANTITY",
+        "Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
     ),
 ]
 Outs = Annotated[
     list[str] | None,
     Option(
         "--out",
-        metavar="FILE|DIR",
-        help="A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
+        "FILE|DIR",
+        "A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
     ),
 ]
 Csv = Annotated[bool, Option("--csv", help="Print CSV.")]

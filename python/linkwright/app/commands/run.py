@@ -16,7 +16,7 @@ from linkwright.machine.file_argument import File
 if TYPE_CHECKING:
     from linkwright.app.study import Study
 
-Accuracy = Annotated[float, Option("--accuracy", metavar="X", help="Relative accuracy of the steady speed.")]
+Accuracy = Annotated[float, Option("--accuracy", "X", "Relative accuracy of the steady speed.")]
 Method = Annotated[
     Literal["newton", "baranov"],
     Option("--method", help="baranov: also compute by the published step method."),

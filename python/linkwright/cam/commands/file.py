@@ -23,18 +23,16 @@ Tolerance = Annotated[
 Step = Annotated[float, Value("--step", positive(ANGLE), "Step of the tables.", "1 deg")]
 By = Annotated[
     str,
-    Option("--by", metavar="cam|polar", help="Step over the cam angle or over the polar angle."),
+    Option("--by", "cam|polar", "Step over the cam angle or over the polar angle."),
 ]
 Form = Annotated[
     str,
     Option(
-        "--form",
-        metavar="arcs|spline|cubic|polyline",
-        help="Outlines in DXF: arcs, a spline of degree 5 or 3, or chords.",
+        "--form", "arcs|spline|cubic|polyline", "Outlines in DXF: arcs, a spline of degree 5 or 3, or chords."
     ),
 ]
 Formats = Annotated[
-    str, Option("--formats", metavar="LIST", help="Files to write, separated by commas: dxf, csv, svg, step.")
+    str, Option("--formats", "LIST", "Files to write, separated by commas: dxf, csv, svg, step.")
 ]
 To = Annotated[
     FolderOutput,

@@ -14,8 +14,8 @@ Names = Annotated[
     list[str] | None,
     Option(
         "--law",
-        metavar='"NAME: KEY=VALUE, …"',
-        help='A single law, optionally with parameters, such as "modified_sine: share=0.2" or "combined: '
+        '"NAME: KEY=VALUE, …"',
+        'A single law, optionally with parameters, such as "modified_sine: share=0.2" or "combined: '
         'start=0.2, ramp=cycloidal". Repeatable.',
     ),
 ]

@@ -10,9 +10,10 @@ from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Json, Output, belong_to
 from linkwright.kernel.command.out import Force
 from linkwright.kernel.command.parameter import Group, Option
-from linkwright.kernel.command.value import option_value
+from linkwright.kernel.command.value import option_value, stepped
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
+from linkwright.kernel.units import ANGLE, LENGTH, RATIO
 from linkwright.machine.file_argument import File
 from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
@@ -27,8 +28,8 @@ Vary = Annotated[
     list[str] | None,
     Option(
         "--vary",
-        metavar="NAME=LOW:HIGH:N",
-        help='Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
+        "NAME=LOW:HIGH:N",
+        'Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
         "roller_radius, offset, arm_length, face_tilt, lift_factor. Repeatable: all combinations.",
     ),
 ]
@@ -36,29 +37,20 @@ Laws = Annotated[
     list[str] | None,
     Option(
         "--law",
-        metavar="NAME",
-        help="A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those "
-        "of the file.",
+        "NAME",
+        "A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those of the file.",
     ),
 ]
-CamName = Annotated[
-    str | None, Option("--cam", metavar="NAME", help="Name of the cam, if there are several.")
-]
+CamName = Annotated[str | None, Option("--cam", "NAME", "Name of the cam, if there are several.")]
 Steep = Annotated[
     str | None,
-    Option(
-        "--pressure-angle",
-        metavar="ANGLE",
-        help="Maximum permitted pressure angle. Default: that of the cam.",
-    ),
+    Option("--pressure-angle", "ANGLE", "Maximum permitted pressure angle. Default: that of the cam."),
 ]
 Tight = Annotated[
     str | None,
-    Option("--curvature-radius", metavar="LENGTH", help="Minimum permitted convex radius of the profile."),
+    Option("--curvature-radius", "LENGTH", "Minimum permitted convex radius of the profile."),
 ]
-Count = Annotated[
-    int, Option("--count", metavar="N", help="Number of cams to show, the smallest first.", min=1)
-]
+Count = Annotated[int, Option("--count", "N", "Number of cams to show, the smallest first.", min=1)]
 
 To = Annotated[Output, Group(Output, {"json": Json, "force": Force})]
 
@@ -127,42 +119,20 @@ def search(
 
 def _levels(wanted: list[str]) -> dict[str, Levels]:
     """What varies, by name."""
-    import numpy as np
+    from linkwright.cam.search import ENTRIES
+    from linkwright.studies.cams import Levels
 
-    listed = [_axis(name) for name in wanted]
-    levels = dict(listed)
-    if len(levels) < len(listed):
-        raise InputError("--vary: found the same name twice, expected each once")
-    if not levels:
+    kinds = {name: LENGTH for name in ENTRIES if name != "distance"}
+    kinds |= {"face_tilt": ANGLE, "lift_factor": RATIO}
+    example = "base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
+    axes = stepped("--vary", wanted, kinds, "a size of the cam", example, CAM_VARIANTS)
+    if not axes:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
-    total = float(np.prod([axis.steps for axis in levels.values()], dtype=float))
+    total = math.prod(float(axis.count) for axis in axes.values())
     require_within(CAM_VARIANTS, total, "--vary", "reduce the ranges, or use coarser steps")
-    return levels
-
-
-def _axis(text: str) -> tuple[str, Levels]:
-    """Name and values of one ``NAME=LOW:HIGH:N``."""
-    from linkwright.cam.search import ENTRIES
-    from linkwright.kernel.description.base import suggestion
-    from linkwright.kernel.units import ANGLE, LENGTH, RATIO
-    from linkwright.studies.cams import Levels
-
-    name, _, values = text.partition("=")
-    kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
-    parts = [part.strip().strip('"') for part in values.split(":")]
-    if name not in ENTRIES or name == "distance":
-        known = suggestion(name, (entry for entry in ENTRIES if entry != "distance"))
-        raise InputError(f'--vary {text}: found "{name}", expected a size of the cam; {known}')
-    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
-        remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
-        raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
-    low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
-    # A count of thousands of digits is no number for Python.
-    count = int(parts[2][:16])
-    require_within(CAM_VARIANTS, count, text, "take fewer values")
-    return name, Levels(low, high, count)
+    return {name: Levels(*axis) for name, axis in axes.items()}
 
 
 def _smallest(plan: StudyPlan, cams: Cams, keeps: Bools, count: int) -> list[dict[str, Any]]:

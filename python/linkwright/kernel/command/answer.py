@@ -76,8 +76,6 @@ class Answer:
     # by a function.
     files: Mapping[str, Any] | Callable[[], Mapping[str, Any]] = field(default_factory=dict)
     figures: Mapping[str, Any] | Callable[[], Any] = field(default_factory=dict)
-    # Name of a figure → its title and its caption in a report.
-    captions: Callable[[], Mapping[str, tuple[str, str]]] = dict
     # What a report of it says, where that is more than the tables and figures.
     report: Callable[[], Content] | None = None
     # Name of a file → words beside it where the files are listed.
@@ -109,11 +107,7 @@ class Answer:
         made = self.figures() if callable(self.figures) else self.figures
         if not isinstance(made, Mapping):
             return list(made)
-        captions = self.captions()
-        return [
-            CaptionedFigure(name, *captions.get(name, (_title(name), "")), figure)
-            for name, figure in _called(made).items()
-        ]
+        return [CaptionedFigure(name, _title(name), "", figure) for name, figure in _called(made).items()]
 
     def all_files(self) -> dict[str, str | bytes]:
         """Further files by name."""

@@ -38,8 +38,8 @@ Sets = Annotated[
     list[str] | None,
     Option(
         "--set",
-        metavar="PATH=VALUE",
-        help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
+        "PATH=VALUE",
+        "Override an entry of the file, such as drive.gearbox.ratio=10 or "
         'mechanism.cranks.A2.phase="80 deg". Repeatable.',
     ),
 ]
@@ -51,15 +51,15 @@ Outside = Annotated[
         help="Permit entries `file` and `machine` outside the folder of the file.",
     ),
 ]
-Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
-Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
+Level = Annotated[float, Option("--level", "P", "Confidence level of the intervals.")]
+Seed = Annotated[int, Option("--seed", "N", "Seed of the random generator.", min=0)]
 Json = Annotated[bool, Option("--json", help="Print one JSON object in SI units.")]
 ZeroAt = Annotated[
     str | None,
     Option(
         "--zero",
-        metavar='"[OUTPUT] END"',
-        help="Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
+        '"[OUTPUT] END"',
+        "Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
         'or rocker before it if there are several, as in "ram top".',
     ),
 ]

@@ -26,7 +26,7 @@ def out_option(words: str, metavar: str = "DIR", name: str = "--out") -> Any:
             raise click.BadParameter("found nothing, expected a path", param_hint=name)
         return Path(text)
 
-    return Option(name, metavar=metavar, help=words, parser=place)
+    return Option(name, metavar, words, parser=place)
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]

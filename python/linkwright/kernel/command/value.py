@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
-from linkwright.kernel.errors import InputError, UnitError, cut
+from linkwright.kernel.errors import InputError, UnitError, cut, require_within
 
 if TYPE_CHECKING:
+    from linkwright.kernel.limits import Limit
     from linkwright.kernel.units import Kind, Quantity
 
 
@@ -61,3 +63,39 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+class Steps(NamedTuple):
+    """Evenly spaced values."""
+
+    low: float
+    high: float
+    count: int
+
+
+def stepped(
+    option: str, texts: Iterable[str], kinds: Mapping[str, Kind], words: str, example: str, most: Limit
+) -> dict[str, Steps]:
+    """Values by name, of an option with ``NAME=LOW:HIGH:N`` for each; an `InputError` for anything else.
+
+    `kinds`: of what may vary, by name; `words`: what that is; `example`: such values and what they mean;
+    `most`: how many values there may be.
+    """
+    from linkwright.kernel.description.base import suggestion
+
+    known: dict[str, Steps] = {}
+    for text in texts:
+        name, _, values = text.partition("=")
+        parts = [part.strip().strip("\"'") for part in values.split(":")]
+        if name not in kinds:
+            remedy = suggestion(name, kinds)
+            raise InputError(f'{option} {text}: found "{name}", expected {words}; {remedy}')
+        if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
+            raise InputError(f'{option} {text}: found "{values}", expected LOW:HIGH:N; such as {example}')
+        if name in known:
+            raise InputError(f"{option}: found the same name twice, expected each once")
+        low, high = (option_value(f"{option} {text}", part, kinds[name]) for part in parts[:2])
+        # A count of thousands of digits is no number for Python.
+        known[name] = Steps(low, high, int(parts[2][:16]))
+        require_within(most, known[name].count, text, "take fewer values")
+    return known

@@ -20,16 +20,16 @@ Recorded = Annotated[
     Path | None,
     Option(
         "--record",
-        metavar="CSV",
-        help="CSV file with a header such as `time [s], speed [rpm]`. Default: that of the study.",
+        "CSV",
+        "CSV file with a header such as `time [s], speed [rpm]`. Default: that of the study.",
     ),
 ]
 Vary = Annotated[
     list[str] | None,
     Option(
         "--vary",
-        metavar="ADDRESS[=LOW:HIGH]",
-        help='Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
+        "ADDRESS[=LOW:HIGH]",
+        'Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
     ),
 ]
 Motion = Annotated[

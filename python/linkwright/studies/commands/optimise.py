@@ -20,12 +20,7 @@ if TYPE_CHECKING:
 
 Evaluations = Annotated[
     int,
-    Option(
-        "--evaluations",
-        metavar="N",
-        help="Maximum number of machines for each combination of values.",
-        min=10,
-    ),
+    Option("--evaluations", "N", "Maximum number of machines for each combination of values.", min=10),
 ]
 Way = Annotated[
     Literal["both", "global", "gradient"],
@@ -34,13 +29,11 @@ Way = Annotated[
         help="both: CMA-ES, then derivatives; global: CMA-ES; gradient: derivatives from several starts.",
     ),
 ]
-Starts = Annotated[int, Option("--starts", metavar="N", help="Number of starts of --method gradient.", min=1)]
-Points = Annotated[
-    int, Option("--points", metavar="N", help="Number of machines of the front of two goals.", min=3)
-]
+Starts = Annotated[int, Option("--starts", "N", "Number of starts of --method gradient.", min=1)]
+Points = Annotated[int, Option("--points", "N", "Number of machines of the front of two goals.", min=3)]
 Log = Annotated[
     Path | None,
-    Option("--log", metavar="FILE", help="Log of the search; the same command resumes a search from it."),
+    Option("--log", "FILE", "Log of the search; the same command resumes a search from it."),
 ]
 
 

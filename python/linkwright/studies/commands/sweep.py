@@ -27,21 +27,17 @@ if TYPE_CHECKING:
     from linkwright.studies.sweep import Sweep
 
 
-Folder = Annotated[Path, Argument(metavar="DIR", help="Folder of a sweep.")]
+Folder = Annotated[Path, Argument("DIR", "Folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
 Drawn = Annotated[FolderOutput, to_folder("Write figures and results.json there.")]
 Chunks = Annotated[
     str | None,
-    Option("--chunks", metavar="A:B", help="Compute only the files A to B - 1, as one of many jobs."),
+    Option("--chunks", "A:B", "Compute only the files A to B - 1, as one of many jobs."),
 ]
-Workers = Annotated[int, Option("--workers", metavar="N", help="Number of processes.", min=1)]
+Workers = Annotated[int, Option("--workers", "N", "Number of processes.", min=1)]
 Cluster = Annotated[
     str,
-    Option(
-        "--cluster",
-        metavar="ADDRESS",
-        help='Dask scheduler whose workers compute, such as "tcp://host:8786".',
-    ),
+    Option("--cluster", "ADDRESS", 'Dask scheduler whose workers compute, such as "tcp://host:8786".'),
 ]
 
 

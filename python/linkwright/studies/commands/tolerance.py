@@ -18,25 +18,21 @@ if TYPE_CHECKING:
     from linkwright.studies.plan import StudyPlan
     from linkwright.studies.tolerance import Tolerance
 
-RowCount = Annotated[int, Option("--rows", metavar="N", help="Number of random machines.", min=2)]
+RowCount = Annotated[int, Option("--rows", "N", "Number of random machines.", min=2)]
 Blocks = Annotated[
     int,
-    Option(
-        "--indices", metavar="N", help="Number of blocks for Sobol indices, such as 1000; 0 for none.", min=0
-    ),
+    Option("--indices", "N", "Number of blocks for Sobol indices, such as 1000; 0 for none.", min=0),
 ]
 
 Wanted = Annotated[
     float | None,
     Option(
         "--allocate",
-        metavar="SHARE",
-        help="Find the cheapest tolerances for this yield, such as 0.99, from the `cost` of each.",
+        "SHARE",
+        "Find the cheapest tolerances for this yield, such as 0.99, from the `cost` of each.",
     ),
 ]
-Power = Annotated[
-    float, Option("--cost-power", metavar="K", help="Cost of a tolerance f times as wide: cost / f^K.")
-]
+Power = Annotated[float, Option("--cost-power", "K", "Cost of a tolerance f times as wide: cost / f^K.")]
 
 
 def tolerance(

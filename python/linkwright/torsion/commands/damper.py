@@ -21,21 +21,17 @@ class Kind(StrEnum):
     rubber = "rubber"
 
 
-On = Annotated[str, Option("--on", metavar="DISC", help="Disc that carries the damper.")]
+On = Annotated[str, Option("--on", "DISC", "Disc that carries the damper.")]
 Ring = Annotated[
     float,
     Value("--ring-inertia", INERTIA, 'Moment of inertia of the ring, such as "0.4 kg m^2".', metavar="J"),
 ]
 Mode = Annotated[
     int | None,
-    Option(
-        "--mode",
-        metavar="N",
-        help="Number of the mode, as f_N in the table. Default: the first elastic mode.",
-    ),
+    Option("--mode", "N", "Number of the mode, as f_N in the table. Default: the first elastic mode."),
 ]
 Kinds = Annotated[Kind, Option("--kind", help="viscous: fluid; tuned: spring and fluid; rubber: elastomer.")]
-Loss = Annotated[float | None, Option("--loss-factor", metavar="ETA", help="Loss factor of the rubber.")]
+Loss = Annotated[float | None, Option("--loss-factor", "ETA", "Loss factor of the rubber.")]
 To = Annotated[
     FolderOutput, to_folder("Write damper.json, damper.toml and the response as SVG and PNG there.")
 ]

@@ -16,11 +16,11 @@ from linkwright.machine.file_argument import File
 Measured = Annotated[
     Path,
     Argument(
-        metavar="CSV",
-        help="Speed over the crank angle, at even steps over whole cycles; header: angle [deg], speed [rpm].",
+        "CSV",
+        "Speed over the crank angle, at even steps over whole cycles; header: angle [deg], speed [rpm].",
     ),
 ]
-On = Annotated[str, Option("--on", metavar="DISC", help="Measured disc.")]
+On = Annotated[str, Option("--on", "DISC", "Measured disc.")]
 Noise = Annotated[
     float | None,
     Value(
@@ -33,8 +33,8 @@ Zero = Annotated[
     int | None,
     Option(
         "--zero",
-        metavar="CYLINDER",
-        help="The angle is 0 at the firing dead centre of this cylinder. Default: where throw 1 points to "
+        "CYLINDER",
+        "The angle is 0 at the firing dead centre of this cylinder. Default: where throw 1 points to "
         "the vertical.",
     ),
 ]

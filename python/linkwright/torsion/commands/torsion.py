@@ -29,8 +29,8 @@ Holzer = Annotated[
     list[str] | None,
     Option(
         "--holzer",
-        metavar="FREQUENCY",
-        help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
+        "FREQUENCY",
+        'Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
     ),
 ]
 
@@ -38,9 +38,8 @@ MeasuredFile = Annotated[
     Path | None,
     Option(
         "--measured",
-        metavar="FILE.csv",
-        help="Measured curves over the speed, drawn over the computed ones; header: speed [rpm], line "
-        "[MPa], …",
+        "FILE.csv",
+        "Measured curves over the speed, drawn over the computed ones; header: speed [rpm], line [MPa], …",
     ),
 ]
 
