@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 
 import linkwright as lw
 from linkwright.app.application import application
+from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
@@ -146,7 +147,8 @@ def test_prices_of_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
     """They are those of the study: the flywheel of a disc of 0.4 m has 2.25 times the mass."""
     seen = []
     monkeypatch.setattr(
-        "linkwright.studies.commands.optimise.hand_over_optimum", lambda plan, *_, **__: seen.append(plan)
+        "linkwright.studies.commands.optimise.optimum_answer",
+        lambda plan, *_: seen.append(plan) or Answer(machine=None),
     )
     words = ("--per-kilowatt", "90", "--per-kilogram", "4", "--flywheel-radius", "400 mm")
     assert size("roller_two_carts", "--minimum-cost", *words).exit_code == 0

@@ -107,11 +107,12 @@ def search(
     )
     keeps = cams.keeps(steep, tight)
     best = _smallest(plan, cams, keeps, count)
+    counts = {"n_cams": len(keeps), "n_sound": int(cams.is_sound.sum()), "n_kept": int(keeps.sum())}
     answer = Answer(
         machine=machine,
-        results={"cam_search": _results(cams, keeps, best)},
+        results={"cam_search": counts | {"smallest": best}},
         findings=_findings(keeps, best),
-        head=_head(cams, keeps),
+        head=f"{len(keeps)} cams evaluated, {counts['n_sound']} sound, {counts['n_kept']} keep the limits",
         tables=partial(_tables, cams, best),
     )
     to.hand_over(answer)
@@ -130,7 +131,7 @@ def _levels(wanted: list[str]) -> dict[str, Levels]:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
-    total = math.prod(float(axis.count) for axis in axes.values())
+    total = math.prod(float(axis.number) for axis in axes.values())
     require_within(CAM_VARIANTS, total, "--vary", "reduce the ranges, or use coarser steps")
     return {name: Levels(*axis) for name, axis in axes.items()}
 
@@ -170,16 +171,6 @@ def _row(cams: Cams, i: int, exact: dict[str, float]) -> dict[str, Any]:
     }
 
 
-def _results(cams: Cams, keeps: Bools, best: list[dict[str, Any]]) -> dict[str, Any]:
-    """How many there are of what kind, and the smallest."""
-    return {
-        "n_cams": len(keeps),
-        "n_sound": int(cams.is_sound.sum()),
-        "n_kept": int(keeps.sum()),
-        "smallest": best,
-    }
-
-
 def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
     """That there is no cam to show."""
     if best:
@@ -191,12 +182,6 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
         f"None of the {looked} smallest cams keeps the limits between the sampled angles: widen the "
         "ranges or the limits."
     ]
-
-
-def _head(cams: Cams, keeps: Bools) -> str:
-    """How many there are of what kind."""
-    n_sound, n_kept = int(cams.is_sound.sum()), int(keeps.sum())
-    return f"{len(keeps)} cams evaluated, {n_sound} sound, {n_kept} keep the limits"
 
 
 def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:

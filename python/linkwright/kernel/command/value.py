@@ -70,7 +70,7 @@ class Steps(NamedTuple):
 
     low: float
     high: float
-    count: int
+    number: int
 
 
 def stepped(
@@ -97,5 +97,5 @@ def stepped(
         low, high = (option_value(f"{option} {text}", part, kinds[name]) for part in parts[:2])
         # A count of thousands of digits is no number for Python.
         known[name] = Steps(low, high, int(parts[2][:16]))
-        require_within(most, known[name].count, text, "take fewer values")
+        require_within(most, known[name].number, text, "take fewer values")
     return known
