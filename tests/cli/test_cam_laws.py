@@ -14,9 +14,9 @@ from click.testing import CliRunner
 from command_line import invoke
 
 from linkwright.cam.laws.catalogue import LAWS
-from linkwright.kernel.command.common import File
 from linkwright.kernel.command.group import Commands, Entry
 from linkwright.kernel.command.parameter import Option, command
+from linkwright.machine.file_argument import File
 
 RUNNER = CliRunner()
 
@@ -92,7 +92,7 @@ def one() -> None:
 
 def other(file: File, fast: Annotated[bool, Option("--fast")] = False) -> None:
     """Other."""
-    click.echo(f"{file} {fast}")
+    click.echo(f"{file.file} {fast}")
 
 
 @pytest.mark.parametrize(

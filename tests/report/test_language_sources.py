@@ -38,6 +38,7 @@ UNSEEN = {
     *("InputError", "UnitError", "Problem", "MachineError", "LawError", "ShapeError", "InternalError"),
     *("NoPlaceError", "ValueError", "TypeError", "KeyError", "AttributeError", "RuntimeError", "fault"),
     *("wrong", "require", "require_within", "belong_to", "named_file", "Option", "Argument", "out_option"),
+    *("Value", "to_file", "to_folder", "stepped"),
     *("progress", "echo", "About", "Label", "Bound", "filter", "fromkeys", "legend", "filterwarnings"),
     *("_unreadable", "ImportError", "annotate"),
 }

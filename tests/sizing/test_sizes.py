@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import Result
-from command_line import invoke
+from click.testing import CliRunner, Result
 
 import linkwright as lw
+from linkwright.app.application import application
+from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
@@ -24,7 +25,7 @@ DAMPER = EXAMPLES / "viscous_damper" / "machine.toml"
 
 
 def size(*words: str) -> Result:
-    return invoke("size", *words)
+    return CliRunner().invoke(application(), ["size", *words])
 
 
 def test_the_smallest_cam_within_a_pressure_angle() -> None:
@@ -146,7 +147,8 @@ def test_prices_of_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
     """They are those of the study: the flywheel of a disc of 0.4 m has 2.25 times the mass."""
     seen = []
     monkeypatch.setattr(
-        "linkwright.studies.commands.optimise.hand_over_optimum", lambda plan, *_, **__: seen.append(plan)
+        "linkwright.studies.commands.optimise.optimum_answer",
+        lambda plan, *_: seen.append(plan) or Answer(machine=None),
     )
     words = ("--per-kilowatt", "90", "--per-kilogram", "4", "--flywheel-radius", "400 mm")
     assert size("roller_two_carts", "--minimum-cost", *words).exit_code == 0

@@ -26,7 +26,7 @@ def files(root: Path = ROOT) -> dict[str, Path]:
 def imported(path: Path, root: Path = ROOT, *, types: bool = False) -> Iterator[str]:
     """Dotted names below the package that a file imports when it runs, anywhere in it.
 
-    Also functions of an analysis by their place; what type checkers alone import only with `types`.
+    Also functions by their place; what type checkers alone import only with `types`.
     """
     package = path.relative_to(root).parent.parts
     tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -38,7 +38,11 @@ def imported(path: Path, root: Path = ROOT, *, types: bool = False) -> Iterator[
             yield from (each.name[11:] for each in node.names if each.name.startswith("linkwright."))
         elif isinstance(node, ast.ImportFrom):
             yield from _from(node, package)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "of":
+        elif (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id in ("of", "later", "at_place")
+        ):
             place = node.args[0] if node.args else None
             if isinstance(place, ast.Constant) and ":" in str(place.value):
                 yield str(place.value).replace(":", ".")

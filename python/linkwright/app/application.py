@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,6 +15,7 @@ import click
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.group import Commands, Entry, completion_options
 from linkwright.kernel.command.parameter import command
+from linkwright.kernel.later import at_place
 
 
 class Place(NamedTuple):
@@ -174,10 +174,12 @@ def _entries(places: Mapping[str, Place]) -> dict[str, Entry]:
 
 def _loaded(word: str | None, place: Place) -> click.Command:
     """The command at a place below the package; its errors are messages."""
-    module, _, name = place.function.partition(":")
-    function = getattr(import_module(f"linkwright.{module}"), name)
-    run = reports_errors(function, _machine_name, _place)
-    return command(run, word, shows_quantities=place.shows_quantities)
+    return command(
+        at_place(place.function),
+        word,
+        shows_quantities=place.shows_quantities,
+        around=partial(reports_errors, machine_name=_machine_name, place=_place),
+    )
 
 
 def _version(context: click.Context, option: click.Parameter, wanted: bool) -> None:

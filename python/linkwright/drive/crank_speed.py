@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from linkwright.kernel.command.common import option_value
 from linkwright.kernel.page.numbers import number
 
 if TYPE_CHECKING:
@@ -31,13 +30,12 @@ class CrankSpeed(NamedTuple):
         return f"{driver} speed {_both(self.value)} ({self.source})"
 
 
-def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
+def crank_speed(machine: Machine, asked: float | None) -> CrankSpeed:
     """The speed for a motion at constant speed: that of the option, else the machine's own."""
     from linkwright.drive.model.motor import ConstantSpeedMotor
-    from linkwright.kernel.units.kinds import SPEED
 
-    if text is not None:
-        return CrankSpeed(option_value(_OPTION, text, SPEED), _OPTION)
+    if asked is not None:
+        return CrankSpeed(asked, _OPTION)
     drive = machine.drive
     if drive is not None and drive.speed is not None:
         return CrankSpeed(drive.speed, _DESIGN)
@@ -48,12 +46,14 @@ def crank_speed(machine: Machine, text: str | None) -> CrankSpeed:
     return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
 
 
-def speeds_of(speeds: Floats, machine: Machine, text: str | None, *, is_pose: bool = False) -> dict[str, Any]:
+def speeds_of(
+    speeds: Floats, machine: Machine, asked: float | None, *, is_pose: bool = False
+) -> dict[str, Any]:
     """The speeds (n,) [rad/s] at which something was computed along a motion, or in one pose, for JSON;
-    `text`: after ``--speed``.
+    `asked`: that of ``--speed``.
     """
     has_motor = machine.drive is not None and machine.drive.motor is not None
-    source = _OPTION if text is not None else "steady motion" if has_motor and not is_pose else _DESIGN
+    source = _OPTION if asked is not None else "steady motion" if has_motor and not is_pose else _DESIGN
     low, high = float(speeds.min()), float(speeds.max())
     return {"speed_min": low, "speed_max": high, "speed_source": source}
 

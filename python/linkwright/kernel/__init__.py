@@ -11,6 +11,7 @@
 | `figure/` | What all figures share: style, SVG and PNG, captions |
 | `files/` | Files in and out: text, tables, points, whole files or none, the library, templates |
 | `findings` | What a study has to say |
+| `later` | Functions that are named by their place, and imported when they are called |
 | `limits` | How much of everything there may be |
 | `numerics/` | Numerics that no library has as it is needed here |
 | `page/` | What all pages share: numbers as text, tables, formulas, templates |

@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.drive.crank_speed import speed_words, speeds_of
-from linkwright.kernel.command.answer import Answer, hand_over
+from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import (
     Curves,
-    File,
-    Json,
-    Outside,
-    Sets,
+    FolderOutput,
+    Output,
     ZeroAt,
     belong_to,
     named_entries,
-    option_value,
+    to_file,
+    to_folder,
 )
-from linkwright.kernel.command.out import Force, out_option, output_folder
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Option, Value
+from linkwright.kernel.command.value import option_value
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.later import later
+from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, LENGTH, SPEED
+from linkwright.machine.file_argument import File, MachineFile
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.table import Table
     from linkwright.kinetostatics.balancing import Balance
     from linkwright.kinetostatics.friction import Friction
@@ -36,59 +35,54 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 Speed = Annotated[
-    str | None,
-    Option(
+    float | None,
+    Value(
         "--speed",
-        metavar="SPEED",
-        help='Constant speed of the crank, such as "10 rad/s" or "90 rpm". Default: the steady motion.',
+        SPEED,
+        'Constant speed of the crank, such as "10 rad/s" or "90 rpm". Default: the steady motion.',
     ),
 ]
 Span = Annotated[
     str | None,
     Option(
         "--angles",
-        metavar='"FROM, TO"',
-        help='With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
+        '"FROM, TO"',
+        'With --speed: range of crank angles, such as "-20 deg, 50 deg", for a mechanism '
         "that does not rotate fully.",
     ),
 ]
 At = Annotated[
-    str | None,
-    Option(
-        "--at",
-        metavar="ANGLE",
-        help="Components of all forces at this one crank angle, at --speed or at the design speed.",
+    float | None,
+    Value(
+        "--at", ANGLE, "Components of all forces at this one crank angle, at --speed or at the design speed."
     ),
 ]
 Acceleration = Annotated[
-    str | None,
-    Option(
+    float | None,
+    Value(
         "--acceleration",
-        metavar="ACCELERATION",
-        help='Angular acceleration of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
+        ANGULAR_ACCELERATION,
+        'Angular acceleration of the crank, such as "20 rad/s^2", with --speed or --at. Default: none.',
     ),
 ]
-Folder = Annotated[
-    Path | None, out_option("Write results.json, forces.csv and figures as SVG and PNG there.")
+To = Annotated[
+    FolderOutput,
+    to_folder("Write results.json, forces.csv and figures as SVG and PNG there.", curves=Curves),
 ]
 Cases = Annotated[
     list[str] | None,
-    Option(
-        "--case",
-        metavar='"NAME: PATH=VALUE; …"',
-        help='A load case, such as "idle: loads.work.force=0". Repeatable.',
-    ),
+    Option("--case", '"NAME: PATH=VALUE; …"', 'A load case, such as "idle: loads.work.force=0". Repeatable.'),
 ]
 Frictions = Annotated[
     list[str] | None,
     Option(
         "--friction",
-        metavar='"PAIR: KEY=VALUE, …"',
-        help='Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
+        '"PAIR: KEY=VALUE, …"',
+        'Friction of a pin, guide or slot, such as "A: radius=20 mm, coefficient=0.1" or "S.guide: '
         'coefficient=0.1"; also viscous, and length of a guide. Repeatable.',
     ),
 ]
-Angle = Annotated[str, Option("--pressure-angle", metavar="ANGLE", help="Pressure angle of all teeth.")]
+Angle = Annotated[float, Value("--pressure-angle", ANGLE, "Pressure angle of all teeth.", "20 deg")]
 
 
 # Intervals between the ends of --angles.
@@ -100,8 +94,6 @@ _WHOLE_TURN = 1e-6
 
 def forces(
     file: File,
-    set: Sets = None,
-    allow_outside: Outside = False,
     at: At = None,
     speed: Speed = None,
     acceleration: Acceleration = None,
@@ -109,80 +101,39 @@ def forces(
     zero: ZeroAt = None,
     case: Cases = None,
     friction: Frictions = None,
-    pressure_angle: Angle = "20 deg",
-    json: Json = False,
-    curves: Curves = False,
-    out: Folder = None,
-    force: Force = False,
+    *,
+    pressure_angle: Angle,
+    to: To,
 ) -> None:
     """Compute the forces in a machine.
 
     Joint reactions of all pins, guides, slots, teeth and cables, driving torque, shaking force and moment;
     along the steady motion, or at a constant speed; in one pose with --at.
     """
-    from linkwright.machine.read import read
+    from linkwright.drive.cautions import unjudged_limits
+    from linkwright.linkages.law_jumps import shaft_of_laws
+    from linkwright.linkages.whole_cycle import first_revolution_words
+    from linkwright.linkages.zero import zero_of, zero_over
 
-    folder = output_folder(out, force=force)
     if at is not None and angles is not None:
         raise InputError("--at and --angles: one crank angle or a range, not both")
-    options = _motion(speed, acceleration, angles, pressure_angle, is_pose=at is not None)
-
-    def read_with(entries: list[str]) -> Machine:
-        return read(file, [*(set or []), *entries], allow_outside=allow_outside)
-
+    if acceleration is not None and speed is None and at is None:
+        raise InputError("--acceleration: it belongs to --speed or --at; a steady motion has its own")
+    given = {"speed": speed, "acceleration": acceleration, "angles": _range(angles, speed)}
+    options = {"pressure_angle": pressure_angle} | {k: x for k, x in given.items() if x is not None}
+    machine = file.read()
     if at is not None:
-        options["angles"] = [_angle_at(read_with([]), at, zero)]
-    cases, machine = _cases(read_with, case or [], friction or [], options)
+        options["angles"] = [at + zero_of(machine, zero).angle]
+    cases = _cases(file, machine, case or [], friction or [], options)
     orders = _orders(machine, cases)
     speeds = {
         name: speeds_of(result.speed, machine, speed, is_pose=at is not None)
         for name, result in cases.items()
     }
-    counted = _zero(machine, zero, cases)
-    hand_over(_answer(machine, cases, speeds, counted, orders), json=json, curves=curves, folder=folder)
-
-
-def _angle_at(machine: Machine, at: str, zero: str | None) -> float:
-    """The crank angle of --at [rad], as the file counts it."""
-    from linkwright.kernel.units.kinds import ANGLE
-    from linkwright.linkages.zero import zero_angle
-
-    start = zero_angle(machine, zero).angle if zero is not None else 0.0
-    return option_value("--at", at, ANGLE) + start
-
-
-def _zero(machine: Machine, where: str | None, cases: dict[str, Forces]) -> Zero:
-    """From where crank angles are counted, over the cycle of the forces."""
-    from math import pi
-
-    from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.linkages.zero import zero_angle
-
-    if where is None:
-        return Zero()
-    zero = zero_angle(machine, where)
-    span = max(float(result.crank_angle[-1] - result.crank_angle[0]) for result in cases.values())
-    turns = round(span / (2 * pi))
-    return zero._replace(cycle=2 * pi * turns) if zero.cycle else zero
-
-
-def _answer(
-    machine: Machine,
-    cases: dict[str, Forces],
-    speeds: dict[str, dict[str, Any]],
-    zero: Zero,
-    orders: ShakingOrders | None,
-) -> Answer:
-    """What was found, case by case."""
-    from linkwright.drive.cautions import unjudged_limits
-    from linkwright.linkages.law_jumps import shaft_of_laws
-    from linkwright.linkages.whole_cycle import first_revolution_words
-
-    return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
-        zero=zero,
+    answer = Answer(
+        machine=machine,
+        is_described=True,
+        zero=zero_over(machine, zero, *cases.values()),
         results=partial(_results, cases, speeds, orders),
         findings=[
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
@@ -195,10 +146,13 @@ def _answer(
         ],
         head=partial(_head, speeds),
         tables=partial(_tables, cases, orders),
-        files=partial(_files, cases),
+        files={
+            f"forces{end}.csv": later("kernel.page.table:curves_csv", result)
+            for end, result in _numbered(cases)
+        },
         figures=partial(_figures, cases),
-        captions=partial(_captions, cases),
     )
+    to.hand_over(answer)
 
 
 def _nothing_to_carry(machine: Machine) -> list[str]:
@@ -263,42 +217,29 @@ def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
     return finding if len(cases) == 1 else f"{name}: {finding}"
 
 
-def _motion(
-    speed: str | None, acceleration: str | None, span: str | None, pressure_angle: str, *, is_pose: bool
-) -> dict[str, Any]:
-    """What the options say about motion and teeth."""
-    from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED
-
-    options: dict[str, Any] = {"pressure_angle": option_value("--pressure-angle", pressure_angle, ANGLE)}
-    if speed is not None:
-        options["speed"] = option_value("--speed", speed, SPEED)
-    if acceleration is not None:
-        if speed is None and not is_pose:
-            raise InputError("--acceleration: it belongs to --speed or --at; a steady motion has its own")
-        options["acceleration"] = option_value("--acceleration", acceleration, ANGULAR_ACCELERATION)
-    if span is not None:
-        ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]
-        if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
-            found = f'"{span}"' + ("" if speed is not None else " without --speed")
-            raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
-        low, high = ends
-        options["angles"] = [low + (high - low) * k / _ANGLES for k in range(_ANGLES + 1)]
-    return options
+def _range(span: str | None, speed: float | None) -> list[float] | None:
+    """The crank angles of --angles [rad]; None without it."""
+    if span is None:
+        return None
+    ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]
+    if len(ends) != 2 or ends[0] >= ends[1] or speed is None:
+        found = f'"{span}"' + ("" if speed is not None else " without --speed")
+        raise InputError(f"--angles: found {found}, expected two increasing angles, and --speed")
+    low, high = ends
+    return [low + (high - low) * k / _ANGLES for k in range(_ANGLES + 1)]
 
 
 def _cases(
-    read_with: Callable[[list[str]], Machine], cases: list[str], frictions: list[str], options: dict[str, Any]
-) -> tuple[dict[str, Forces], Machine]:
-    """Forces by case, of the machine as it is where there are none; and the machine."""
+    file: MachineFile, machine: Machine, cases: list[str], frictions: list[str], options: dict[str, Any]
+) -> dict[str, Forces]:
+    """Forces by case, of the machine as it is where there are none."""
     from linkwright.kinetostatics.forces import forces as compute
 
-    machine = read_with([])
     options["friction"] = _frictions(machine, frictions)
     if not cases:
-        return {machine.name: compute(machine, **options)}, machine
+        return {machine.name: compute(machine, **options)}
     named = dict(named_entries("--case", text, "idle: loads.work.force=0") for text in cases)
-    results = {name: compute(read_with(entries), **options) for name, entries in named.items()}
-    return results, machine
+    return {name: compute(file.read(entries), **options) for name, entries in named.items()}
 
 
 def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
@@ -360,43 +301,17 @@ def _results(
     return results
 
 
-def _files(cases: dict[str, Forces]) -> dict[str, str]:
-    """Curves by name."""
-    from linkwright.kernel.page.table import curves_csv
+def _figures(cases: dict[str, Forces]) -> Iterator[CaptionedFigure]:
+    """Figures with their captions, none where no pair bears a force; a title says which case of several."""
+    from linkwright.kernel.figure.style import CaptionedFigure
+    from linkwright.kinetostatics.figures import captioned_forces, cases_figure
 
-    return {f"forces{end}.csv": curves_csv(result) for end, result in _numbered(cases)}
-
-
-def _figures(cases: dict[str, Forces]) -> dict[str, Figure]:
-    """Figures by name; none where no pair bears a force."""
-    from linkwright.kinetostatics.figures import (
-        cases_figure,
-        forces_figure,
-        has_reactions,
-        hodograph_figure,
-        polar_figure,
-    )
-
-    drawn = {}
-    for end, result in _numbered(cases):
-        if not has_reactions(result) or len(result.crank_angle) == 1:
-            continue
-        drawn[f"forces{end}"] = forces_figure(result)
-        drawn[f"hodograph{end}"] = hodograph_figure(result)
-        drawn[f"polar{end}"] = polar_figure(result)
-    return drawn if len(cases) == 1 else {"load_cases": cases_figure(cases), **drawn}
-
-
-def _captions(cases: dict[str, Forces]) -> dict[str, tuple[str, str]]:
-    """Title and caption of each figure; a title says which case, where there are several."""
-    from linkwright.kinetostatics.figures import forces_words
-
-    several = {} if len(cases) == 1 else {"load_cases": ("Load cases", "")}
-    return several | {
-        f"{figure}{end}": (f"{title}, {case}" if end else title, caption)
-        for (end, result), case in zip(_numbered(cases), cases, strict=True)
-        for figure, (title, caption) in forces_words(result).items()
-    }
+    if len(cases) > 1:
+        yield CaptionedFigure("load_cases", "Load cases", "", cases_figure(cases))
+    for (end, result), case in zip(_numbered(cases), cases, strict=True):
+        for one in captioned_forces(result) if len(result.crank_angle) > 1 else ():
+            title = f"{one.title}, {case}" if end else one.title
+            yield one._replace(name=f"{one.name}{end}", title=title)
 
 
 def _numbered(cases: dict[str, Forces]) -> list[tuple[str, Forces]]:
@@ -408,116 +323,85 @@ Links = Annotated[
     str | None,
     Option(
         "--links",
-        metavar="LINK,…",
-        help="Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
+        "LINK,…",
+        "Links with counterweights, such as A,R.rocker; they must rotate about fixed points.",
     ),
 ]
 Partial = Annotated[
     str | None,
     Option(
         "--slider",
-        metavar="SLIDER",
-        help="Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
+        "SLIDER",
+        "Instead of --links: a counterweight on the crank for a share of the mass of this slider.",
     ),
 ]
-Share = Annotated[
-    float, Option("--share", metavar="X", help="With --slider: share of the reciprocating mass.")
-]
+Share = Annotated[float, Option("--share", "X", "With --slider: share of the reciprocating mass.")]
 Radius = Annotated[
-    str | None,
-    Option(
+    float | None,
+    Value(
         "--radius",
-        metavar="LENGTH",
-        help="Distance of the counterweights from their pivots. Default: the length of the link.",
+        LENGTH,
+        "Distance of the counterweights from their pivots. Default: the length of the link.",
     ),
 ]
 Planes = Annotated[
     str | None,
     Option(
         "--planes",
-        metavar='"LENGTH, LENGTH"',
-        help="With --links: one or two places along the crankshaft, each with a counterweight on every link; "
+        '"LENGTH, LENGTH"',
+        "With --links: one or two places along the crankshaft, each with a counterweight on every link; "
         "two balance the shaking couple of bodies with axial as well.",
     ),
 ]
-OutFile = Annotated[Path | None, out_option("Write the machine with counterweights there.", "FILE")]
+ToFile = Annotated[Output, to_file("Write the machine with counterweights there.")]
 
 
 def balance(
     file: File,
-    set: Sets = None,
-    allow_outside: Outside = False,
     links: Links = None,
     slider: Partial = None,
     share: Share = 0.5,
     radius: Radius = None,
     planes: Planes = None,
     speed: Speed = None,
-    json: Json = False,
-    out: OutFile = None,
-    force: Force = False,
+    *,
+    to: ToFile,
 ) -> None:
     """Find counterweights.
 
     Those on given links that minimise the shaking force of inertia, or one on the crank against a
     share of a slider's mass; and what they change.
     """
-    from linkwright.kinetostatics.balancing import has_speed
-    from linkwright.machine.read import read
-
-    machine = read(file, set or (), allow_outside=allow_outside)
-    balanced = _counterweights(machine, links, slider, share, radius, planes, speed)
-    speeds = speeds_of(balanced.before.speed, machine, speed)
-    if speed is None and not has_speed(machine):
-        speeds["speed_source"] = "the file has no drive.speed: counterweights are the same at any speed"
-    hand_over(_balance_answer(machine, balanced, speeds), json=json, out=out, force=force)
-
-
-def _counterweights(
-    machine: Machine,
-    links: str | None,
-    slider: str | None,
-    share: float,
-    radius: str | None,
-    planes: str | None,
-    speed: str | None,
-) -> Balance:
-    """The counterweights that the options ask for."""
-    from linkwright.kernel.units.kinds import LENGTH, SPEED
     from linkwright.kinetostatics.balancing import balance as fit
-    from linkwright.kinetostatics.balancing import partial_balance
+    from linkwright.kinetostatics.balancing import has_speed, partial_balance
 
-    at = None if radius is None else option_value("--radius", radius, LENGTH)
-    omega = None if speed is None else option_value("--speed", speed, SPEED)
+    machine = file.read()
     if (links is None) == (slider is None):
         found = "neither" if links is None else "both"
         raise InputError(f"--links or --slider: found {found}, expected one of them")
-    if slider is not None and planes is not None:
-        raise InputError("--planes: it belongs to --links")
     if slider is not None:
-        return partial_balance(machine, slider, share=share, speed=omega, radius=at)
-    belong_to("--slider", "share")
-    names = [name.strip() for name in (links or "").split(",") if name.strip()]
-    at_planes = [option_value("--planes", text.strip(), LENGTH) for text in (planes or "0 m").split(",")]
-    return fit(machine, names, speed=omega, radius=at, planes=at_planes)
-
-
-def _balance_answer(machine: Machine, balanced: Balance, speeds: dict[str, Any]) -> Answer:
-    """The counterweights, and what they change."""
-    from linkwright.machine.write import dumps
-
+        if planes is not None:
+            raise InputError("--planes: it belongs to --links")
+        balanced = partial_balance(machine, slider, share=share, speed=speed, radius=radius)
+    else:
+        belong_to("--slider", "share")
+        names = [name.strip() for name in (links or "").split(",") if name.strip()]
+        at_planes = [option_value("--planes", text.strip(), LENGTH) for text in (planes or "0 m").split(",")]
+        balanced = fit(machine, names, speed=speed, radius=radius, planes=at_planes)
+    speeds = speeds_of(balanced.before.speed, machine, speed)
+    if speed is None and not has_speed(machine):
+        speeds["speed_source"] = "the file has no drive.speed: counterweights are the same at any speed"
     measures = {name: {"before": a, "after": b} for name, (a, b) in balanced.measures().items()}
-    weights = _by_place(balanced)
-    return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
-        results=lambda _: {"balance": {**speeds, "counterweights": weights, "rms": measures}},
+    answer = Answer(
+        machine=machine,
+        is_described=True,
+        results={"balance": {**speeds, "counterweights": _by_place(balanced), "rms": measures}},
         findings=balanced.after.findings,
-        head=lambda: speed_words(speeds),
-        tables=partial(_balance_rows, balanced),
-        machine_file=lambda: dumps(balanced.machine),
+        head=speed_words(speeds),
+        tables=later("kinetostatics.tables:balance_tables", balanced),
+        machine_file=later("machine.write:dumps", balanced.machine),
     )
+    to.hand_over(answer)
 
 
 def _by_place(balanced: Balance) -> dict[str, dict[str, Any]]:
@@ -529,10 +413,3 @@ def _by_place(balanced: Balance) -> dict[str, dict[str, Any]]:
         }
         for weight in balanced.counterweights
     }
-
-
-def _balance_rows(balanced: Balance) -> list[Table]:
-    """Tables for people."""
-    from linkwright.kinetostatics.tables import balance_tables
-
-    return balance_tables(balanced)

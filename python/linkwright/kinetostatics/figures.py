@@ -134,7 +134,7 @@ def _given(forces: Forces) -> str:
     return f"Peak driving torque at the crank: {most}."
 
 
-def forces_words(forces: Forces) -> dict[str, tuple[str, str]]:
+def _words(forces: Forces) -> dict[str, tuple[str, str]]:
     """Name of a figure of forces → its title and caption; none where no pair bears a force."""
     if not has_reactions(forces):
         return {}
@@ -163,5 +163,5 @@ _DRAWN = {"forces": forces_figure, "hodograph": hodograph_figure, "polar": polar
 
 def captioned_forces(forces: Forces) -> Iterator[CaptionedFigure]:
     """The figures of forces with their captions."""
-    for name, (title, caption) in forces_words(forces).items():
+    for name, (title, caption) in _words(forces).items():
         yield CaptionedFigure(name, title, caption, _DRAWN[name](forces))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from math import degrees, isfinite, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,11 +12,14 @@ import click
 
 from linkwright.drive.crank_speed import CrankSpeed, crank_speed
 from linkwright.kernel.command.answer import Answer, as_wanted, is_reported, is_taken, json_text
-from linkwright.kernel.command.common import Json, Outside, Sets, ZeroAt, option_value
-from linkwright.kernel.command.out import Force, Out, put
-from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.command.common import Output, ZeroAt, to_file
+from linkwright.kernel.command.out import put
+from linkwright.kernel.command.parameter import Option, Value
 from linkwright.kernel.errors import InputError, require_within
+from linkwright.kernel.later import later
 from linkwright.kernel.limits import ROWS_OUT
+from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED, TIME
+from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.kernel.page.angle_zero import Zero
@@ -26,50 +28,46 @@ if TYPE_CHECKING:
     from linkwright.linkages.pose import Pose
     from linkwright.machine.machine import Machine
 
-At = Annotated[str | None, Option("--at", metavar="ANGLE", help="One pose, at this crank angle.")]
+At = Annotated[float | None, Value("--at", ANGLE, "One pose, at this crank angle.")]
 Speed = Annotated[
-    str | None,
-    Option(
+    float | None,
+    Value(
         "--speed",
-        metavar="SPEED",
-        help='Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: '
+        SPEED,
+        'Speed of the crank, such as "90 rpm", for --at and for a revolution without --law. Default: '
         "the design speed of the file, or 1 rad/s.",
     ),
 ]
 Acceleration = Annotated[
-    str | None,
-    Option(
+    float | None,
+    Value(
         "--acceleration",
-        metavar="ACCELERATION",
-        help='With --at: acceleration of the crank, such as "20 rad/s^2". Default: none.',
+        ANGULAR_ACCELERATION,
+        'With --at: acceleration of the crank, such as "20 rad/s^2". Default: none.',
     ),
 ]
 LawText = Annotated[
     str | None,
     Option(
         "--law",
-        metavar="FORMULA|FILE",
-        help='Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
+        "FORMULA|FILE",
+        'Crank angle [rad] over time t [s]: a formula as "2*pi*t", or a CSV file of times and angles.',
     ),
 ]
 Duration = Annotated[
-    str | None,
-    Option(
-        "--duration", metavar="TIME", help="With --law as a formula: duration of the motion. Default: 1 s."
-    ),
+    float | None,
+    Value("--duration", TIME, "With --law as a formula: duration of the motion. Default: 1 s."),
 ]
 Steps = Annotated[
     int,
-    Option("--steps", metavar="N", help="Number of intervals of the revolution or of the duration.", min=1),
+    Option("--steps", "N", "Number of intervals of the revolution or of the duration.", min=1),
 ]
 Csv = Annotated[bool, Option("--csv", help="CSV with all columns, in SI.")]
-File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]
+To = Annotated[Output, to_file("Write there.")]
 
 
 def motion(
     file: File,
-    set: Sets = None,
-    allow_outside: Outside = False,
     at: At = None,
     speed: Speed = None,
     acceleration: Acceleration = None,
@@ -78,17 +76,14 @@ def motion(
     zero: ZeroAt = None,
     steps: Steps = 72,
     csv: Csv = False,
-    json: Json = False,
-    out: Out = None,
-    force: Force = False,
+    *,
+    to: To,
 ) -> None:
     """Positions, velocities and accelerations of points and links.
 
     One pose with --at, under a law of time with --law, else a revolution of the crank at constant speed.
     """
-    from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.linkages.zero import zero_angle
-    from linkwright.machine.read import read
+    from linkwright.linkages.zero import zero_of
 
     if steps < 1:
         raise InputError(f"--steps: found {steps}, expected 1 or more")
@@ -103,36 +98,32 @@ def motion(
         raise InputError("--zero and --law: a law counts angles as the file does; expected one of them")
     if duration is not None and (law is None or _is_table(law)):
         raise InputError("--duration: it belongs to a --law that is a formula")
-    machine = read(file, set or [], allow_outside=allow_outside)
-    counted = zero_angle(machine, zero) if zero is not None else Zero()
+    machine = file.read()
+    counted = zero_of(machine, zero)
     with as_wanted(machine.units):
         if law is not None:
-            text = _under_law(machine, law, duration or "1 s", steps, json=json, csv=csv)
+            lasting = 1.0 if duration is None else duration
+            text = _under_law(machine, law, lasting, steps, json=to.json, csv=csv)
         elif at is not None:
-            rates = crank_speed(machine, speed), acceleration or "0"
-            text = _pose(machine, at, *rates, counted, json=json, csv=csv)
+            rates = crank_speed(machine, speed), acceleration or 0.0
+            text = _pose(machine, at + counted.angle, *rates, counted, json=to.json, csv=csv)
         else:
-            text = _turn(machine, crank_speed(machine, speed), counted, steps, json=json, csv=csv)
-    put(text, out, force=force)
+            text = _turn(machine, crank_speed(machine, speed), counted, steps, json=to.json, csv=csv)
+    put(text, to.out, force=to.force)
 
 
 def _pose(
-    machine: Machine, at: str, speed: CrankSpeed, acceleration: str, zero: Zero, *, json: bool, csv: bool
+    machine: Machine, phi: float, speed: CrankSpeed, acceleration: float, zero: Zero, *, json: bool, csv: bool
 ) -> str:
     """One pose as a table, CSV or JSON."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
-    from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION
     from linkwright.linkages.pose import pose
 
-    epsilon = option_value("--acceleration", acceleration, ANGULAR_ACCELERATION)
-    phi = option_value("--at", at, ANGLE) + zero.angle
-    placed = pose(machine, phi, speed=speed.value, acceleration=epsilon)
+    placed = pose(machine, phi, speed=speed.value, acceleration=acceleration)
     if json:
         results = placed.to_dict() | {"speed_source": speed.source} | _zero_data(zero)
-        return json_text(
-            Answer(machine=machine.name, results=lambda _: {"pose": results}, warnings=_warnings(machine))
-        )
+        return json_text(Answer(machine=machine, results={"pose": results}, warnings=_warnings(machine)))
     phi = placed.crank_angle - zero.angle
     rows = [("crank angle", "φ [rad]", (phi, placed.speed, placed.acceleration)), *_pose_rows(placed)]
     rows = [_row_shown(row, "" if csv else "deg") for row in rows]
@@ -185,12 +176,11 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
     cells = [(name, what, *(number(x) for x in numbers)) for name, what, numbers in rows]
     table = Table("pose", "Pose", heads, [(*row, *[""] * (len(heads) - len(row))) for row in cells])
     return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
+        machine=machine,
+        is_described=True,
         warnings=_warnings(machine),
-        head=lambda: head,
-        tables=lambda: [table],
+        head=head,
+        tables=table,
     )
 
 
@@ -241,7 +231,6 @@ def _zero_data(zero: Zero) -> dict[str, Any]:
 
 def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
     """A revolution at a constant speed."""
-    from linkwright.kernel.units.kinds import TIME
     from linkwright.linkages.closure import driver_word
     from linkwright.linkages.law import constant_speed
 
@@ -259,14 +248,13 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
     return _followed(machine, law, times, steps, head, results, zero, json=json, csv=csv)
 
 
-def _under_law(machine: Machine, law: str, duration: str, steps: int, *, json: bool, csv: bool) -> str:
+def _under_law(machine: Machine, law: str, end: float, steps: int, *, json: bool, csv: bool) -> str:
     """The motion under a law of the crank."""
     import numpy as np
 
     from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kernel.units.kinds import ANGLE, TIME
 
-    driver, start, end = _law(law), 0.0, option_value("--duration", duration, TIME)
+    driver, start = _law(law), 0.0
     if hasattr(driver, "times"):
         start, end = driver.times[[0, -1]]
     if not end > start:
@@ -300,33 +288,24 @@ def _followed(
     followed = follow(machine, law, np.linspace(*span, steps + 1))
     if json:
         moved = results | followed.to_dict(curves=True) | _lists(followed.curves())
-        return json_text(
-            Answer(machine=machine.name, results=lambda _: {"motion": moved}, warnings=_warnings(machine))
-        )
+        return json_text(Answer(machine=machine, results={"motion": moved}, warnings=_warnings(machine)))
     if zero.angle:
         followed = replace(followed, crank_angle=followed.crank_angle - zero.angle)
     if csv:
         click.echo("\n".join([head, *_worded(machine, zero)]), err=True)
         return curves_csv(followed)
     if is_reported():
-        is_taken(_course_answer(machine, followed, head))
+        answer = Answer(
+            machine=machine,
+            is_described=True,
+            warnings=_warnings(machine),
+            head=head[:1].upper() + head[1:],
+            tables=later("linkages.figures_of_motion:course_tables", followed),
+            figures=later("linkages.figures_of_motion:course_figures", followed),
+        )
+        is_taken(answer)
         return ""
     return "\n".join([head, _table(followed).rstrip("\n"), *_worded(machine, zero)]) + "\n"
-
-
-def _course_answer(machine: Machine, followed: Motion, head: str) -> Answer:
-    """A motion as a report shows it."""
-    from linkwright.linkages.figures_of_motion import course_figures, course_tables
-
-    return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
-        warnings=_warnings(machine),
-        head=lambda: head[:1].upper() + head[1:],
-        tables=partial(course_tables, followed),
-        figures=partial(course_figures, followed),
-    )
 
 
 def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:

@@ -6,6 +6,8 @@ swings; the inner one is the other. The top is the extreme position that is high
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from linkwright.kernel.errors import InputError, cut
@@ -60,6 +62,19 @@ def zero_angle(machine: Machine, where: str) -> Zero:
     turns = cycle.closure.turns if cycle.closure.turns_fully else None
     words = f"{said} dead centre of {output.output}"
     return Zero(in_cycle(cycle.closure, angle), words, 2 * np.pi * (turns or 0))
+
+
+def zero_of(machine: Machine, where: str | None) -> Zero:
+    """The zero that an option names; that of the file without one."""
+    return Zero() if where is None else zero_angle(machine, where)
+
+
+def zero_over(machine: Machine, where: str | None, *motions: Any) -> Zero:
+    """The same over the whole revolutions of the longest of motions, of which some may be None."""
+    zero = zero_of(machine, where)
+    spans = [motion.crank_angle[-1] - motion.crank_angle[0] for motion in motions if motion is not None]
+    turns = round(float(max(spans, default=0.0)) / (2 * np.pi))
+    return zero._replace(cycle=2 * np.pi * turns) if zero.cycle and spans else zero
 
 
 def _require_dead_centre(closed: Closure, angle: float, what: str) -> None:

@@ -5,6 +5,7 @@
 | `analysis` | What an analysis is, and the results of a study |
 | `tangents` | Exact derivatives of what follows from the entries by plain arithmetic |
 | `address` | Entries by address |
+| `file_argument` | The machine file of a command |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
 | `iso286` | Limit deviations of sizes by classes such as H7 |
 | `overrides` | Overrides |

@@ -14,11 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from operator import attrgetter
 from typing import Any
 
 from linkwright.kernel.findings import Findings
+from linkwright.kernel.later import at_place
 from linkwright.kernel.page.table import few
 from linkwright.kernel.public.immutable import freeze, refuse
 from linkwright.kernel.result import Result
@@ -44,8 +44,7 @@ class Of:
     @property
     def function(self) -> Callable[..., Any]:
         """The function, imported now."""
-        module, _, name = self.place.partition(":")
-        function: Callable[..., Any] = getattr(import_module(f"linkwright.{module}"), name)
+        function: Callable[..., Any] = at_place(self.place)
         return function
 
     def __call__(self, *args: Any, **options: Any) -> Any:

@@ -3,36 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_to, option_value
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Output, belong_to, to_file, to_screen
 from linkwright.kernel.command.console import bar
-from linkwright.kernel.command.out import Force, out_option
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Group, Option, Value
+from linkwright.kernel.command.value import option_value
+from linkwright.kernel.later import later
+from linkwright.kernel.units.kinds import ANGLE, INERTIA, LENGTH, POWER, PRESSURE, TIME, TORQUE
+from linkwright.kernel.units.marks import not_negative
+from linkwright.machine.file_argument import File
 from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
-    from linkwright.kernel.units.kinds import Kind
     from linkwright.machine.machine import Machine
     from linkwright.sizing.checks import Check
     from linkwright.sizing.flywheel import FlywheelChoice
     from linkwright.sizing.motor import Candidate, MotorChoice
     from linkwright.studies.plan import StudyPlan
 
-Reserve = Annotated[
-    float, Option("--power-reserve", metavar="X", help="Minimum ratio of rated to required power.")
-]
+Reserve = Annotated[float, Option("--power-reserve", "X", "Minimum ratio of rated to required power.")]
 Unevenness = Annotated[
     float,
-    Option(
-        "--unevenness", metavar="X", help="Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean."
-    ),
+    Option("--unevenness", "X", "Required coefficient of speed fluctuation, (ω_max − ω_min)/ω_mean."),
 ]
 By = Annotated[
     Literal["all", "fixed-start", "power"],
@@ -48,18 +47,14 @@ Together = Annotated[
 ]
 Inertia = Annotated[
     list[str] | None,
-    Option(
-        "--inertia",
-        metavar="TYPE=VALUE",
-        help='Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.',
-    ),
+    Option("--inertia", "TYPE=VALUE", 'Inertia of a rotor, such as 4A132S6U3="0.04 kg m^2". Repeatable.'),
 ]
 Catalogue = Annotated[
     Path | None,
     Option(
         "--catalogue",
-        metavar="FILE",
-        help="Choose from the motors of a CSV file (induction, DC or servo) instead of the catalogue.",
+        "FILE",
+        "Choose from the motors of a CSV file (induction, DC or servo) instead of the catalogue.",
     ),
 ]
 KeepMotor = Annotated[
@@ -71,54 +66,33 @@ MinimumCost = Annotated[
 ]
 PerKilowatt = Annotated[
     float | None,
-    Option(
-        "--per-kilowatt", metavar="X", help="Price per kilowatt of motor, with --minimum-cost. Default: 150."
-    ),
+    Option("--per-kilowatt", "X", "Price per kilowatt of motor, with --minimum-cost. Default: 150."),
 ]
 PerKilogram = Annotated[
     float | None,
-    Option(
-        "--per-kilogram",
-        metavar="X",
-        help="Price per kilogram of flywheel, with --minimum-cost. Default: 1.5.",
-    ),
+    Option("--per-kilogram", "X", "Price per kilogram of flywheel, with --minimum-cost. Default: 1.5."),
 ]
 FlywheelRadius = Annotated[
-    str | None,
-    Option(
-        "--flywheel-radius",
-        metavar="LENGTH",
-        help="Radius of the flywheel disc, with --minimum-cost. Default: 0.6 m.",
-    ),
+    float | None,
+    Value("--flywheel-radius", LENGTH, "Radius of the flywheel disc, with --minimum-cost. Default: 0.6 m."),
 ]
 RunUpTime = Annotated[
-    str | None,
-    Option("--run-up-time", metavar="TIME", help="Permitted time of the run-up, with --minimum-cost."),
+    float | None, Value("--run-up-time", TIME, "Permitted time of the run-up, with --minimum-cost.")
 ]
 PressureAngle = Annotated[
-    str | None,
-    Option("--pressure-angle", metavar="ANGLE", help="Size the smallest cam within this pressure angle."),
+    float | None, Value("--pressure-angle", ANGLE, "Size the smallest cam within this pressure angle.")
 ]
 ContactStress = Annotated[
-    str | None,
-    Option("--contact-stress", metavar="PRESSURE", help="Permitted contact pressure of that cam."),
+    float | None, Value("--contact-stress", PRESSURE, "Permitted contact pressure of that cam.")
 ]
 ShaftName = Annotated[
     str | None,
-    Option(
-        "--shaft", metavar="SHAFT", help="Size the smallest damper that keeps this shaft within its limit."
-    ),
+    Option("--shaft", "SHAFT", "Size the smallest damper that keeps this shaft within its limit."),
 ]
-Stress = Annotated[
-    str | None, Option("--stress", metavar="PRESSURE", help="Permitted vibratory stress of that shaft.")
-]
-TorqueLimit = Annotated[
-    str | None, Option("--torque", metavar="TORQUE", help="Permitted vibratory torque of that shaft.")
-]
-Part = Annotated[
-    str | None, Option("--part", metavar="NAME", help="Name of the cam or damper, if there are several.")
-]
-OutFile = Annotated[Path | None, out_option("Write the machine with motor and flywheel there.", "FILE")]
+Stress = Annotated[float | None, Value("--stress", PRESSURE, "Permitted vibratory stress of that shaft.")]
+TorqueLimit = Annotated[float | None, Value("--torque", TORQUE, "Permitted vibratory torque of that shaft.")]
+Part = Annotated[str | None, Option("--part", "NAME", "Name of the cam or damper, if there are several.")]
+To = Annotated[Output, to_file("Write the machine with motor and flywheel there.")]
 
 # Places from which derivatives lead to the minimum cost.
 _STARTS = 3
@@ -130,10 +104,31 @@ _OF_A_MOTOR = ("reserve", "by", "free_ratio", "together", "inertia", "catalogue"
 _BEYOND = 2
 
 
+@dataclass(frozen=True)
+class MinimumCostOptions:
+    """What a minimum cost is made of; None where the study has its own."""
+
+    minimum_cost: MinimumCost = False
+    per_kilowatt: PerKilowatt = None
+    per_kilogram: PerKilogram = None
+    flywheel_radius: FlywheelRadius = None
+    run_up_time: RunUpTime = None
+
+
+@dataclass(frozen=True)
+class LimitOptions:
+    """Limits of a cam or of a shaft; None where there is none."""
+
+    pressure_angle: PressureAngle = None
+    contact_stress: ContactStress = None
+    shaft: ShaftName = None
+    stress: Stress = None
+    torque: TorqueLimit = None
+    part: Part = None
+
+
 def size(
     file: File,
-    set: Sets = None,
-    allow_outside: Outside = False,
     reserve: Reserve = 1.1,
     unevenness: Unevenness = 0.05,
     by: By = "all",
@@ -142,21 +137,11 @@ def size(
     inertia: Inertia = None,
     catalogue: Catalogue = None,
     keep_motor: KeepMotor = False,
-    minimum_cost: MinimumCost = False,
-    per_kilowatt: PerKilowatt = None,
-    per_kilogram: PerKilogram = None,
-    flywheel_radius: FlywheelRadius = None,
-    run_up_time: RunUpTime = None,
-    pressure_angle: PressureAngle = None,
-    contact_stress: ContactStress = None,
-    shaft: ShaftName = None,
-    stress: Stress = None,
-    torque: TorqueLimit = None,
-    part: Part = None,
+    *,
+    costs: Annotated[MinimumCostOptions, Group(MinimumCostOptions)],
+    limits: Annotated[LimitOptions, Group(LimitOptions)],
     study: ToStudy = None,
-    json: Json = False,
-    out: OutFile = None,
-    force: Force = False,
+    to: To,
 ) -> None:
     """Choose motor and flywheel; with --minimum-cost, a cam's or a shaft's limits, size by a study.
 
@@ -165,27 +150,22 @@ def size(
     --pressure-angle: the smallest cam; --shaft: the smallest damper. Exit code 1 if nothing suffices.
     """
     from linkwright.drive.model.motor_file import read_motors
-    from linkwright.machine.read import read
     from linkwright.sizing.flywheel import choose_flywheel
     from linkwright.sizing.motor import choose_motor
 
-    machine = read(file, set or (), allow_outside=allow_outside)
-    prices = _Prices(per_kilowatt, per_kilogram, flywheel_radius)
-    limits = _Limits(run_up_time, pressure_angle, contact_stress, shaft, stress, torque)
-    _require_together(limits, prices, minimum_cost, part)
-    if (plan := _study(machine, limits, prices if minimum_cost else None, unevenness, part)) is not None:
-        from linkwright.studies.commands.optimise import hand_over_optimum
+    machine = file.read()
+    if (plan := _study(machine, costs, limits, unevenness)) is not None:
+        from linkwright.studies.commands.optimise import optimum_answer
 
         if study is not None:
-            hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json, out=out)
+            hand_over_study(plan, study, file, machine, to)
         how = {"method": "gradient", "starts": _STARTS}
-        hand_over_optimum(plan, how, json=json, out=out, force=force, untried=_untried(plan))
+        to.hand_over(optimum_answer(plan, how, _untried(plan)))
         return
     belong_to("--minimum-cost, --pressure-angle or --shaft", "study")
     if keep_motor:
         belong_to("a choice of motor, without --keep-motor", *_OF_A_MOTOR)
-        alone = choose_flywheel(machine, unevenness)
-        hand_over(_answer_of_flywheel(alone), json=json, out=out, force=force)
+        to.hand_over(_answer_of_flywheel(choose_flywheel(machine, unevenness)))
         return
     motor = choose_motor(
         machine,
@@ -202,7 +182,7 @@ def size(
     if motor.chosen and motor.chosen.machine:
         kept = motor.chosen.flywheel_kept
         flywheel = choose_flywheel(motor.chosen.machine, unevenness, keep=kept)
-    hand_over(_answer(machine, motor, flywheel), json=json, out=out, force=force)
+    to.hand_over(_answer(machine, motor, flywheel))
 
 
 def _untried(plan: StudyPlan) -> str:
@@ -217,100 +197,62 @@ def _untried(plan: StudyPlan) -> str:
     )
 
 
-class _Prices(NamedTuple):
-    """What a minimum cost is made of, as it was given; None where the study has its own."""
-
-    per_kilowatt: float | None
-    per_kilogram: float | None
-    flywheel_radius: str | None
-
-    def given(self) -> dict[str, float]:
-        """Arguments of the study, in SI."""
-        from linkwright.kernel.units.kinds import LENGTH
-
-        named = {"per_kilowatt": self.per_kilowatt, "per_kilogram": self.per_kilogram}
-        if self.flywheel_radius is not None:
-            named["flywheel_radius"] = option_value("--flywheel-radius", self.flywheel_radius, LENGTH)
-        return {name: value for name, value in named.items() if value is not None}
-
-
-class _Limits(NamedTuple):
-    """Limits as they were given; None where there is none."""
-
-    run_up_time: str | None
-    pressure_angle: str | None
-    contact_stress: str | None
-    shaft: str | None
-    stress: str | None
-    torque: str | None
+# Options of a study by the options that ask for it.
+_OWNERS = {
+    "per_kilowatt": ("--minimum-cost",),
+    "per_kilogram": ("--minimum-cost",),
+    "flywheel_radius": ("--minimum-cost",),
+    "run_up_time": ("--minimum-cost",),
+    "contact_stress": ("--pressure-angle",),
+    "stress": ("--shaft",),
+    "torque": ("--shaft",),
+    "part": ("--pressure-angle", "--shaft"),
+}
 
 
 def _study(
-    machine: Machine, limits: _Limits, prices: _Prices | None, unevenness: float, part: str | None
+    machine: Machine, costs: MinimumCostOptions, limits: LimitOptions, unevenness: float
 ) -> StudyPlan | None:
-    """The study that sizes for a cost or within limits; None where motor and flywheel are chosen."""
-    from linkwright.kernel.units.kinds import ANGLE, PRESSURE, TIME, TORQUE
+    """The study that sizes for a cost or within limits; None where motor and flywheel are chosen.
+
+    Refuses two questions at once, and limits of a question that is not asked.
+    """
+    from linkwright.kernel.errors import InputError
     from linkwright.studies.sizes import cam_study, damper_study, drive_study
 
-    def read(name: str, kind: Kind) -> float | None:
-        given = getattr(limits, name)
-        return None if given is None else option_value(f"--{name.replace('_', '-')}", given, kind)
-
-    if asked := _asked(limits, prices is not None):
-        names = (*_OF_A_MOTOR, "keep_motor")
-        belong_to(f"a choice of motor and flywheel, without {asked[0]}", *names)
-        if prices is None:
-            belong_to("a flywheel", "unevenness")
-    if prices is not None:
-        time = read("run_up_time", TIME)
-        return drive_study(machine, unevenness=unevenness, run_up_time=time, **prices.given())
-    angle = read("pressure_angle", ANGLE)
-    if angle is not None:
-        stress = read("contact_stress", PRESSURE)
-        return cam_study(machine, part, pressure_angle=angle, contact_stress=stress)
-    if limits.shaft is not None:
-        stress, torque = read("stress", PRESSURE), read("torque", TORQUE)
-        return damper_study(machine, part, shaft=limits.shaft, stress=stress, torque=torque)
-    return None
-
-
-def _asked(limits: _Limits, minimum_cost: bool) -> list[str]:
-    """The options that ask for a study."""
-    given = {
-        "--minimum-cost": minimum_cost,
+    questions = {
+        "--minimum-cost": costs.minimum_cost,
         "--pressure-angle": limits.pressure_angle is not None,
         "--shaft": limits.shaft is not None,
     }
-    return [name for name, value in given.items() if value]
-
-
-def _require_together(limits: _Limits, prices: _Prices, minimum_cost: bool, part: str | None) -> None:
-    """Refuse two questions at once, and limits of a question that is not asked."""
-    from linkwright.kernel.errors import InputError
-
-    asked = _asked(limits, minimum_cost)
+    asked = [name for name, is_asked in questions.items() if is_asked]
     if len(asked) > 1:
         raise InputError(f"{asked[1]}: found it beside {asked[0]}, expected one of them")
-    belong: dict[str, tuple[object, tuple[str, ...]]] = {
-        **{
-            f"--{name.replace('_', '-')}": (value, ("--minimum-cost",))
-            for name, value in prices._asdict().items()
-        },
-        "--run-up-time": (limits.run_up_time, ("--minimum-cost",)),
-        "--contact-stress": (limits.contact_stress, ("--pressure-angle",)),
-        "--stress": (limits.stress, ("--shaft",)),
-        "--torque": (limits.torque, ("--shaft",)),
-        "--part": (part, ("--pressure-angle", "--shaft")),
-    }
-    for name, (value, questions) in belong.items():
-        if value is not None and not set(asked) & set(questions):
-            raise InputError(f"{name}: found it alone, expected it beside {' or '.join(questions)}")
+    given = {name: value for name, value in (vars(costs) | vars(limits)).items() if value is not None}
+    for name, owners in _OWNERS.items():
+        if name in given and not set(asked) & set(owners):
+            option = f"--{name.replace('_', '-')}"
+            raise InputError(f"{option}: found it alone, expected it beside {' or '.join(owners)}")
+    if not asked:
+        return None
+    belong_to(f"a choice of motor and flywheel, without {asked[0]}", *_OF_A_MOTOR, "keep_motor")
+    if costs.minimum_cost:
+        prices = {
+            name: given[name] for name in ("per_kilowatt", "per_kilogram", "flywheel_radius") if name in given
+        }
+        return drive_study(machine, unevenness=unevenness, run_up_time=costs.run_up_time, **prices)
+    belong_to("a flywheel", "unevenness")
+    part = limits.part
+    if limits.pressure_angle is not None:
+        angle, stress = limits.pressure_angle, limits.contact_stress
+        return cam_study(machine, part, pressure_angle=angle, contact_stress=stress)
+    assert limits.shaft is not None
+    return damper_study(machine, part, shaft=limits.shaft, stress=limits.stress, torque=limits.torque)
 
 
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
     """Type → inertia, of ``TYPE=VALUE``."""
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.units.kinds import INERTIA
 
     inertias = {}
     for text in texts:
@@ -354,11 +296,10 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
     fitted, chosen = None if flywheel is None else flywheel.machine, motor.chosen
     moved = chosen.machine if fitted is None and chosen else fitted
     return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
+        machine=machine,
+        is_described=True,
         names=[candidate.type for candidate in motor.candidates],
-        results=lambda _: results,
+        results=results,
         findings=[*([] if chosen else [motor.reason]), *lost(moved)],
         warnings=[*motor.warnings, *(flywheel.warnings if flywheel else ()), *unjudged(machine)],
         head=partial(_lead, machine.name, motor, flywheel),
@@ -369,20 +310,18 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
     """The flywheel for the motor of the file."""
-    from linkwright.machine.write import dumps
     from linkwright.sizing.warnings import lost, unjudged
 
     machine = flywheel.machine
     return Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
-        results=lambda _: {"flywheel": flywheel.to_dict()},
+        machine=machine,
+        is_described=True,
+        results={"flywheel": flywheel},
         findings=lost(machine),
         warnings=[*flywheel.warnings, *unjudged(machine)],
         head=lambda: "\n".join(_flywheel_words(flywheel)),
         tables=partial(_table_of_flywheel, flywheel),
-        machine_file=partial(dumps, machine),
+        machine_file=later("machine.write:dumps", machine),
     )
 
 
@@ -537,14 +476,18 @@ def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     ]
 
 
-Poles = Annotated[int | None, Option("--poles", metavar="N", help="Only motors with this number of poles.")]
-PowerMin = Annotated[
-    str, Option("--power-min", metavar="POWER", help='Minimum rated power, such as "5.5 kW".')
-]
-Series = Annotated[str, Option("--series", metavar="NAME", help="Only motors of this series.")]
+Poles = Annotated[int | None, Option("--poles", "N", "Only motors with this number of poles.")]
+PowerMin = Annotated[str, Option("--power-min", "POWER", 'Minimum rated power, such as "5.5 kW".')]
+Series = Annotated[str, Option("--series", "NAME", "Only motors of this series.")]
 
 
-def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = "", json: Json = False) -> None:
+def motors(
+    poles: Poles = None,
+    power_min: PowerMin = "0 W",
+    series: Series = "",
+    *,
+    to: Annotated[Output, to_screen()],
+) -> None:
     """List the motors of the catalogue.
 
     An inertia with ~ is estimated by similarity, since its source prints none; a breakdown torque with ≥ is
@@ -552,15 +495,13 @@ def motors(poles: Poles = None, power_min: PowerMin = "0 W", series: Series = ""
     that the source does not give. A machine file takes one by drive.motor.catalogue.
     """
     chosen = _chosen(poles, power_min, series)
-    hand_over(
-        Answer(
-            machine=None,
-            names=[known.type for known in chosen],
-            results=lambda curves: {"motors": [_entries(known) for known in chosen]},
-            tables=partial(_tables, chosen),
-        ),
-        json=json,
+    answer = Answer(
+        machine=None,
+        names=[known.type for known in chosen],
+        results=lambda curves: {"motors": [_entries(known) for known in chosen]},
+        tables=partial(_tables, chosen),
     )
+    to.hand_over(answer)
 
 
 def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMotor]:
@@ -568,8 +509,6 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
     from linkwright.drive.model.catalogue import motors
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.units.kinds import POWER
-    from linkwright.kernel.units.marks import not_negative
 
     power, known = option_value("--power-min", power_min, not_negative(POWER)), motors()
     names = list(dict.fromkeys(motor.series for motor in known))

@@ -19,9 +19,7 @@ File = Annotated[
 NoBrowser = Annotated[bool, Option("--no-browser", help="Print only the address.")]
 Port = Annotated[
     int,
-    Option(
-        "--port", metavar="N", help="Port on this computer; 0 for that of the folder, or a free one.", min=0
-    ),
+    Option("--port", "N", "Port on this computer; 0 for that of the folder, or a free one.", min=0),
 ]
 
 

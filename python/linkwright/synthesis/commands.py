@@ -2,56 +2,75 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Curves, Json, Outside, Sets, belong_to, option_value
+from linkwright.kernel.command.common import Curves, Output, Outside, Sets, belong_to, to_file
 from linkwright.kernel.command.console import bar
-from linkwright.kernel.command.out import Force, out_option
-from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.command.parameter import Argument, Group, Option, Value
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.later import later
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
 from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
-    from linkwright.kernel.result import Result
-    from linkwright.machine.machine import Machine
+    from pydantic import BaseModel
 
-OutFile = Annotated[Path | None, out_option("Write the machine there.", "FILE")]
-TaskFile = Annotated[Path | None, Argument("TASK", "Task file of the linkage.")]
-TaskOption = Annotated[Path | None, Option("--task", metavar="FILE", help="Task file, instead of TASK.")]
-Swing = Annotated[
-    str | None, Option("--swing", metavar="ANGLE", help="Swing of the rocker, for a crank-rocker.")
-]
-Stroke = Annotated[
-    str | None, Option("--stroke", metavar="LENGTH", help="Stroke of the slider, for a slider-crank.")
-]
+    from linkwright.kernel.result import Result
+
+T = TypeVar("T", bound="BaseModel")
+
+
+@dataclass(frozen=True)
+class TaskFile:
+    """The file of a task, by its place or by the option, and the entries that override its own."""
+
+    task: Annotated[Path | None, Argument("TASK", "Task file of the linkage.")] = None
+    task_file: Annotated[Path | None, Option("--task", "FILE", "Task file, instead of TASK.")] = None
+    set: Sets = None
+    allow_outside: Outside = False
+
+    @property
+    def file(self) -> Path:
+        """The file; an `InputError` if it is given twice, or not at all."""
+        given = [place for place in (self.task, self.task_file) if place is not None]
+        if len(given) != 1:
+            found = "both" if given else "neither"
+            raise InputError(
+                f"TASK or --task: found {found}, expected the file of the task, such as task.toml"
+            )
+        return given[0]
+
+    def read(self, kind: type[T]) -> T:
+        """The task of a kind."""
+        from linkwright.machine.read import read_as
+
+        return read_as(kind, self.file, self.set or (), allow_outside=self.allow_outside)
+
+
+Task = Annotated[TaskFile, Group(TaskFile)]
+To = Annotated[Output, to_file("Write the machine there.", curves=Curves)]
+ToFile = Annotated[Output, to_file("Write the machine there.")]
+Swing = Annotated[float | None, Value("--swing", ANGLE, "Swing of the rocker, for a crank-rocker.")]
+Stroke = Annotated[float | None, Value("--stroke", LENGTH, "Stroke of the slider, for a slider-crank.")]
 TimeRatio = Annotated[
     float,
     Option(
-        "--time-ratio",
-        metavar="X",
-        help="Crank angle from outer to inner dead centre over the rest of the revolution.",
+        "--time-ratio", "X", "Crank angle from outer to inner dead centre over the rest of the revolution."
     ),
 ]
-Frame = Annotated[
-    str, Option("--frame", metavar="LENGTH", help="Distance between the pivots of a crank-rocker.")
-]
+Frame = Annotated[float, Value("--frame", LENGTH, "Distance between the pivots of a crank-rocker.", "1 m")]
 CouplerMax = Annotated[
-    float, Option("--coupler-max", metavar="X", help="Maximum ratio of coupler to rocker of a crank-rocker.")
+    float, Option("--coupler-max", "X", "Maximum ratio of coupler to rocker of a crank-rocker.")
 ]
-Rod = Annotated[
-    str | None, Option("--rod", metavar="LENGTH", help="Rod of a slider-crank. Default: the best one.")
-]
-Kind = Annotated[str | None, Option("--kind", metavar="KIND", help="Kind of linkage; --list lists them.")]
-Length = Annotated[str, Option("--length", metavar="LENGTH", help="Length of the straight line.")]
+Rod = Annotated[float | None, Value("--rod", LENGTH, "Rod of a slider-crank. Default: the best one.")]
+Kind = Annotated[str | None, Option("--kind", "KIND", "Kind of linkage; --list lists them.")]
+Length = Annotated[float, Value("--length", LENGTH, "Length of the straight line.", "1 m")]
 Proportions = Annotated[
     list[str] | None,
-    Option(
-        "--proportion",
-        metavar="NAME=X",
-        help="Proportion other than the default; only ratios matter. Repeatable.",
-    ),
+    Option("--proportion", "NAME=X", "Proportion other than the default; only ratios matter. Repeatable."),
 ]
 List = Annotated[bool, Option("--list", help="List the catalogue for this length of the line.")]
 
@@ -60,15 +79,13 @@ def dead_centre(
     swing: Swing = None,
     stroke: Stroke = None,
     time_ratio: TimeRatio = 1.0,
-    frame: Frame = "1 m",
+    *,
+    frame: Frame,
     coupler_max: CouplerMax = 3.0,
     rod: Rod = None,
-    json: Json = False,
-    out: OutFile = None,
-    force: Force = False,
+    to: ToFile,
 ) -> None:
     """Crank-rocker for a swing, or slider-crank for a stroke, and a time ratio; best transmission angle."""
-    from linkwright.kernel.units.kinds import ANGLE, LENGTH
     from linkwright.synthesis.dead_centre import crank_rocker
     from linkwright.synthesis.stroke import slider_crank
 
@@ -76,132 +93,71 @@ def dead_centre(
         raise InputError("expected --swing ANGLE for a crank-rocker, or --stroke LENGTH for a slider-crank")
     if swing is not None:
         belong_to("--stroke", "rod")
-        size = option_value("--frame", frame, LENGTH)
-        angle = option_value("--swing", swing, ANGLE)
-        _finish(
-            "crank_rocker",
-            crank_rocker(angle, time_ratio, frame=size, coupler_max=coupler_max),
-            json,
-            out,
-            force,
-        )
+        rocker = crank_rocker(swing, time_ratio, frame=frame, coupler_max=coupler_max)
+        _hand_over("crank_rocker", rocker, to)
         return
     assert stroke is not None
     belong_to("--swing", "frame", "coupler_max")
-    length = None if rod is None else option_value("--rod", rod, LENGTH)
-    way = option_value("--stroke", stroke, LENGTH)
-    _finish("slider_crank", slider_crank(way, time_ratio, rod=length), json, out, force)
+    _hand_over("slider_crank", slider_crank(stroke, time_ratio, rod=rod), to)
 
 
-def function(
-    task: TaskFile = None,
-    task_file: TaskOption = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
-    json: Json = False,
-    curves: Curves = False,
-    out: OutFile = None,
-    force: Force = False,
-) -> None:
+def function(task: Task, *, to: To) -> None:
     """Four-bar whose rocker follows a function of the crank angle, by Freudenstein's equation."""
-    from linkwright.machine.read import read_as
     from linkwright.synthesis.function_generator import function_generator
     from linkwright.synthesis.task import FunctionTask
 
-    generator = function_generator(
-        read_as(FunctionTask, _task(task, task_file), set or (), allow_outside=allow_outside)
-    )
-    _finish("function_generator", generator, json, out, force, curves=curves)
+    _hand_over("function_generator", function_generator(task.read(FunctionTask)), to)
 
 
-def path(
-    task: TaskFile = None,
-    task_file: TaskOption = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
-    study: ToStudy = None,
-    json: Json = False,
-    curves: Curves = False,
-    out: OutFile = None,
-    force: Force = False,
-) -> None:
+def path(task: Task, study: ToStudy = None, *, to: To) -> None:
     """Four-bar whose coupler point passes given points, by global search."""
-    from linkwright.machine.read import read_as
     from linkwright.synthesis.path import path_generator
     from linkwright.synthesis.task import PathTask
 
-    file = _task(task, task_file)
-    read = read_as(PathTask, file, set or (), allow_outside=allow_outside)
+    read = task.read(PathTask)
     with bar("refinement") as watch:
         generator = path_generator(read, track=lambda done, total: watch(done / total))
     if study is not None:
         from linkwright.studies.paths import path_study
 
-        plan = path_study(read, generator)
-        hand_over_study(plan, study, file, None, force=force, quiet=json, out=out)
-    _finish("path_generator", generator, json, out, force, curves=curves)
+        hand_over_study(path_study(read, generator), study, task.file, None, to)
+    _hand_over("path_generator", generator, to)
 
 
-def motion(
-    task: TaskFile = None,
-    task_file: TaskOption = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
-    json: Json = False,
-    curves: Curves = False,
-    out: OutFile = None,
-    force: Force = False,
-) -> None:
+def motion(task: Task, *, to: To) -> None:
     """Four-bar or slider-crank whose coupler passes two or three poses."""
-    from linkwright.machine.read import read_as
     from linkwright.synthesis.pose import pose_guide
     from linkwright.synthesis.task import PoseTask
 
-    guide = pose_guide(read_as(PoseTask, _task(task, task_file), set or (), allow_outside=allow_outside))
-    _finish("pose_guide", guide, json, out, force, curves=curves)
-
-
-def _task(task: Path | None, option: Path | None) -> Path:
-    """The file of the task, by its place or by the option."""
-    if (task is None) == (option is None):
-        found = "neither" if task is None else "both"
-        raise InputError(f"TASK or --task: found {found}, expected the file of the task, such as task.toml")
-    chosen = task or option
-    assert chosen is not None
-    return chosen
+    _hand_over("pose_guide", pose_guide(task.read(PoseTask)), to)
 
 
 def line(
     kind: Kind = None,
-    length: Length = "1 m",
+    *,
+    length: Length,
     proportion: Proportions = None,
     list: List = False,
-    json: Json = False,
-    curves: Curves = False,
-    out: OutFile = None,
-    force: Force = False,
+    to: To,
 ) -> None:
     """Straight-line linkage from the catalogue, exact or approximate."""
-    from linkwright.kernel.units.kinds import LENGTH
     from linkwright.synthesis.line_kinds import KINDS
     from linkwright.synthesis.straight_line import straight_line, straight_lines
-    from linkwright.synthesis.tables import catalogue_table
 
-    wanted = option_value("--length", length, LENGTH)
     if kind is None and not list:
         raise InputError("expected --kind KIND, or --list for the catalogue")
     if kind is None or list:
-        lines = straight_lines(wanted)
+        lines = straight_lines(length)
         answer = Answer(
             machine=None,
             names=tuple(KINDS),
-            results=lambda _: {"straight_lines": [line.to_dict() for line in lines]},
-            tables=lambda: [catalogue_table(lines)],
+            results={"straight_lines": [line.to_dict() for line in lines]},
+            tables=later("synthesis.tables:catalogue_table", lines),
         )
-        hand_over(answer, json=json)
+        hand_over(answer, json=to.json)
         return
-    straight = straight_line(kind, wanted, proportions=_proportions(proportion or []))
-    _finish("straight_line", straight, json, out, force, curves=curves)
+    straight = straight_line(kind, length, proportions=_proportions(proportion or []))
+    _hand_over("straight_line", straight, to)
 
 
 def _proportions(texts: list[str]) -> dict[str, float]:
@@ -218,27 +174,22 @@ def _proportions(texts: list[str]) -> dict[str, float]:
     return proportions
 
 
-def _finish(
-    what: str, result: Result, json: bool, out: Path | None, force: bool, *, curves: bool = False
-) -> None:
+def _hand_over(what: str, result: Result, to: Output) -> None:
     """Write the machine and print the result."""
-    from linkwright.machine.write import dumps
     from linkwright.synthesis.line_kinds import KINDS
-    from linkwright.synthesis.tables import linkage_table
 
-    machine: Machine = result.machine  # type: ignore[attr-defined]
-    entries = result.to_dict(curves=curves)
+    machine = result.machine  # type: ignore[attr-defined]
+    entries = result.to_dict(curves=to.curves)
     # Lines of the catalogue have none.
     warnings = entries.pop("warnings", [])
     answer = Answer(
-        machine=machine.name,
-        units=machine.units,
+        machine=machine,
         names=tuple(KINDS),
-        results=lambda _: {what: entries},
+        results={what: entries},
         warnings=warnings,
-        head=lambda: machine.name,
-        tables=lambda: [linkage_table(result, entries)],
-        tail=lambda: f"Written: {out}\n" if out else "--out FILE writes the machine file.\n",
-        machine_file=lambda: dumps(machine),
+        head=machine.name,
+        tables=later("synthesis.tables:linkage_table", result, entries),
+        tail=f"Written: {to.out}" if to.out else "--out FILE writes the machine file.",
+        machine_file=later("machine.write:dumps", machine),
     )
-    hand_over(answer, json=json, out=out, force=force)
+    to.hand_over(answer)

@@ -4,46 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from linkwright.kernel.command.answer import Answer, hand_over, is_reported
-from linkwright.kernel.command.common import File, Json, Outside, Sets
+from linkwright.kernel.command.answer import Answer, is_reported
+from linkwright.kernel.command.common import Output, to_screen
 from linkwright.kernel.page.table import Row, Table
+from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 
-def check(file: File, set: Sets = None, allow_outside: Outside = False, json: Json = False) -> None:
+def check(file: File, *, to: Annotated[Output, to_screen()]) -> None:
     """Check a machine file.
 
     Says what is in it, or all that is wrong with it; and what its geometry does not allow, as far as that can
     be seen at once. Exit code 1 if the machine cannot do something, 2 if the file is wrong.
     """
     from linkwright.app.feasibility import feasibility
-    from linkwright.machine.read import read
-    from linkwright.machine.table import part_names
 
-    machine = read(file, set or (), allow_outside=allow_outside)
+    machine = file.read()
     judged = feasibility(machine)
     count = len(judged.findings)
     verdict = f"{count} FINDING{'S' if count > 1 else ''}" if count else "OK"
     answer = Answer(
-        machine=machine.name,
-        units=machine.units,
-        results=lambda curves: {"checked": list(judged.looked_at)},
+        machine=machine,
+        results={"checked": list(judged.looked_at)},
         findings=judged.findings,
         warnings=judged.warnings,
-        head=lambda: f"{verdict}  {file}\n\n{summary(machine)}",
-        tables=lambda: [_checks(judged.looked_at)],
+        head=lambda: f"{verdict}  {file.file}\n\n{summary(machine)}",
+        tables=_checks(judged.looked_at),
     )
     if is_reported():
         # A report has the name of the machine as its title, and tables in place of columns of a terminal.
         verdict = f"{count} finding{'s' if count > 1 else ''}" if count else "no finding"
         tables = [_parts(machine), _checks(judged.looked_at)]
-        head = f"Check of {file}: {verdict}"
-        answer = replace(answer, names=part_names(machine), head=lambda: head, tables=lambda: tables)
-    hand_over(answer, json=json)
+        answer = replace(answer, head=f"Check of {file.file}: {verdict}", tables=tables)
+    to.hand_over(answer)
 
 
 def summary(machine: Machine) -> str:

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 
-from linkwright.kernel.command.common import File, Outside, Sets, option_value
 from linkwright.kernel.command.out import Force, output_files, say_written
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Option, Value
 from linkwright.kernel.errors import FindingError, InputError, printable
+from linkwright.kernel.units.kinds import ANGLE, TIME
+from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
@@ -20,18 +21,15 @@ Places = Annotated[
     list[str] | None,
     Option(
         "--out",
-        metavar="FILE",
-        help="A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
+        "FILE",
+        "A figure (.svg, .png, .pdf), the pose as .dxf, the motion as .gif or .mp4. "
         "Repeatable. Default: drawing.svg.",
     ),
 ]
 At = Annotated[
-    str | None,
-    Option("--at", metavar="ANGLE", help="Crank angle of the pose. Default: an eighth of the motion."),
+    float | None, Value("--at", ANGLE, "Crank angle of the pose. Default: an eighth of the motion.")
 ]
-Seconds = Annotated[
-    str | None, Option("--seconds", metavar="TIME", help="Duration of the animation. Default: 4 s.")
-]
+Seconds = Annotated[float | None, Value("--seconds", TIME, "Duration of the animation. Default: 4 s.")]
 
 _STILL, _MOVING = (".svg", ".png", ".pdf", ".dxf"), (".gif", ".mp4")
 
@@ -47,8 +45,6 @@ def draw(
     out: Places = None,
     at: At = None,
     seconds: Seconds = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
     force: Force = False,
 ) -> None:
     """Draw a mechanism to scale.
@@ -58,12 +54,12 @@ def draw(
     """
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.files.output import write_file
-    from linkwright.machine.read import read
 
     places = output_files("--out", out or ["drawing.svg"], (*_STILL, *_MOVING), force=force)
-    lasting = _lasting(seconds)
-    machine = read(file, set or [], allow_outside=allow_outside)
-    scene, place = _scene(machine, at)
+    lasting = _USUAL if seconds is None else seconds
+    if not 0.1 <= lasting <= _LONGEST:
+        raise InputError(f"--seconds: found {lasting:g} s, expected 0.1 s to {_LONGEST:g} s")
+    scene, place = _scene(file.read(), at)
     for path in places:
         with progress(f"drawing {path.name}"):
             data = _data(scene, place, lasting, path.suffix.lower())
@@ -71,30 +67,19 @@ def draw(
     say_written(places, quiet=False)
 
 
-def _lasting(text: str | None) -> float:
-    """How long a moving picture lasts [s]."""
-    from linkwright.kernel.units.kinds import TIME
-
-    seconds = _USUAL if text is None else option_value("--seconds", text, TIME)
-    if not 0.1 <= seconds <= _LONGEST:
-        raise InputError(f"--seconds: found {text}, expected 0.1 s to {_LONGEST:g} s")
-    return seconds
-
-
-def _scene(machine: Machine, at: str | None) -> tuple[Scene, float]:
+def _scene(machine: Machine, at: float | None) -> tuple[Scene, float]:
     """All that is drawn, and where in the motion the pose is."""
     import numpy as np
 
     from linkwright.app.report.scene import moving_scene
     from linkwright.drive.steady_state import steady_state
-    from linkwright.kernel.units.kinds import ANGLE
     from linkwright.linkages.closure import closure, in_cycle, require_full_turn
     from linkwright.linkages.model.topology import DRIVERS
     from linkwright.machine.program.compiled import compile_machine
 
     if not any(getattr(machine.linkage, table) for table in DRIVERS):
         raise InputError("nothing to draw: the machine has no mechanism")
-    angle = None if at is None else in_cycle(closure(machine), option_value("--at", at, ANGLE))
+    angle = None if at is None else in_cycle(closure(machine), at)
     has_motor = machine.drive is not None and machine.drive.motor is not None
     try:
         steady = steady_state(machine) if has_motor else None

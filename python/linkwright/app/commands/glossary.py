@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Output, to_screen
 from linkwright.kernel.command.parameter import Argument
 
 if TYPE_CHECKING:
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
 
 Words = Annotated[
     list[str] | None,
-    Argument(metavar="[WORD]...", help="A term, a symbol, a key or an older word. Default: all terms."),
+    Argument("[WORD]...", "A term, a symbol, a key or an older word. Default: all terms."),
 ]
 
 
-def glossary(words: Words = None, json: Json = False) -> None:
+def glossary(words: Words = None, *, to: Annotated[Output, to_screen()]) -> None:
     """Define the terms of tables, messages and reports.
 
     Each with its symbol, its unit, its source and its key in files and results.
@@ -32,10 +32,10 @@ def glossary(words: Words = None, json: Json = False) -> None:
         raise InputError(f'the glossary has no term "{word}"; linkwright glossary lists all terms')
     answer = Answer(
         machine=None,
-        results=lambda _: {term.key: _entry(term) for term in chosen},
+        results={term.key: _entry(term) for term in chosen},
         head=lambda: "\n\n".join(map(_words, chosen)),
     )
-    hand_over(answer, json=json)
+    to.hand_over(answer)
 
 
 def _entry(term: Term) -> dict[str, object]:

@@ -10,9 +10,7 @@ from linkwright.kernel.command.out import Force, Out, put
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
 
-Template = Annotated[
-    str | None, Argument(metavar="TEMPLATE", help="Name of the template; --list lists them.")
-]
+Template = Annotated[str | None, Argument("TEMPLATE", "Name of the template; --list lists them.")]
 List = Annotated[
     bool, Option("--list", help="List the templates; with pumping-unit, the units of the catalogue.")
 ]

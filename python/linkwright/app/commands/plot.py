@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from linkwright.kernel.command.answer import Answer, as_wanted, finish, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, ZeroAt
+from linkwright.kernel.command.common import Json, ZeroAt
 from linkwright.kernel.command.out import Force, output_folder, put, say_written
 from linkwright.kernel.command.parameter import Argument, Option
 from linkwright.kernel.errors import InputError
+from linkwright.kernel.later import later
+from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.app.curves import Curve
@@ -28,16 +30,16 @@ Over = Annotated[
     str | None,
     Option(
         "--over",
-        metavar="QUANTITY",
-        help="Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
+        "QUANTITY",
+        "Abscissa: a curve of the same analysis, such as time or ram.place. Default: the crank angle.",
     ),
 ]
 Outs = Annotated[
     list[str] | None,
     Option(
         "--out",
-        metavar="FILE|DIR",
-        help="A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
+        "FILE|DIR",
+        "A figure (.png, .svg, .pdf), a table (.csv), or a folder for all of them. Repeatable.",
     ),
 ]
 Csv = Annotated[bool, Option("--csv", help="Print CSV.")]
@@ -57,8 +59,6 @@ _ROWS = 12
 def plot(
     file: File,
     quantity: Quantities = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
     over: Over = None,
     zero: ZeroAt = None,
     csv: Csv = False,
@@ -71,15 +71,12 @@ def plot(
     Any curve that `linkwright run` computes, and motion of points, links and slides; over the crank angle of
     a revolution unless it runs over something else.
     """
-    from linkwright.app.curves import chosen, curves_figure, curves_of, from_zero, on_common_points
+    from linkwright.app.curves import chosen, curves_of, from_zero, on_common_points
     from linkwright.app.study import study
-    from linkwright.kernel.page.angle_zero import Zero
-    from linkwright.kernel.page.numbers import zero_words
-    from linkwright.linkages.zero import zero_angle
-    from linkwright.machine.read import read
+    from linkwright.linkages.zero import zero_of
 
-    machine = read(file, set or [], allow_outside=allow_outside)
-    counted = zero_angle(machine, zero) if zero is not None else Zero()
+    machine = file.read()
+    counted = zero_of(machine, zero)
     results = study(machine)
     if not quantity:
         hand_over(_list_of(results, curves_of(results)), json=json)
@@ -91,15 +88,14 @@ def plot(
         if csv:
             put(_csv(listed), None)
     answer = Answer(
-        machine=machine.name,
-        units=machine.units,
-        described=machine,
+        machine=machine,
+        is_described=True,
         results=lambda _: {"plot": _curve_data(results, curves, counted.angle)},
         findings=results.findings,
         warnings=results.warnings,
         tables=lambda: [_extremes(results, curves, counted.angle), _values(listed)],
-        figures=lambda: {"curves": curves_figure(curves, counted.words)},
-        head=lambda: zero_words(counted),
+        figures={"curves": later("app.curves:curves_figure", curves, counted.words)},
+        head=later("kernel.page.numbers:zero_words", counted),
     )
     if written:
         say_written(written, quiet=True)
@@ -115,16 +111,13 @@ def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
 
     rows: list[Row] = [(curve.name, curve.unit or "–", curve.over) for curve in curves.values()]
     return Answer(
-        machine=study.machine.name,
-        units=study.machine.units,
-        results=lambda _: {
+        machine=study.machine,
+        results={
             "curves": {curve.name: {"unit": curve.unit, "over": curve.over} for curve in curves.values()}
         },
         findings=study.findings,
         warnings=study.warnings,
-        tables=lambda: [
-            Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows, is_whole=True)
-        ],
+        tables=Table("curves", "Curves that can be drawn", ("curve", "", "over"), rows, is_whole=True),
     )
 
 

@@ -19,40 +19,34 @@ if TYPE_CHECKING:
 
 Words = Annotated[
     list[str],
-    Argument(
-        metavar="COMMAND …",
-        help="The command with its file and options, as without `report`.",
-        takes_rest=True,
-    ),
+    Argument("COMMAND …", "The command with its file and options, as without `report`.", takes_rest=True),
 ]
 To = Annotated[
     list[str] | None,
-    Option("--to", metavar="FILE", help="FILE.html or FILE.pdf. Repeatable. Default: report.html."),
+    Option("--to", "FILE", "FILE.html or FILE.pdf. Repeatable. Default: report.html."),
 ]
 Company = Annotated[
     Path | None,
     Option(
-        "--company",
-        metavar="FILE",
-        help="TOML file with company, logo, project, document and author for the letterhead.",
+        "--company", "FILE", "TOML file with company, logo, project, document and author for the letterhead."
     ),
 ]
 Sections = Annotated[
     str | None,
     Option(
         "--sections",
-        metavar="LIST",
-        help="Sections to include, separated by commas: summary, sketch, results, formulas, data, "
+        "LIST",
+        "Sections to include, separated by commas: summary, sketch, results, formulas, data, "
         "assumptions, repeat.",
     ),
 ]
-Lang = Annotated[str, Option("--lang", metavar="CODE", help="Language of the report: en, uk (Ukrainian).")]
+Lang = Annotated[str, Option("--lang", "CODE", "Language of the report: en, uk (Ukrainian).")]
 Variants = Annotated[
     list[str] | None,
     Option(
         "--variant",
-        metavar='"NAME: PATH=VALUE; …"',
-        help='Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". Repeatable.',
+        '"NAME: PATH=VALUE; …"',
+        'Compare with a variant, such as "heavier: bodies.cart1.mass=900 kg". Repeatable.',
     ),
 ]
 

@@ -10,11 +10,11 @@ from linkwright.app.report.page import machine_sections
 from linkwright.kernel.command.answer import Answer, shown_head
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content, Part
 from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.page.table import Row, Table
 from linkwright.machine.machine import Machine
+from linkwright.machine.table import part_names
 
 
 class Variant(NamedTuple):
@@ -37,30 +37,20 @@ def answered(answer: Answer, command: str) -> Content:
     """What a report of an answer says; an `InputError` if it has neither tables nor figures."""
     if answer.report is not None:
         return replace(answer.report(), command=command)
-    tables = list(answer.tables())
-    captions = answer.captions()
-    figures = [
-        CaptionedFigure(name, *captions.get(name, (_title(name), "")), figure)
-        for name, figure in answer.figures().items()
-    ]
+    machine, tables = answer.machine, answer.all_tables()
+    figures = answer.all_figures()
     if not (tables or figures or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
-        title=answer.machine or "Linkwright",
-        names=answer.names,
+        title=answer.name or "Linkwright",
+        names={*answer.names, *(part_names(machine) if isinstance(machine, Machine) else ())},
         lead=". ".join(line.strip().rstrip(".") for line in shown_head(answer).split("\n")),
         findings=sentences(answer.findings),
         warnings=sentences(answer.warnings),
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,
-        **(machine_sections(answer.described) if isinstance(answer.described, Machine) else {}),
+        **(machine_sections(machine) if answer.is_described and isinstance(machine, Machine) else {}),
     )
-
-
-def _title(name: str) -> str:
-    """Name of a file as a heading."""
-    words = name.replace("_", " ")
-    return words[:1].upper() + words[1:]
 
 
 def compared(content: Content, of: Content, variants: Mapping[str, Content]) -> Content:

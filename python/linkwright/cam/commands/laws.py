@@ -2,63 +2,61 @@
 
 from __future__ import annotations
 
-from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json
-from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import FolderOutput, to_folder
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import InputError
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from linkwright.cam.law_factors import LawFactors
-    from linkwright.cam.laws.motion_law import MotionLaw
-    from linkwright.kernel.page.table import Table
+from linkwright.kernel.later import later
 
 Names = Annotated[
     list[str] | None,
     Option(
         "--law",
-        metavar='"NAME: KEY=VALUE, …"',
-        help='A single law, optionally with parameters, such as "modified_sine: share=0.2" or "combined: '
+        '"NAME: KEY=VALUE, …"',
+        'A single law, optionally with parameters, such as "modified_sine: share=0.2" or "combined: '
         'start=0.2, ramp=cycloidal". Repeatable.',
     ),
 ]
-Folder = Annotated[
-    Path | None, out_option("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
+To = Annotated[
+    FolderOutput, to_folder("Write cam_laws.json and the laws in one figure, as SVG and PNG, there.")
 ]
 
 # Lines that can still be distinguished in one figure; without --law, these.
 _DRAWN = ("parabolic", "cycloidal", "modified_trapezoid", "modified_sine", "polynomial_3_4_5", "minimum_jerk")
 
 
-def laws(law: Names = None, json: Json = False, out: Folder = None, force: Force = False) -> None:
+def laws(law: Names = None, *, to: To) -> None:
     """Factors of the motion laws, for a rise between two dwells.
 
     Maximum velocity, acceleration, jerk, and velocity times acceleration, and the integrals of the squares,
     with theoretical lower bounds.
     """
     from linkwright.cam.law_factors import law_factors
-    from linkwright.cam.laws.catalogue import LAWS
+    from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 
-    folder = output_folder(out, force=force)
     wanted = [_read(text) for text in law] if law else [_LawChoice(name, name, {}) for name in LAWS]
     chosen = {word.words: word for word in wanted}
     shapes = {words: LAWS[law.name].normalised(**law.parameters) for words, law in chosen.items()}
     factors = {words: law_factors(shape) for words, shape in shapes.items()}
     drawn = {words: shape for words, shape in shapes.items() if law or words in _DRAWN}
+    results = {
+        words: {
+            **factors[words].to_dict(),
+            "parameters": LAWS[one.name].parameters | one.parameters,
+            "source": LAWS[one.name].source,
+        }
+        for words, one in chosen.items()
+    }
     answer = Answer(
         machine=None,
-        results=lambda _: _results(chosen, factors),
-        tables=partial(_tables, factors),
+        results={"cam_laws": results, "cam_law_bounds": {bound.name: bound._asdict() for bound in BOUNDS}},
+        tables=[later("cam.tables:law_table", factors), later("cam.tables:bound_table")],
         results_file="cam_laws.json",
-        figures=partial(_figures, drawn),
+        figures={"cam_laws": later("cam.figures.cam:motion_laws_figure", drawn)},
     )
-    hand_over(answer, json=json, folder=folder)
+    to.hand_over(answer)
 
 
 class _LawChoice(NamedTuple):
@@ -106,32 +104,3 @@ def _value(text: str) -> Any:
         except ValueError:
             continue
     return text
-
-
-def _results(chosen: dict[str, _LawChoice], factors: dict[str, LawFactors]) -> dict[str, Any]:
-    """The factors of each law, and their theoretical lower bounds."""
-    from linkwright.cam.laws.catalogue import BOUNDS, LAWS
-
-    laws = {
-        words: {
-            **factors[words].to_dict(),
-            "parameters": LAWS[law.name].parameters | law.parameters,
-            "source": LAWS[law.name].source,
-        }
-        for words, law in chosen.items()
-    }
-    return {"cam_laws": laws, "cam_law_bounds": {bound.name: bound._asdict() for bound in BOUNDS}}
-
-
-def _tables(factors: dict[str, LawFactors]) -> list[Table]:
-    """Tables for people."""
-    from linkwright.cam.tables import bound_table, law_table
-
-    return [law_table(factors), bound_table()]
-
-
-def _figures(drawn: dict[str, MotionLaw]) -> dict[str, Figure]:
-    """The laws in one figure."""
-    from linkwright.cam.figures.cam import motion_laws_figure
-
-    return {"cam_laws": motion_laws_figure(drawn)}

@@ -6,12 +6,15 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets, belong_to, option_value
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Json, Output, belong_to
 from linkwright.kernel.command.out import Force
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.parameter import Group, Option
+from linkwright.kernel.command.value import option_value, stepped
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import CAM_VARIANTS, SHOWN
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO
+from linkwright.machine.file_argument import File
 from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
@@ -25,8 +28,8 @@ Vary = Annotated[
     list[str] | None,
     Option(
         "--vary",
-        metavar="NAME=LOW:HIGH:N",
-        help='Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
+        "NAME=LOW:HIGH:N",
+        'Variable, such as base_radius="20 mm":"60 mm":200 or lift_factor=1:1.2:5: base_radius, '
         "roller_radius, offset, arm_length, face_tilt, lift_factor. Repeatable: all combinations.",
     ),
 ]
@@ -34,29 +37,22 @@ Laws = Annotated[
     list[str] | None,
     Option(
         "--law",
-        metavar="NAME",
-        help="A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those "
-        "of the file.",
+        "NAME",
+        "A law of `linkwright cam laws` for all moving sections. Repeatable. Default: those of the file.",
     ),
 ]
-CamName = Annotated[
-    str | None, Option("--cam", metavar="NAME", help="Name of the cam, if there are several.")
-]
+CamName = Annotated[str | None, Option("--cam", "NAME", "Name of the cam, if there are several.")]
 Steep = Annotated[
     str | None,
-    Option(
-        "--pressure-angle",
-        metavar="ANGLE",
-        help="Maximum permitted pressure angle. Default: that of the cam.",
-    ),
+    Option("--pressure-angle", "ANGLE", "Maximum permitted pressure angle. Default: that of the cam."),
 ]
 Tight = Annotated[
     str | None,
-    Option("--curvature-radius", metavar="LENGTH", help="Minimum permitted convex radius of the profile."),
+    Option("--curvature-radius", "LENGTH", "Minimum permitted convex radius of the profile."),
 ]
-Count = Annotated[
-    int, Option("--count", metavar="N", help="Number of cams to show, the smallest first.", min=1)
-]
+Count = Annotated[int, Option("--count", "N", "Number of cams to show, the smallest first.", min=1)]
+
+To = Annotated[Output, Group(Output, {"json": Json, "force": Force})]
 
 # Cams that are computed exactly at once.
 _PORTION = 16
@@ -66,15 +62,13 @@ def search(
     file: File,
     vary: Vary = None,
     law: Laws = None,
-    set: Sets = None,
-    allow_outside: Outside = False,
     cam: CamName = None,
     pressure_angle: Steep = None,
     curvature_radius: Tight = None,
     count: Count = 10,
     study: ToStudy = None,
-    json: Json = False,
-    force: Force = False,
+    *,
+    to: To,
 ) -> None:
     """Find the smallest cams within their limits.
 
@@ -85,11 +79,10 @@ def search(
     from linkwright.cam.profile.profile import the_cam
     from linkwright.cam.search import search_cams
     from linkwright.kernel.description.schema_walk import quantity_of
-    from linkwright.machine.read import read
     from linkwright.studies.cams import cam_search_study, search_entries
 
     require_within(SHOWN, count, "--count", "show fewer")
-    machine = read(file, set or [], allow_outside=allow_outside)
+    machine = file.read()
     name, chosen = the_cam(machine, cam)
     steep, tight = chosen.limit, chosen.curvature_limit or 0.0
     if pressure_angle is not None:
@@ -107,62 +100,40 @@ def search(
     if study is None:
         belong_to("--study", "force")
     else:
-        hand_over_study(plan, study, file, None if set else machine, force=force, quiet=json)
+        hand_over_study(plan, study, file, machine, to)
     columns = plan.rows(0, plan.n_rows)
     cams = search_cams(
         machine, name, entries=search_entries(plan, columns), laws=law or [], law=columns.get("law")
     )
     keeps = cams.keeps(steep, tight)
     best = _smallest(plan, cams, keeps, count)
+    counts = {"n_cams": len(keeps), "n_sound": int(cams.is_sound.sum()), "n_kept": int(keeps.sum())}
     answer = Answer(
-        machine=machine.name,
-        units=machine.units,
-        results=lambda _: {"cam_search": _results(cams, keeps, best)},
+        machine=machine,
+        results={"cam_search": counts | {"smallest": best}},
         findings=_findings(keeps, best),
-        head=partial(_head, cams, keeps),
+        head=f"{len(keeps)} cams evaluated, {counts['n_sound']} sound, {counts['n_kept']} keep the limits",
         tables=partial(_tables, cams, best),
     )
-    hand_over(answer, json=json)
+    to.hand_over(answer)
 
 
 def _levels(wanted: list[str]) -> dict[str, Levels]:
     """What varies, by name."""
-    import numpy as np
+    from linkwright.cam.search import ENTRIES
+    from linkwright.studies.cams import Levels
 
-    listed = [_axis(name) for name in wanted]
-    levels = dict(listed)
-    if len(levels) < len(listed):
-        raise InputError("--vary: found the same name twice, expected each once")
-    if not levels:
+    kinds = {name: LENGTH for name in ENTRIES if name != "distance"}
+    kinds |= {"face_tilt": ANGLE, "lift_factor": RATIO}
+    example = "base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
+    axes = stepped("--vary", wanted, kinds, "a size of the cam", example, CAM_VARIANTS)
+    if not axes:
         raise InputError(
             "--vary: found nothing that varies, expected such as --vary base_radius=0.02:0.06:200"
         )
-    total = float(np.prod([axis.steps for axis in levels.values()], dtype=float))
+    total = math.prod(float(axis.number) for axis in axes.values())
     require_within(CAM_VARIANTS, total, "--vary", "reduce the ranges, or use coarser steps")
-    return levels
-
-
-def _axis(text: str) -> tuple[str, Levels]:
-    """Name and values of one ``NAME=LOW:HIGH:N``."""
-    from linkwright.cam.search import ENTRIES
-    from linkwright.kernel.description.base import suggestion
-    from linkwright.kernel.units.kinds import ANGLE, LENGTH, RATIO
-    from linkwright.studies.cams import Levels
-
-    name, _, values = text.partition("=")
-    kinds = {"face_tilt": ANGLE, "lift_factor": RATIO}
-    parts = [part.strip().strip('"') for part in values.split(":")]
-    if name not in ENTRIES or name == "distance":
-        known = suggestion(name, (entry for entry in ENTRIES if entry != "distance"))
-        raise InputError(f'--vary {text}: found "{name}", expected a size of the cam; {known}')
-    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 1:
-        remedy = "such as base_radius=20mm:60mm:200 for 200 values from 20 to 60 mm"
-        raise InputError(f'--vary {text}: found "{values}", expected LOW:HIGH:N; {remedy}')
-    low, high = (option_value(f"--vary {text}", part, kinds.get(name, LENGTH)) for part in parts[:2])
-    # A count of thousands of digits is no number for Python.
-    count = int(parts[2][:16])
-    require_within(CAM_VARIANTS, count, text, "take fewer values")
-    return name, Levels(low, high, count)
+    return {name: Levels(*axis) for name, axis in axes.items()}
 
 
 def _smallest(plan: StudyPlan, cams: Cams, keeps: Bools, count: int) -> list[dict[str, Any]]:
@@ -200,16 +171,6 @@ def _row(cams: Cams, i: int, exact: dict[str, float]) -> dict[str, Any]:
     }
 
 
-def _results(cams: Cams, keeps: Bools, best: list[dict[str, Any]]) -> dict[str, Any]:
-    """How many there are of what kind, and the smallest."""
-    return {
-        "n_cams": len(keeps),
-        "n_sound": int(cams.is_sound.sum()),
-        "n_kept": int(keeps.sum()),
-        "smallest": best,
-    }
-
-
 def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
     """That there is no cam to show."""
     if best:
@@ -221,12 +182,6 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
         f"None of the {looked} smallest cams keeps the limits between the sampled angles: widen the "
         "ranges or the limits."
     ]
-
-
-def _head(cams: Cams, keeps: Bools) -> str:
-    """How many there are of what kind."""
-    n_sound, n_kept = int(cams.is_sound.sum()), int(keeps.sum())
-    return f"{len(keeps)} cams evaluated, {n_sound} sound, {n_kept} keep the limits"
 
 
 def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:

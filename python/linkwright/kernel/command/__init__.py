@@ -9,4 +9,5 @@
 | `interrupt` | An interrupt from the keyboard ends the command line with exit code 130 |
 | `out` | The option ``--out`` of all commands, and what is written there |
 | `parameter` | A command from a function: what its parameters are on the command line stands at their types |
+| `value` | Values of options that are quantities |
 """

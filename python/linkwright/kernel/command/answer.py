@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from json import dumps
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
@@ -23,9 +23,9 @@ from linkwright.kernel.page.angle_zero import Zero, counting
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
     from pydantic import BaseModel
 
+    from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.files.output import OutputFolder
     from linkwright.kernel.page.content import Content
     from linkwright.kernel.page.table import Table
@@ -33,42 +33,122 @@ if TYPE_CHECKING:
 
 _FILE_ZERO = Zero()
 
+# A table, or a function that gives one or several, or several of these.
+Shown = Any
 
-def _nothing(curves: bool) -> Mapping[str, Any]:
-    """No results: the machine cannot do what was asked for."""
-    return {}
+
+class Described(Protocol):
+    """A machine, as an answer needs it."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def units(self) -> BaseModel | None:
+        """The table `[units]` of its file."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a command found."""
+    """What a command found.
 
-    machine: str | None  # name of the machine; None where there is none
+    Parts that cost something are functions, called when they are asked for: `later` names one by its place.
+    """
+
+    machine: Described | str | None  # the machine, or a name in its place; None where there is none
     names: Collection[str] = ()  # names that its author gave, which stay in every language
-    described: object = None  # the machine, of which a report has drawing, data and assumptions
-    # Whether curves are wanted → results by name, in SI: plain numbers, texts, tables and lists.
-    results: Callable[[bool], Mapping[str, Any]] = _nothing
+    is_described: bool = False  # whether a report has drawing, data and assumptions of the machine
+    # Results by name, in SI: plain numbers, texts, tables and lists, and results with or without their
+    # curves; or a function of whether curves are wanted.
+    results: Mapping[str, Any] | Callable[[bool], Mapping[str, Any]] = field(default_factory=dict)
     # What the machine cannot do, in sentences; with any, the command ends with exit code 1.
     findings: Sequence[str] = ()
     warnings: Sequence[str] = ()  # what its designer should know besides
     extra: Mapping[str, Any] = field(default_factory=dict)  # further keys of the JSON object
     # What people are shown: words, tables, and below them such as lines of a machine file.
-    head: Callable[[], str] = str
-    tables: Callable[[], Sequence[Table]] = tuple
-    tail: Callable[[], str] = str
+    head: str | Callable[[], str] = ""
+    tables: Shown = ()
+    tail: str | Callable[[], str] = ""
     machine_file: Callable[[], str] | None = None  # text of the machine file that `--out FILE` asks for
     results_file: str = "results.json"  # name of the file with the JSON object; empty if none is written
-    # Further files by name; figures by name without ending.
-    files: Callable[[], Mapping[str, str | bytes]] = dict
-    figures: Callable[[], Mapping[str, Figure]] = dict
-    # Name of a figure → its title and its caption in a report.
-    captions: Callable[[], Mapping[str, tuple[str, str]]] = dict
+    # Further files by name; figures by name without ending, or with their captions; each, or all, may be made
+    # by a function.
+    files: Mapping[str, Any] | Callable[[], Mapping[str, Any]] = field(default_factory=dict)
+    figures: Mapping[str, Any] | Callable[[], Any] = field(default_factory=dict)
     # What a report of it says, where that is more than the tables and figures.
     report: Callable[[], Content] | None = None
     # Name of a file → words beside it where the files are listed.
     remarks: Mapping[str, str] = field(default_factory=dict)
-    units: BaseModel | None = None  # the table `[units]` of the machine file
     zero: Zero = _FILE_ZERO  # from where crank angles are counted for people; JSON counts as the file does
+
+    @property
+    def name(self) -> str | None:
+        """Name of the machine; None where there is none."""
+        return self.machine if self.machine is None or isinstance(self.machine, str) else self.machine.name
+
+    @property
+    def units(self) -> BaseModel | None:
+        """The table `[units]` of the machine file."""
+        return None if self.machine is None or isinstance(self.machine, str) else self.machine.units
+
+    def results_of(self, curves: bool) -> Any:
+        """The results by name, ready for JSON, with curves or without."""
+        return _plain(self.results(curves) if callable(self.results) else self.results, curves)
+
+    def all_tables(self) -> list[Table]:
+        """The tables."""
+        return list(_tables(self.tables))
+
+    def all_figures(self) -> list[CaptionedFigure]:
+        """The figures, with titles and captions."""
+        from linkwright.kernel.figure.style import CaptionedFigure
+
+        made = self.figures() if callable(self.figures) else self.figures
+        if not isinstance(made, Mapping):
+            return list(made)
+        return [CaptionedFigure(name, _title(name), "", figure) for name, figure in _called(made).items()]
+
+    def all_files(self) -> dict[str, str | bytes]:
+        """Further files by name."""
+        return _called(self.files)
+
+
+def _plain(value: Any, curves: bool) -> Any:
+    """The same tree with plain numbers in place of results."""
+    if isinstance(value, Mapping) and not hasattr(value, "to_dict"):
+        return {key: _plain(entry, curves) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_plain(entry, curves) for entry in value]
+    return value.to_dict(curves=curves) if hasattr(value, "to_dict") else value
+
+
+def _tables(shown: Any) -> Iterator[Table]:
+    """A table, several, or what makes them, one by one."""
+    from linkwright.kernel.page.table import Table
+
+    made = shown() if callable(shown) else shown
+    if isinstance(made, Table):
+        yield made
+    else:
+        for each in made:
+            yield from _tables(each)
+
+
+def _called(parts: Any) -> dict[str, Any]:
+    """Parts by name, made where they are functions."""
+    made = parts() if callable(parts) else parts
+    return {name: part() if callable(part) else part for name, part in made.items()}
+
+
+def _title(name: str) -> str:
+    """Name of a file as a heading."""
+    words = name.replace("_", " ")
+    return words[:1].upper() + words[1:]
+
+
+def _text(part: str | Callable[[], str]) -> str:
+    return part() if callable(part) else part
 
 
 # Who takes the answer of a command instead of the terminal: a report.
@@ -108,8 +188,8 @@ def json_text(answer: Answer, *, curves: bool = False) -> str:
     from linkwright.kernel.result import finite
 
     fields = {
-        "machine": answer.machine,
-        "results": answer.results(curves),
+        "machine": answer.name,
+        "results": answer.results_of(curves),
         "findings": list(answer.findings),
         "warnings": [*answer.findings, *answer.warnings],
         **({"angle_zero": answer.zero.angle, "zero": answer.zero.words} if answer.zero.words else {}),
@@ -133,7 +213,7 @@ def shown_head(answer: Answer) -> str:
     """The head of an answer, and from where its crank angles are counted."""
     from linkwright.kernel.page.numbers import zero_words
 
-    return "\n".join(filter(None, (answer.head(), zero_words(answer.zero))))
+    return "\n".join(filter(None, (_text(answer.head), zero_words(answer.zero))))
 
 
 def print_answer(answer: Answer) -> None:
@@ -142,9 +222,9 @@ def print_answer(answer: Answer) -> None:
     from linkwright.kernel.page.sentences import sentences
 
     findings, warnings = sentences(answer.findings), sentences(answer.warnings)
-    print_tables(shown_head(answer), answer.tables(), findings, warnings)
-    if tail := answer.tail():
-        click.echo("\n" + tail, nl=False)
+    print_tables(shown_head(answer), answer.all_tables(), findings, warnings)
+    if tail := _text(answer.tail):
+        click.echo("\n" + tail.rstrip("\n"))
 
 
 def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
@@ -157,8 +237,9 @@ def write(answer: Answer, folder: OutputFolder, *, quiet: bool) -> None:
     if answer.results_file:
         contents[answer.results_file] = json_text(answer, curves=True)
     with as_wanted(answer.units), counting(answer.zero):
-        contents |= answer.files()
-        write_folder(folder, contents, answer.figures(), quiet=quiet, remarks=answer.remarks)
+        contents |= answer.all_files()
+        figures = {figure.name: figure.figure for figure in answer.all_figures()}
+        write_folder(folder, contents, figures, quiet=quiet, remarks=answer.remarks)
 
 
 def finish(answer: Answer) -> None:

@@ -12,38 +12,34 @@
 
 from __future__ import annotations
 
-import math
 import os
 import re
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, ParamSpec, TypeVar
+from typing import Annotated, Any, ParamSpec, TypeVar
 
 import click
 from click.core import ParameterSource
 
 from linkwright.kernel import system
-from linkwright.kernel.command.answer import Answer, is_taken, json_text
+from linkwright.kernel.command.answer import Answer, hand_over, is_taken, json_text
 from linkwright.kernel.command.interrupt import EXIT_CODE
-from linkwright.kernel.command.parameter import Argument, Option
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, UnitError, cut, printable
-
-if TYPE_CHECKING:
-    from linkwright.kernel.units.kinds import Kind
-    from linkwright.kernel.units.marks import Quantity
+from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.parameter import Group, Option
+from linkwright.kernel.errors import FindingError, InputError, LinkwrightError, printable
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-File = Annotated[Path, Argument(metavar="FILE", help="The machine file.")]
 Sets = Annotated[
     list[str] | None,
     Option(
         "--set",
-        metavar="PATH=VALUE",
-        help="Override an entry of the file, such as drive.gearbox.ratio=10 or "
+        "PATH=VALUE",
+        "Override an entry of the file, such as drive.gearbox.ratio=10 or "
         'mechanism.cranks.A2.phase="80 deg". Repeatable.',
     ),
 ]
@@ -55,16 +51,65 @@ Outside = Annotated[
         help="Permit entries `file` and `machine` outside the folder of the file.",
     ),
 ]
+Level = Annotated[float, Option("--level", "P", "Confidence level of the intervals.")]
+Seed = Annotated[int, Option("--seed", "N", "Seed of the random generator.", min=0)]
 Json = Annotated[bool, Option("--json", help="Print one JSON object in SI units.")]
 ZeroAt = Annotated[
     str | None,
     Option(
         "--zero",
-        metavar='"[OUTPUT] END"',
-        help="Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
+        '"[OUTPUT] END"',
+        "Count crank angles from a dead centre: outer, inner, top or bottom, with the name of a slide "
         'or rocker before it if there are several, as in "ram top".',
     ),
 ]
+
+
+@dataclass(frozen=True)
+class Output:
+    """What becomes of the answer of a command: shown, printed as JSON, a machine written to a file."""
+
+    json: bool = False
+    curves: bool = False
+    out: Path | None = None
+    force: bool = False
+
+    def hand_over(self, answer: Answer) -> None:
+        """Print the answer, write its files, and end the command, with exit code 1 if there are findings."""
+        hand_over(answer, json=self.json, curves=self.curves, out=self.out, force=self.force)
+
+
+@dataclass(frozen=True)
+class FolderOutput(Output):
+    """The same with a folder for all files, which is looked at before anything is computed."""
+
+    def __post_init__(self) -> None:
+        output_folder(self.out, force=self.force)
+
+    def hand_over(self, answer: Answer) -> None:
+        """Print the answer, write its files, and end the command, with exit code 1 if there are findings."""
+        folder = output_folder(self.out, force=self.force)
+        hand_over(answer, json=self.json, curves=self.curves, folder=folder)
+
+
+def to_screen() -> Group:
+    """The option of a command that writes no file."""
+    return Group(Output, {"json": Json})
+
+
+def to_file(words: str, *, curves: Any = None) -> Group:
+    """Options of a command that writes one file; `words`: what ``--out`` does, `curves`: ``--curves``."""
+    return _output(Output, out_option(words, "FILE"), curves)
+
+
+def to_folder(words: str, *, curves: Any = None) -> Group:
+    """The same of a command that writes several files."""
+    return _output(FolderOutput, out_option(words), curves)
+
+
+def _output(make: type[Output], out: Option, curves: Any) -> Group:
+    given = {"curves": curves} if curves is not None else {}
+    return Group(make, {"json": Json, **given, "out": Annotated[Path | None, out], "force": Force})
 
 
 def reports_errors(
@@ -164,57 +209,3 @@ def named_entries(option: str, text: str, example: str) -> tuple[str, list[str]]
     if not colon or not name.strip():
         raise InputError(f'{option}: found "{text}", expected a name, a colon and entries, as in "{example}"')
     return name.strip(), [entry.strip() for entry in entries.split(";") if entry.strip()]
-
-
-def option_value(option: str, text: str, of: Kind | Quantity) -> float:
-    """The value of an option that is a quantity; a bare number is SI, where it can mean but one unit.
-
-    Raises `InputError`, which names the option, for anything else, for what is beyond the bound of a mark,
-    and for an angle, a speed or a power without its unit.
-    """
-    from linkwright.kernel.units.kinds import ANGLE, POWER, SPEED
-    from linkwright.kernel.units.marks import Quantity
-    from linkwright.kernel.units.reading import parse
-
-    mark = of if isinstance(of, Quantity) else Quantity(of)
-    kind = mark.kind
-
-    # On a command line people mean degrees as often as radians; zero is the same in both.
-    choices = {
-        ANGLE.dimension: ("deg", "rad"),
-        SPEED.dimension: ("rpm", "rad/s"),
-        POWER.dimension: ("kW", "W"),
-    }
-    units = choices.get(kind.dimension)
-    if _is_number(text) and not math.isfinite(float(text)):
-        raise InputError(f"{option}: found {cut(text)}, expected a finite number with its unit")
-    if units and _is_number(text) and float(text) != 0:
-        text = cut(text)
-        one, other = (f'"{text} {unit}"' for unit in units)
-        before = "" if "=" in option else f"{option} "
-        raise InputError(
-            f"{option}: found {text}, which may be {units[0]} or {units[1]}; give its unit, "
-            f"{before}{one} or {before}{other}"
-        )
-    try:
-        value = parse(float(text) if _is_number(text) else text, kind)
-    except UnitError as error:
-        problem = error.problem
-        # The file takes a bare number there, the command line does not.
-        expected = problem.expected.partition(" or a number in ")[0] if units else problem.expected
-        remedy = f"; {cut(problem.remedy)}" if problem.remedy else ""
-        raise InputError(f"{option}: found {cut(problem.found)}, expected {expected}{remedy}") from None
-    if not mark.holds(value):
-        hint = mark.remedy(value) or f'such as "{kind.example}"'
-        expected = f"{kind.word}{mark.bound.words.rstrip(',')}; {hint}"
-        raise InputError(f"{option}: found {cut(text)}, expected {expected}")
-    return value
-
-
-def _is_number(text: str) -> bool:
-    """Whether a text is a number without a unit."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

@@ -26,7 +26,7 @@ def out_option(words: str, metavar: str = "DIR", name: str = "--out") -> Any:
             raise click.BadParameter("found nothing, expected a path", param_hint=name)
         return Path(text)
 
-    return Option(name, metavar=metavar, help=words, parser=place)
+    return Option(name, metavar, words, parser=place)
 
 
 Out = Annotated[Path | None, out_option("Write there.", "FILE")]
@@ -78,8 +78,11 @@ def write_folder(
     drawn: dict[str, str | bytes] = {}
     if figures:
         from linkwright.kernel.figure.svg import png, svg
+        from linkwright.kernel.files.output import file_names
 
-        for name, figure in figures.items():
+        # A name may hold letters that no file can have.
+        names = file_names(dict.fromkeys(figures, ""))
+        for name, figure in ((names[name], figure) for name, figure in figures.items()):
             drawn |= {f"{name}.svg": svg(figure), f"{name}.png": png(figure)}
     say_written(folder.write({**contents, **drawn}), quiet=quiet, remarks=remarks)
 

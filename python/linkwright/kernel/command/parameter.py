@@ -1,6 +1,6 @@
 """A command from a function: what its parameters are on the command line stands at their types.
 
-    def check(file: Annotated[Path, Argument("FILE", "The machine file.")], json: Json = False) -> None:
+    def check(words: Annotated[str, Argument("WORD", "A term.")], json: Json = False) -> None:
 
 | type | on the command line |
 | --- | --- |
@@ -8,12 +8,15 @@
 | `int`, `float`, `str`, `Path`, or one of them or None | a value |
 | `Literal[...]`, an enumeration | one of these words |
 | `list[...]`, or that or None | an option that may be given again, an argument that takes all words |
+
+An option marked `Value` is a quantity with its unit, of which the function takes the value in SI. A `Group`
+is one parameter of the function and several on the command line, such as a machine file with ``--set``.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from enum import Enum
 from inspect import Parameter, cleandoc, signature
@@ -23,10 +26,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args,
 
 import click
 
+from linkwright.kernel.command.value import option_value
 from linkwright.kernel.errors import cut
 
 if TYPE_CHECKING:
     from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.units.kinds import Kind
+    from linkwright.kernel.units.marks import Quantity
 
 # The largest whole number up to which every one is a float.
 _WHOLE_MAX = 2**53
@@ -48,6 +54,16 @@ class Option(NamedTuple):
     parser: Callable[[str], Any] | None = None  # makes the value of the word that is given
 
 
+class Value(NamedTuple):
+    """Mark of a parameter that is an option, written as a quantity with its unit; its value is in SI."""
+
+    name: str
+    of: Kind | Quantity  # the kind of quantity, and its bounds
+    help: str
+    default: str | None = None  # as it is written; with one, the parameter of the function has none
+    metavar: str = ""  # the last word of the kind without it, such as ANGLE
+
+
 class Argument(NamedTuple):
     """Mark of a parameter that is given by its place."""
 
@@ -56,25 +72,38 @@ class Argument(NamedTuple):
     takes_rest: bool = False  # whether it takes all words from here on, options too
 
 
+class Group(NamedTuple):
+    """Mark of a parameter that is made of several options and arguments."""
+
+    make: Callable[..., Any]  # makes it of their values; their defaults are those of its parameters
+    types: Mapping[str, Any] | None = None  # their names and marked types; without, those of `make`
+
+
 def command(
-    function: Callable[..., Any], name: str | None = None, *, shows_quantities: bool = False
+    function: Callable[..., Any],
+    name: str | None = None,
+    *,
+    shows_quantities: bool = False,
+    around: Callable[[Callable[..., Any]], Callable[..., Any]] = lambda run: run,
 ) -> click.Command:
     """The command that a function is: its parameters are marked, its docstring is the help.
 
     `name`: that of the function without it; `shows_quantities`: whether there are ``--units`` and
-    ``--digits``. Options have the order of the parameters. A parameter without a mark is a `TypeError`.
+    ``--digits``; `around`: wraps what is called with the values of all options. Options have the order of the
+    parameters. A parameter without a mark is a `TypeError`.
     """
-    hints = get_type_hints(function, include_extras=True)
-    params = [
-        _param(hints[parameter.name], parameter) for parameter in signature(function).parameters.values()
-    ]
+    params = [_param(*each) for each in _leaves(function)]
+
+    def run(**given: Any) -> Any:
+        return function(**_taken(function, given))
+
     if shows_quantities:
         params += [_units_option(), _digits_option()]
     about = cleandoc(function.__doc__ or "")
     words = name or function.__name__.replace("_", "-")
     rest = any(parameter.nargs == -1 and parameter.type is click.UNPROCESSED for parameter in params)
     settings: dict[str, Any] = {**HELP, "allow_interspersed_args": not rest}
-    return click.Command(words, params=params, help=about, callback=function, context_settings=settings)
+    return click.Command(words, params=params, help=about, callback=around(run), context_settings=settings)
 
 
 def _units_option() -> click.Option:
@@ -130,13 +159,58 @@ def _asked(context: click.Context) -> OutUnits:
     return known
 
 
-def _param(hint: Any, parameter: Parameter) -> click.Parameter:
+def _marked(make: Callable[..., Any], types: Mapping[str, Any] | None = None) -> Iterator[tuple[Any, ...]]:
+    """Parameters of a function or group: its mark, its type, and the parameter with name and default."""
+    hints = get_type_hints(make, include_extras=True) if types is None else types
+    known = signature(make).parameters
+    for name in known if types is None else types:
+        marks = getattr(hints[name], "__metadata__", ())
+        mark = next((mark for mark in marks if isinstance(mark, Option | Value | Argument | Group)), None)
+        if mark is None or get_origin(hints[name]) is not Annotated:
+            raise TypeError(f"{name}: its type has no mark Option, Value, Argument or Group")
+        yield mark, hints[name].__origin__, known[name]
+
+
+def _leaves(make: Callable[..., Any], types: Mapping[str, Any] | None = None) -> Iterator[tuple[Any, ...]]:
+    """Parameters on the command line, those of groups in the place of the group."""
+    for mark, hint, parameter in _marked(make, types):
+        if isinstance(mark, Group):
+            yield from _leaves(*mark)
+        else:
+            yield mark, hint, parameter
+
+
+def _taken(
+    make: Callable[..., Any], given: Mapping[str, Any], types: Mapping[str, Any] | None = None
+) -> dict[str, Any]:
+    """What a function or group takes of the values of all options."""
+    taken = {}
+    for mark, _, parameter in _marked(make, types):
+        name = parameter.name
+        if isinstance(mark, Group):
+            taken[name] = mark.make(**_taken(mark.make, given, mark.types))
+        else:
+            is_text = isinstance(mark, Value) and given[name] is not None
+            taken[name] = option_value(mark.name, given[name], mark.of) if is_text else given[name]
+    return taken
+
+
+def _param(mark: Option | Value | Argument, hint: Any, parameter: Parameter) -> click.Parameter:
     """Option or argument of the command line for a parameter."""
-    marks = getattr(hint, "__metadata__", ())
-    mark = next((mark for mark in marks if isinstance(mark, Option | Argument)), None)
-    if mark is None or get_origin(hint) is not Annotated:
-        raise TypeError(f"{parameter.name}: its type has no mark Option or Argument")
-    kind, several = _kind(hint.__origin__)
+    if isinstance(mark, Value):
+        from linkwright.kernel.units.kinds import Kind
+
+        kind = mark.of if isinstance(mark.of, Kind) else mark.of.kind
+        metavar = mark.metavar or kind.noun.split()[-1].upper()
+        return click.Option(
+            [parameter.name, mark.name],
+            metavar=metavar,
+            help=mark.help,
+            default=mark.default,
+            show_default=mark.default is not None,
+            required=parameter.default is Parameter.empty and mark.default is None,
+        )
+    kind, several = _kind(hint)
     optional = parameter.default is not Parameter.empty
     given: dict[str, Any] = {"callback": _list} if several else {}
     if optional and not several:

@@ -5,6 +5,6 @@
 | `optimise` | ``linkwright optimise`` |
 | `fit` | ``linkwright fit`` |
 | `tolerance` | ``linkwright tolerance`` |
-| `study_file` | The option ``--study`` of commands that are presets of studies |
+| `study_file` | The study file of a command; the option ``--study`` of commands that are presets of studies |
 | `sweep` | ``linkwright sweep`` and ``linkwright sweep show`` |
 """

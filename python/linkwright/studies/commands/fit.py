@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets
-from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import FolderOutput, Level, to_folder
 from linkwright.kernel.command.parameter import Option
-from linkwright.studies.commands.sweep import StudyArgument
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.later import later
+from linkwright.studies.commands.study_file import Study, StudyFile
 
 if TYPE_CHECKING:
     from linkwright.studies.fit import Fit
@@ -19,83 +20,64 @@ Recorded = Annotated[
     Path | None,
     Option(
         "--record",
-        metavar="CSV",
-        help="CSV file with a header such as `time [s], speed [rpm]`. Default: that of the study.",
+        "CSV",
+        "CSV file with a header such as `time [s], speed [rpm]`. Default: that of the study.",
     ),
 ]
 Vary = Annotated[
     list[str] | None,
     Option(
         "--vary",
-        metavar="ADDRESS[=LOW:HIGH]",
-        help='Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
+        "ADDRESS[=LOW:HIGH]",
+        'Entry of a machine file to fit, such as  "drive.flywheel.inertia=50:200". Repeatable.',
     ),
 ]
 Motion = Annotated[
     Literal["run_up", "run_down", "coast", "steady_state", "manoeuvre"] | None,
     Option("--motion", help="Recorded motion. Default: that of the study, or run_down."),
 ]
-Level = Annotated[float, Option("--level", metavar="P", help="Confidence level of the intervals.")]
-Out = Annotated[Path | None, out_option("Write the fitted machine, a figure and results.json there.")]
+To = Annotated[FolderOutput, to_folder("Write the fitted machine, a figure and results.json there.")]
 
 
 def fit(
-    file: StudyArgument,
+    file: Study,
     record: Recorded = None,
     vary: Vary = None,
     motion: Motion = None,
     level: Level = 0.95,
-    set: Sets = None,
-    allow_outside: Outside = False,
-    json: Json = False,
-    out: Out = None,
-    force: Force = False,
+    *,
+    to: To,
 ) -> None:
     """Fit numbers of a machine to a measured record, with confidence intervals.
 
     FILE is a study with a table [fit], or a machine file with --vary. Exit code 1 if the record does not tell
     all that is sought.
     """
-    from linkwright.machine.write import dumps
     from linkwright.studies.fit import fit as compute
     from linkwright.studies.record import read_record
-    from linkwright.studies.tables import fit_tables
 
-    folder = output_folder(out, force=force)
-    plan = _plan(file, vary or [], motion, set or [], allow_outside=allow_outside)
-    fitted = compute(
-        plan, read_record(_record(file, record, plan, allow_outside=allow_outside), plan.machine), level=level
+    plan = _plan(file, vary or [], motion)
+    fitted = compute(plan, read_record(_record(file, record, plan), plan.machine), level=level)
+    answer = Answer(
+        machine=plan.machine,
+        names=plan.columns,
+        results={"fit": fitted},
+        findings=[f"{direction.words}." for direction in fitted.directions if not direction.is_determined],
+        warnings=[f"{warning}." for warning in fitted.warnings],
+        head=_head(plan.machine.name, fitted),
+        tables=later("studies.tables:fit_tables", fitted),
+        files={"fitted.toml": later("machine.write:dumps", fitted.machine)},
+        figures={"fit": later("studies.figures:fit_figure", fitted)},
     )
-    hand_over(
-        Answer(
-            machine=plan.machine.name,
-            names=plan.columns,
-            units=plan.machine.units,
-            results=lambda curves: {"fit": fitted.to_dict(curves=curves)},
-            findings=[
-                f"{direction.words}." for direction in fitted.directions if not direction.is_determined
-            ],
-            warnings=[f"{warning}." for warning in fitted.warnings],
-            head=lambda: _head(plan.machine.name, fitted),
-            tables=lambda: fit_tables(fitted),
-            files=lambda: {"fitted.toml": dumps(fitted.machine)},
-            figures=lambda: _figures(fitted),
-        ),
-        json=json,
-        folder=folder,
-    )
+    to.hand_over(answer)
 
 
-def _plan(
-    file: Path, vary: list[str], motion: str | None, changes: list[str], *, allow_outside: bool
-) -> StudyPlan:
+def _plan(file: StudyFile, vary: list[str], motion: str | None) -> StudyPlan:
     """The study of a file, or that of a machine file and of what varies."""
-    from linkwright.kernel.errors import InputError
-    from linkwright.machine.read import read
-    from linkwright.studies.read import new_study, read_study
+    from linkwright.studies.read import new_study
 
     if vary:
-        machine = read(file, changes, allow_outside=allow_outside)
+        machine = file.read()
         variables: dict[str, Any] = {}
         for text in vary:
             name, variable = _variable(text)
@@ -103,17 +85,16 @@ def _plan(
                 raise InputError(f"--vary: found {variable['address']} twice, expected each entry once")
             variables[name] = variable
         return new_study(machine, {"variables": variables, "fit": {"motion": motion or "run_down"}})
-    changes = [*changes, f"study.fit.motion={motion}"] if motion else changes
-    plan = read_study(file, changes, allow_outside=allow_outside)
+    plan = file.study([f"study.fit.motion={motion}"] if motion else [])
     if plan.study.fit is None:
-        raise InputError(f"{file}: found no table [fit], expected one, or --vary ADDRESS of a machine file")
+        raise InputError(
+            f"{file.file}: found no table [fit], expected one, or --vary ADDRESS of a machine file"
+        )
     return plan
 
 
 def _variable(text: str) -> tuple[str, dict[str, Any]]:
     """A variable out of ``ADDRESS`` or ``ADDRESS=LOW:HIGH``, named as its address with other separators."""
-    from linkwright.kernel.errors import InputError
-
     address, mark, ends = text.partition("=")
     name = address.strip().replace(".", "_").replace('"', "")
     if not mark:
@@ -132,9 +113,8 @@ def _value(text: str) -> float | str:
         return text.strip()
 
 
-def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: bool) -> Path:
+def _record(file: StudyFile, record: Path | None, plan: StudyPlan) -> Path:
     """The file of the record; one that a study names lies in its folder."""
-    from linkwright.kernel.errors import InputError
     from linkwright.kernel.files.named_file import named_file
     from linkwright.studies.read import study_file
 
@@ -143,8 +123,8 @@ def _record(file: Path, record: Path | None, plan: StudyPlan, *, allow_outside: 
     own = plan.study.fit.record if plan.study.fit is not None else None
     if own is None:
         raise InputError("--record: found nothing, expected a file with what was measured")
-    folder = study_file(file).parent
-    return named_file(own, folder, "fit.record", allow_outside=allow_outside)
+    folder = study_file(file.file).parent
+    return named_file(own, folder, "fit.record", allow_outside=file.allow_outside)
 
 
 def _head(name: str, fitted: Fit) -> str:
@@ -158,9 +138,3 @@ def _head(name: str, fitted: Fit) -> str:
     lines = [name, f"{samples} samples of {channels}; derivatives {how}; noise {noise}"]
     weakest = next((direction for direction in fitted.directions if direction.is_determined), None)
     return "\n".join([*lines, *([] if weakest is None else [f"Worst determined: {weakest.words}."])])
-
-
-def _figures(fitted: Fit) -> dict[str, Any]:
-    from linkwright.studies.figures import fit_figure
-
-    return {"fit": fit_figure(fitted)}

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
-from linkwright.kernel.command.out import Force, Out
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Output, Seed, belong_to, to_file
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import FindingError
-from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings
+from linkwright.kernel.later import later
+from linkwright.studies.commands.study_file import Study
+from linkwright.studies.commands.sweep import one_by_one_warnings
 
 if TYPE_CHECKING:
     from linkwright.studies.front import Front
@@ -19,12 +20,7 @@ if TYPE_CHECKING:
 
 Evaluations = Annotated[
     int,
-    Option(
-        "--evaluations",
-        metavar="N",
-        help="Maximum number of machines for each combination of values.",
-        min=10,
-    ),
+    Option("--evaluations", "N", "Maximum number of machines for each combination of values.", min=10),
 ]
 Way = Annotated[
     Literal["both", "global", "gradient"],
@@ -33,40 +29,31 @@ Way = Annotated[
         help="both: CMA-ES, then derivatives; global: CMA-ES; gradient: derivatives from several starts.",
     ),
 ]
-Starts = Annotated[int, Option("--starts", metavar="N", help="Number of starts of --method gradient.", min=1)]
-Points = Annotated[
-    int, Option("--points", metavar="N", help="Number of machines of the front of two goals.", min=3)
-]
-Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
-
+Starts = Annotated[int, Option("--starts", "N", "Number of starts of --method gradient.", min=1)]
+Points = Annotated[int, Option("--points", "N", "Number of machines of the front of two goals.", min=3)]
 Log = Annotated[
     Path | None,
-    Option("--log", metavar="FILE", help="Log of the search; the same command resumes a search from it."),
+    Option("--log", "FILE", "Log of the search; the same command resumes a search from it."),
 ]
 
 
 def optimise(
-    file: StudyArgument,
-    set: Sets = None,
-    allow_outside: Outside = False,
+    file: Study,
     evaluations: Evaluations = 4000,
     seed: Seed = 0,
     method: Way = "both",
     starts: Starts = 8,
     points: Points = 9,
     log: Log = None,
-    json: Json = False,
-    out: Out = None,
-    force: Force = False,
+    *,
+    to: Annotated[Output, to_file("Write there.")],
 ) -> None:
     """The best machine by the goal of a study, within its constraints; with --out as a machine file.
 
     Of two goals the machines of which none is better in both; with --out that in the middle. Exit code 1 if
     none keeps the constraints.
     """
-    from linkwright.studies.read import read_study
-
-    plan = read_study(file, set or [], allow_outside=allow_outside)
+    plan = file.study()
     belong_to(
         *(
             ("--method both or global", "evaluations")
@@ -74,72 +61,51 @@ def optimise(
             else ("--method gradient", "starts")
         )
     )
+    search = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts, "log": log}
     if len(plan.study.goals) == 2:
-        options = {"seed": seed, "method": method, "starts": starts, "log": log}
-        _hand_over_front(plan, points, evaluations, options, json=json, out=out, force=force)
+        to.hand_over(_front(plan, points, search))
         return
     belong_to("a study of two goals", "points")
-    search = {"evaluations": evaluations, "seed": seed, "method": method, "starts": starts, "log": log}
-    hand_over_optimum(plan, search, json=json, out=Path(out) if out else None, force=force)
+    to.hand_over(optimum_answer(plan, search))
 
 
-def hand_over_optimum(
-    plan: StudyPlan, options: dict[str, Any], *, json: bool, out: Path | None, force: bool, untried: str = ""
-) -> None:
+def optimum_answer(plan: StudyPlan, options: dict[str, Any], untried: str = "") -> Answer:
     """The best machine of a study, or why there is none, with what was left `untried`."""
-    from linkwright.machine.write import dumps
     from linkwright.studies.optimise import optimise as compute
-    from linkwright.studies.tables import optimum_tables
 
     try:
         optimum = compute(plan, **options)
     except FindingError as error:
-        hand_over(Answer(machine=plan.machine.name, findings=[f"{error}{untried}"]), json=json)
-        return
-    answer = Answer(
-        machine=plan.machine.name,
+        return Answer(machine=plan.machine, findings=[f"{error}{untried}"])
+    return Answer(
+        machine=plan.machine,
         names=plan.columns,
-        units=plan.machine.units,
-        results=lambda _: {"optimum": optimum.to_dict()},
+        results={"optimum": optimum},
         findings=optimum.findings,
         warnings=[
             *_flat_warnings(optimum),
             *([optimum.fast_starts] if optimum.fast_starts else []),
             *one_by_one_warnings(optimum.one_by_one),
         ],
-        head=lambda: _head(plan.machine.name, optimum),
-        tables=lambda: optimum_tables(optimum, plan.units),
-        machine_file=lambda: dumps(optimum.machine),
+        head=_head(plan.machine.name, optimum),
+        tables=later("studies.tables:optimum_tables", optimum, plan.units),
+        machine_file=later("machine.write:dumps", optimum.machine),
     )
-    hand_over(answer, json=json, out=out, force=force)
 
 
-def _hand_over_front(
-    plan: StudyPlan,
-    points: int,
-    evaluations: int,
-    options: dict[str, Any],
-    *,
-    json: bool,
-    out: Path | None,
-    force: bool,
-) -> None:
+def _front(plan: StudyPlan, points: int, options: dict[str, Any]) -> Answer:
     """The machines of which none is better in both goals."""
-    from linkwright.machine.write import dumps
     from linkwright.studies.front import front
-    from linkwright.studies.tables import front_tables
 
     try:
-        best = front(plan, points, evaluations, **options)
+        best = front(plan, points, **options)
     except FindingError as error:
-        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
-        return
+        return Answer(machine=plan.machine, findings=[str(error)])
     middle = best.machines[len(best.machines) // 2]
-    answer = Answer(
-        machine=plan.machine.name,
+    return Answer(
+        machine=plan.machine,
         names=plan.columns,
-        units=plan.machine.units,
-        results=lambda _: {"front": best.to_dict()},
+        results={"front": best},
         warnings=[
             *dict.fromkeys(text for machine in best.machines for text in _flat_warnings(machine)),
             *(f"no machine has {limit}: {reason}" for limit, reason in best.failed.items()),
@@ -147,11 +113,10 @@ def _hand_over_front(
             *(f"Machine {n}: {one.fast_starts}" for n, one in enumerate(best.machines, 1) if one.fast_starts),
             *one_by_one_warnings(best.one_by_one),
         ],
-        head=lambda: f"{plan.machine.name}\n{best.n_evaluations} machines computed",
-        tables=lambda: front_tables(best, plan.units),
-        machine_file=lambda: dumps(middle.machine),
+        head=f"{plan.machine.name}\n{best.n_evaluations} machines computed",
+        tables=later("studies.tables:front_tables", best, plan.units),
+        machine_file=later("machine.write:dumps", middle.machine),
     )
-    hand_over(answer, json=json, out=Path(out) if out else None, force=force)
 
 
 def _short_warnings(best: Front, points: int) -> list[str]:

@@ -6,74 +6,64 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import FolderOutput, Output, to_folder, to_screen
 from linkwright.kernel.command.console import progress_bar
-from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.out import out_option
 from linkwright.kernel.command.parameter import Argument, Option
+from linkwright.kernel.later import at_place, later
+from linkwright.studies.commands.study_file import Study
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from linkwright.studies.figures import StudyRows
     from linkwright.studies.folder import SweepFolder
     from linkwright.studies.plan import StudyPlan
     from linkwright.studies.sweep import Sweep
 
 
-StudyArgument = Annotated[
-    Path, Argument(metavar="FILE", help="A study file, or a machine file with a table `study`.")
-]
-Folder = Annotated[Path, Argument(metavar="DIR", help="Folder of a sweep.")]
+Folder = Annotated[Path, Argument("DIR", "Folder of a sweep.")]
 Into = Annotated[Path, out_option("Folder of the results; an incomplete one is resumed.")]
-Drawn = Annotated[Path | None, out_option("Write figures and results.json there.")]
+Drawn = Annotated[FolderOutput, to_folder("Write figures and results.json there.")]
 Chunks = Annotated[
     str | None,
-    Option("--chunks", metavar="A:B", help="Compute only the files A to B - 1, as one of many jobs."),
+    Option("--chunks", "A:B", "Compute only the files A to B - 1, as one of many jobs."),
 ]
-Workers = Annotated[int, Option("--workers", metavar="N", help="Number of processes.", min=1)]
+Workers = Annotated[int, Option("--workers", "N", "Number of processes.", min=1)]
 Cluster = Annotated[
     str,
-    Option(
-        "--cluster",
-        metavar="ADDRESS",
-        help='Dask scheduler whose workers compute, such as "tcp://host:8786".',
-    ),
+    Option("--cluster", "ADDRESS", 'Dask scheduler whose workers compute, such as "tcp://host:8786".'),
 ]
 
 
 def sweep(
-    file: StudyArgument,
+    file: Study,
     out: Into,
-    set: Sets = None,
-    allow_outside: Outside = False,
     chunks: Chunks = None,
     workers: Workers = 1,
     cluster: Cluster = "",
-    json: Json = False,
+    *,
+    to: Annotated[Output, to_screen()],
 ) -> None:
     """Compute the rows of a study into a folder; one that was stopped goes on.
 
     Rows that fail keep their reason. Exit code 1 if none has an answer.
     """
-    from linkwright.studies.read import read_study
     from linkwright.studies.sweep import sweep as compute
 
-    plan = read_study(file, set or [], allow_outside=allow_outside)
+    plan = file.study()
     with rows_bar() as watch:
         share = _share(chunks)
         swept = compute(plan, out, chunks=share, workers=workers, cluster=cluster, watch=watch)
-    hand_over(_answer(plan, swept, plan.units), json=json)
+    to.hand_over(_answer(plan, swept, plan.units))
 
 
-def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = False) -> None:
+def show(folder: Folder, *, to: Drawn) -> None:
     """Show a sweep: its extremes, why rows failed, and pictures that suit it.
 
     One variable gives curves, a grid of two gives maps with contours, and more give a scatter matrix and
@@ -82,12 +72,11 @@ def show(folder: Folder, out: Drawn = None, force: Force = False, json: Json = F
     from linkwright.studies.folder import opened, plan_of
     from linkwright.studies.sweep import summary
 
-    into = output_folder(out, force=force)
     known = opened(folder)
     plan = plan_of(known.manifest)
     extremes = summary(known, plan.responses)
-    answer = replace(_answer(plan, extremes, known.units), figures=partial(_figures, known))
-    hand_over(answer, json=json, folder=into)
+    answer = _answer(plan, extremes, known.units)
+    to.hand_over(replace(answer, figures=lambda: at_place("studies.figures:figures")(shown_of(known))))
 
 
 def one_by_one_warnings(one_by_one: dict[str, int]) -> list[str]:
@@ -131,7 +120,6 @@ def _share(text: str | None) -> tuple[int, int] | None:
 def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
     """Counts, extremes, and what failed."""
     from linkwright.studies.rows import fast_start_warnings
-    from linkwright.studies.tables import sweep_tables
 
     solved = swept.n_done - swept.n_failed
     missing = swept.n_rows - swept.n_done
@@ -144,24 +132,14 @@ def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
     if missing:
         warnings.append(f"{missing} rows of {swept.n_rows} are not computed yet.")
     return Answer(
-        machine=plan.machine.name,
+        machine=plan.machine,
         names=plan.columns,
-        units=plan.machine.units,
-        results=lambda _: {"sweep": swept.to_dict()},
+        results={"sweep": swept},
         findings=[] if solved else ["No row has a result."],
         warnings=warnings,
-        head=lambda: (
-            f"{plan.machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved"
-        ),
-        tables=partial(sweep_tables, swept, plan, units),
+        head=f"{plan.machine.name}\n{swept.n_done} of {swept.n_rows} rows in {swept.path}, {solved} solved",
+        tables=later("studies.tables:sweep_tables", swept, plan, units),
     )
-
-
-def _figures(folder: SweepFolder) -> dict[str, Figure]:
-    """Pictures of the rows."""
-    from linkwright.studies.figures import figures
-
-    return figures(shown_of(folder))
 
 
 def shown_of(folder: SweepFolder) -> StudyRows:

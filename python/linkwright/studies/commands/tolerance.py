@@ -5,71 +5,65 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import Json, Outside, Sets, belong_to
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import Output, Seed, belong_to, to_screen
 from linkwright.kernel.command.parameter import Option
-from linkwright.studies.commands.sweep import StudyArgument, one_by_one_warnings, unwatched_contacts
+from linkwright.kernel.errors import FindingError
+from linkwright.kernel.later import later
+from linkwright.studies.commands.study_file import Study
+from linkwright.studies.commands.sweep import one_by_one_warnings, unwatched_contacts
 
 if TYPE_CHECKING:
     from linkwright.studies.allocation import Allocation
     from linkwright.studies.plan import StudyPlan
     from linkwright.studies.tolerance import Tolerance
 
-RowCount = Annotated[int, Option("--rows", metavar="N", help="Number of random machines.", min=2)]
-Seed = Annotated[int, Option("--seed", metavar="N", help="Seed of the random generator.", min=0)]
+RowCount = Annotated[int, Option("--rows", "N", "Number of random machines.", min=2)]
 Blocks = Annotated[
     int,
-    Option(
-        "--indices", metavar="N", help="Number of blocks for Sobol indices, such as 1000; 0 for none.", min=0
-    ),
+    Option("--indices", "N", "Number of blocks for Sobol indices, such as 1000; 0 for none.", min=0),
 ]
 
 Wanted = Annotated[
     float | None,
     Option(
         "--allocate",
-        metavar="SHARE",
-        help="Find the cheapest tolerances for this yield, such as 0.99, from the `cost` of each.",
+        "SHARE",
+        "Find the cheapest tolerances for this yield, such as 0.99, from the `cost` of each.",
     ),
 ]
-Power = Annotated[
-    float, Option("--cost-power", metavar="K", help="Cost of a tolerance f times as wide: cost / f^K.")
-]
+Power = Annotated[float, Option("--cost-power", "K", "Cost of a tolerance f times as wide: cost / f^K.")]
 
 
 def tolerance(
-    file: StudyArgument,
-    set: Sets = None,
-    allow_outside: Outside = False,
+    file: Study,
     rows: RowCount = 10_000,
     seed: Seed = 0,
     indices: Blocks = 0,
     wanted: Wanted = None,
     power: Power = 1.0,
-    json: Json = False,
+    *,
+    to: Annotated[Output, to_screen()],
 ) -> None:
     """How results scatter with the tolerances of a machine, what contributes, and the yield within limits.
 
     Exit code 1 if no machine within the tolerances keeps the constraints.
     """
     from linkwright.studies.plan import with_tolerances
-    from linkwright.studies.read import read_study
     from linkwright.studies.rows import fast_start_warnings
-    from linkwright.studies.tables import tolerance_tables
     from linkwright.studies.tolerance import tolerance as compute
 
-    plan = with_tolerances(read_study(file, set or [], allow_outside=allow_outside))
+    plan = with_tolerances(file.study())
     if wanted is not None:
         belong_to("the scatter of the tolerances as they are, without --allocate", "indices")
-        _hand_over_allocation(plan, wanted, power, rows, seed, json=json)
+        to.hand_over(_allocation(plan, wanted, power, rows, seed))
         return
     belong_to("--allocate", "power")
     scatter = compute(plan, rows, seed=seed, indices=indices)
     answer = Answer(
-        machine=plan.machine.name,
+        machine=plan.machine,
         names=plan.columns,
-        units=plan.machine.units,
-        results=lambda _: {"tolerance": scatter.to_dict()},
+        results={"tolerance": scatter},
         findings=["No machine within the tolerances keeps all limits."] if scatter.share_within == 0 else [],
         warnings=[
             *_failed(scatter),
@@ -84,10 +78,10 @@ def tolerance(
             *one_by_one_warnings(scatter.one_by_one),
             *unwatched_contacts(plan),
         ],
-        head=lambda: _head(plan, scatter),
-        tables=lambda: tolerance_tables(scatter, plan.units),
+        head=_head(plan, scatter),
+        tables=later("studies.tables:tolerance_tables", scatter, plan.units),
     )
-    hand_over(answer, json=json)
+    to.hand_over(answer)
 
 
 def _failed(scatter: Tolerance) -> list[str]:
@@ -126,39 +120,32 @@ def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
     )
 
 
-def _hand_over_allocation(
-    plan: StudyPlan, wanted: float, power: float, rows: int, seed: int, *, json: bool
-) -> None:
+def _allocation(plan: StudyPlan, wanted: float, power: float, rows: int, seed: int) -> Answer:
     """The cheapest tolerances for a yield."""
-    from linkwright.kernel.errors import FindingError
     from linkwright.studies.allocation import allocate
     from linkwright.studies.rows import fast_start_warnings
-    from linkwright.studies.tables import allocation_tables
 
     try:
         allocation = allocate(plan, wanted, power=power, rows=rows, seed=seed)
     except FindingError as error:
-        hand_over(Answer(machine=plan.machine.name, findings=[str(error)]), json=json)
-        return
+        return Answer(machine=plan.machine, findings=[str(error)])
     low, high = 100 * allocation.share_low, 100 * allocation.share_high
     head = (
         f"{plan.machine.name}\ncost {allocation.cost:.4g} instead of {allocation.cost_before:.4g}; yield "
         f"{100 * allocation.share_within:.4g} % ({low:.4g} to {high:.4g} %) instead of "
         f"{100 * allocation.share_before:.4g} %\n{_held(allocation)}"
     )
-    answer = Answer(
-        machine=plan.machine.name,
+    return Answer(
+        machine=plan.machine,
         names=plan.columns,
-        units=plan.machine.units,
-        results=lambda _: {"allocation": allocation.to_dict()},
+        results={"allocation": allocation},
         warnings=[
             *fast_start_warnings(allocation.fast_starts),
             *one_by_one_warnings(allocation.one_by_one),
         ],
-        head=lambda: head,
-        tables=lambda: allocation_tables(allocation, plan.units),
+        head=head,
+        tables=later("studies.tables:allocation_tables", allocation, plan.units),
     )
-    hand_over(answer, json=json)
 
 
 def _held(allocation: Allocation) -> str:

@@ -6,31 +6,31 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from linkwright.kernel.command.answer import Answer, hand_over
-from linkwright.kernel.command.common import File, Json, Outside, Sets
-from linkwright.kernel.command.out import Force, out_option, output_folder
+from linkwright.kernel.command.answer import Answer
+from linkwright.kernel.command.common import FolderOutput, to_folder
 from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.later import later
+from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from linkwright.kernel.page.content import Content
-    from linkwright.kernel.page.table import Table
     from linkwright.torsion.study import TorsionStudy
 
-Folder = Annotated[
-    Path | None,
-    out_option("Write report.html, results.json, CSV of all curves, and all figures as SVG and PNG there."),
-]
 Curves = Annotated[
     bool, Option("--curves", help="With --json: every order over the speed, and the manoeuvre over time.")
+]
+To = Annotated[
+    FolderOutput,
+    to_folder(
+        "Write report.html, results.json, CSV of all curves, and all figures as SVG and PNG there.",
+        curves=Curves,
+    ),
 ]
 Holzer = Annotated[
     list[str] | None,
     Option(
         "--holzer",
-        metavar="FREQUENCY",
-        help='Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
+        "FREQUENCY",
+        'Holzer\'s table at a frequency: 45 (Hz), "20 rad/s", "300 rpm", f_3. Repeatable.',
     ),
 ]
 
@@ -38,24 +38,13 @@ MeasuredFile = Annotated[
     Path | None,
     Option(
         "--measured",
-        metavar="FILE.csv",
-        help="Measured curves over the speed, drawn over the computed ones; header: speed [rpm], line "
-        "[MPa], …",
+        "FILE.csv",
+        "Measured curves over the speed, drawn over the computed ones; header: speed [rpm], line [MPa], …",
     ),
 ]
 
 
-def torsion(
-    file: File,
-    set: Sets = None,
-    allow_outside: Outside = False,
-    json: Json = False,
-    curves: Curves = False,
-    holzer: Holzer = None,
-    measured: MeasuredFile = None,
-    out: Folder = None,
-    force: Force = False,
-) -> None:
+def torsion(file: File, holzer: Holzer = None, measured: MeasuredFile = None, *, to: To) -> None:
     """Torsional vibration of a train: modes, and under its torques all that its parts bear.
 
     Natural frequencies, shapes and nodes; with torques and [train.run] in the file also critical speeds,
@@ -63,34 +52,27 @@ def torsion(
     exceeded.
     """
     from linkwright.kernel.command.console import progress
-    from linkwright.machine.read import read
     from linkwright.torsion.limits.overlay import read_measured
     from linkwright.torsion.study import torsion_study
 
-    folder = output_folder(out, force=force)
-    machine = read(file, set or [], allow_outside=allow_outside)
+    machine = file.read()
     overlaid = None if measured is None else read_measured(measured)
     with progress("computing"):
         study = torsion_study(machine, holzer=holzer or (), measured=overlaid)
-    hand_over(_answer(study), json=json, folder=folder, curves=curves)
-
-
-def _answer(study: TorsionStudy) -> Answer:
-    """All that was found of the train."""
-    return Answer(
-        machine=study.machine.name,
-        units=study.machine.units,
+    answer = Answer(
+        machine=machine,
         results=partial(_results, study),
         findings=study.findings,
         warnings=study.warnings,
         extra={"balance": study.balance} if study.balance else {},
-        head=lambda: study.balance,
-        tables=partial(_tables, study),
+        head=study.balance,
+        tables=later("torsion.tables.torsion:study_tables", study),
         tail=partial(_tail, study),
         files=partial(_files, study),
-        figures=partial(_figures, study),
-        report=partial(_report, study),
+        figures=later("torsion.figures.captions:torsion_figures", study),
+        report=later("torsion.page:torsion_content", study),
     )
+    to.hand_over(answer)
 
 
 def _results(study: TorsionStudy, curves: bool) -> dict[str, Any]:
@@ -105,20 +87,12 @@ def _results(study: TorsionStudy, curves: bool) -> dict[str, Any]:
     return results
 
 
-def _tables(study: TorsionStudy) -> list[Table]:
-    """Tables for people."""
-    from linkwright.torsion.tables.torsion import study_tables
-
-    return list(study_tables(study))
-
-
 def _tail(study: TorsionStudy) -> str:
     """What measured curves say of the computed ones, and how the train may be operated."""
     from linkwright.torsion.tables.limits import measured_words
 
     lines = [measured_words(one) for one in study.overlays]
-    lines += [study.operation] if study.operation else []
-    return "".join(f"{line}\n" for line in lines)
+    return "\n".join([*lines, study.operation]).strip()
 
 
 def _files(study: TorsionStudy) -> dict[str, str]:
@@ -138,20 +112,3 @@ def _files(study: TorsionStudy) -> dict[str, str]:
     if study.transient is not None:
         files["manoeuvre.csv"] = manoeuvre_csv(study.transient)
     return files
-
-
-def _report(study: TorsionStudy) -> Content:
-    """What its report says."""
-    from linkwright.torsion.page import torsion_content
-
-    return torsion_content(study)
-
-
-def _figures(study: TorsionStudy) -> dict[str, Figure]:
-    """The figures of the report, under names that files may have."""
-    from linkwright.kernel.files.output import file_names
-    from linkwright.torsion.figures.captions import torsion_figures
-
-    drawn = {one.name: one.figure for one in torsion_figures(study)}
-    names = file_names(dict.fromkeys(drawn, ""))
-    return {names[name]: figure for name, figure in drawn.items()}
