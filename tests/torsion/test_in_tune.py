@@ -80,3 +80,17 @@ def test_a_shaft_at_its_held_frequency_bears_the_torque() -> None:
     # k = J ω²: b moves against a until its shaft bears all of the 10 N m, and a stands still.
     assert study.forced.shaft_torque_vibratory[last] == pytest.approx(10.0, rel=1e-12)
     assert study.findings == []
+
+
+def test_an_undamped_resonance_between_the_speeds_is_told() -> None:
+    """Without damping the torque is unbounded at √(k/J), J of both discs in series, whether or not it is sampled."""
+    inertias, stiffness = (2.0, 0.25), 2500.0
+    machine = lw.loads(
+        'format = 1\nname = "two discs"\n[train.discs.a]\ninertia = 2\n[train.discs.b]\ninertia = 0.25\n'
+        '[train.shafts.s]\nbetween = ["a", "b"]\nstiffness = 2500\n[train.excitations.t]\non = "b"\n'
+        'harmonics = [{ order = 1, torque = 10 }]\n[train.run]\nspeed_min = "859 rpm"\nspeed_max = "1050 rpm"\n'
+    )
+    resonance = np.sqrt(stiffness * (1 / inertias[0] + 1 / inertias[1])) * 30 / np.pi
+    study = lw.torsion_study(machine)
+    assert np.isinf(study.peaks.vibratory).all()
+    assert any(f"Speeds of {resonance:.5g} rpm are undamped" in text for text in study.warnings)

@@ -434,9 +434,12 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
             listed = ", ".join(one.outside)
             name = f"Crankshaft {one.engine}".rstrip()
             yield f"{name}: {listed} outside the range of IACS UR M53; its factor Q is no verdict."
-    if not np.isfinite(forced.shaft_torque_max).all():
-        rows = ~np.isfinite(forced.shaft_torque_max).all(axis=0)
-        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in forced.speeds[rows][:4])
+    unbounded = forced.speeds[~np.isfinite(forced.shaft_torque_max).all(axis=0)]
+    if study.peaks is not None:
+        # Between the speeds of the run too.
+        unbounded = np.unique(np.append(unbounded, study.peaks.speed[np.isinf(study.peaks.vibratory)]))
+    if len(unbounded):
+        rpm = ", ".join(f"{speed * 30 / np.pi:.5g}" for speed in unbounded[:4])
         yield f"Speeds of {rpm} rpm are undamped resonances: the amplitude there is unbounded."
     run = None if train is None else train.run
     if run is not None and not run.speed_min <= run.service <= run.speed_max:

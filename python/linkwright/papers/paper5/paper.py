@@ -89,7 +89,7 @@ def claim_verdict(data: dict[str, Any]) -> ClaimVerdict:
     claim, chosen = printed_claim(data), data["chosen"]
     # A knife that moves harmonically is π/2 times as fast at mid-stroke as in the mean.
     stroke = Stroke(chosen["stroke"], np.pi / 2)
-    small, large = head_diameter(chosen["root_diameters"], chosen["cut_height"]).tolist()
+    small, large = head_diameter(np.array(chosen["root_diameters"]), chosen["cut_height"]).tolist()
     offset, angles = chosen["offset"], np.radians(data["verdict"]["angles"])
     of_large = partial(length_verdict, claim, diameter=large, offset=offset, stroke=stroke)
     return ClaimVerdict(

@@ -72,15 +72,16 @@ function moving(canvas, scene) {
   };
 }
 
-/** Curves over one axis, about zero. @param {Paper} paper @param {{ x: number[], y: number[] }[]} curves */
+/** Curves over one axis, about zero. @param {Paper} paper @param {{ x: ArrayLike<number>, y: ArrayLike<number> }[]} curves */
 function paintCurves({ ctx, width, height, ink, series }, curves) {
-  const [xs, ys] = [curves.flatMap(({ x }) => x), [0, ...curves.flatMap(({ y }) => y)]];
-  const along = (/** @type {number} */ value, /** @type {number[]} */ all) => (value - Math.min(...all)) / (Math.max(...all) - Math.min(...all) || 1);
-  const place = (/** @type {number} */ x, /** @type {number} */ y) => [MARGIN + along(x, xs) * (width - 2 * MARGIN), height - MARGIN - along(y, ys) * (height - 2 * MARGIN)];
-  line(ctx, [place(xs[0], 0), place(xs[xs.length - 1], 0)]);
+  const ends = (/** @type {number[]} */ all) => [Math.min(...all), Math.max(...all) - Math.min(...all) || 1];
+  const [left, across] = ends(curves.flatMap(({ x }) => Array.from(x)));
+  const [low, high] = ends([0, ...curves.flatMap(({ y }) => Array.from(y))]);
+  const place = (/** @type {number} */ x, /** @type {number} */ y) => [MARGIN + ((x - left) / across) * (width - 2 * MARGIN), height - MARGIN - ((y - low) / high) * (height - 2 * MARGIN)];
+  line(ctx, [place(left, 0), place(left + across, 0)]);
   stroke(ctx, ink.soft, 1);
   curves.forEach(({ x, y }, n) => {
-    line(ctx, x.map((at, k) => place(at, y[k])));
+    line(ctx, Array.from(x, (at, k) => place(at, y[k])));
     stroke(ctx, series[n], 1.5);
   });
 }
