@@ -83,12 +83,13 @@ def test_a_shaft_at_its_held_frequency_bears_the_torque() -> None:
 
 
 def test_an_undamped_resonance_between_the_speeds_is_told() -> None:
-    """Without damping the torque is unbounded at √(k/J), J of both discs in series, whether or not it is sampled."""
+    """Without damping the torque is unbounded at √(k/J), J of both discs in series."""
     inertias, stiffness = (2.0, 0.25), 2500.0
     machine = lw.loads(
         'format = 1\nname = "two discs"\n[train.discs.a]\ninertia = 2\n[train.discs.b]\ninertia = 0.25\n'
         '[train.shafts.s]\nbetween = ["a", "b"]\nstiffness = 2500\n[train.excitations.t]\non = "b"\n'
-        'harmonics = [{ order = 1, torque = 10 }]\n[train.run]\nspeed_min = "859 rpm"\nspeed_max = "1050 rpm"\n'
+        "harmonics = [{ order = 1, torque = 10 }]\n"
+        '[train.run]\nspeed_min = "859 rpm"\nspeed_max = "1050 rpm"\n'
     )
     resonance = np.sqrt(stiffness * (1 / inertias[0] + 1 / inertias[1])) * 30 / np.pi
     study = lw.torsion_study(machine)
