@@ -54,11 +54,11 @@ _SAID = re.compile(r'\bsay\("([^"]+)"')
 
 
 def _page_words(content: Content) -> dict[str, Any]:
-    """Texts of the page's scripts in its language, its units of speed, and its decimal sign."""
+    """Texts of the page's scripts in its language, its units, and its decimal sign."""
     scripts = (path.read_text(encoding="utf-8") for path in sorted(_FOLDER.glob("*.js")))
     texts = {text: content.language.template(text) for script in scripts for text in _SAID.findall(script)}
     speeds = [scene["speed_unit"][0] for scene in content.scenes.values() if "speed_unit" in scene]
-    units = {unit: content.language.unit(unit) for unit in speeds}
+    units = {unit: content.language.unit(unit) for unit in (*speeds, "mm", "m/s")}
     return {"texts": texts, "units": units, "decimal": content.language.decimal}
 
 

@@ -134,7 +134,7 @@
     });
     const sign = (value, digits) => (value < 0 ? "−" : "+") + Math.abs(value).toFixed(digits);
     const knife = scene.rate ? `φ = ${(phaseAt(t) * 180 / Math.PI).toFixed(0).padStart(3, "\u2007")}°   ` : "";
-    state.textContent = `${knife}y = ${sign(1e3 * here[1], 1)} mm   ẏ = ${sign(speed(t), 2)} m/s`;
+    state.textContent = `${knife}y = ${decimal(sign(1e3 * here[1], 1))} ${WORDS.units.mm}   ẏ = ${decimal(sign(speed(t), 2))} ${WORDS.units["m/s"]}`;
   }
 
   let time = first, before = null, rest = 0;
