@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from linkwright.machine.analysis import Analysis, of
-from linkwright.machine.machine import Machine
-
-
-def _has_crank(machine: Machine) -> bool:
-    return machine.has_crank
-
 
 MOTION = Analysis(
     name="motion",
     words="Motion",
     lane="fast",
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     make=of("drive.study:made_motion"),
     tables=of("drive.tables_of_cycle:cycle_tables", "motion", "linkage"),
     figures=of("drive.figures_of_cycle:cycle_figures", "motion", "linkage"),
@@ -24,7 +20,7 @@ MOTION = Analysis(
 CYCLE = Analysis(
     name="cycle_motion",
     function=of("drive.cycle_motion:cycle_motion"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     is_of_study=False,
 )
 
@@ -32,7 +28,7 @@ REDUCTION = Analysis(
     name="reduction",
     words="Reduced inertia",
     function=of("drive.reduction:reduction"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_mass"),
     make=of("drive.study:made_reduction"),
     check=of("drive.study:check_drive"),
@@ -49,7 +45,7 @@ REDUCTION = Analysis(
 CONSTANT_ENERGY = Analysis(
     name="constant_energy",
     function=of("drive.evenness:constant_energy"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     make=of("drive.study:made_constant_energy"),
     tangents=of("drive.gradient_at_constant_energy:constant_energy_tangents"),
 )
@@ -59,20 +55,22 @@ STEADY = Analysis(
     words="Steady motion",
     lane="fast",
     function=of("drive.steady_state:steady_state"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_motor"),
     make=of("drive.study:made_steady_state"),
     warnings=of("drive.cautions:cautions", "machine", "reduction", "?steady_state"),
     tangents=of("drive.gradient:steady_derivatives"),
 )
 
-STEP_METHOD = Analysis(name="step_method", applies=_has_crank, make=of("drive.study:made_step_method"))
+STEP_METHOD = Analysis(
+    name="step_method", applies=attrgetter("has_crank"), make=of("drive.study:made_step_method")
+)
 
 RUN_UP = Analysis(
     name="run_up",
     words="Run-up",
     function=of("drive.run_up:run_up"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_run_up"),
     make=of("drive.study:made_run_up"),
     tangents=of("drive.gradient_in_time:run_up_tangents"),
@@ -82,7 +80,7 @@ RUN_DOWN = Analysis(
     name="run_down",
     words="Run-down",
     function=of("drive.run_up:run_down"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_run_down"),
     make=of("drive.study:made_run_down"),
     tangents=of("drive.gradient_in_time:run_down_tangents"),

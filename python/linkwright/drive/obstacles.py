@@ -6,12 +6,11 @@ from typing import Any
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import steady_state
-from linkwright.drive.study import has_motor
+from linkwright.drive.study import has_mass, has_motor
 from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.machine.analysis import Obstacle
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.drive_line import drive_inertia
 
 # Entries that make a machine move at all, until its motor is chosen.
 _MOTOR = {"drive.motor": {"kind": "constant_speed", "speed": "10 rad/s"}}
@@ -36,8 +35,7 @@ def no_motor(machine: Machine) -> Obstacle | None:
 
 def no_mass(machine: Machine) -> Obstacle | None:
     """A machine without masses and loads: a first body goes on a slider, or the moving point built last."""
-    inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
-    if machine.bodies or machine.loads or inertia:
+    if has_mass(machine):
         return None
     places = [*machine.mechanism.sliders, *reversed(machine.linkage.moving_points())]
     entries = {join(("bodies", places[0])): {"mass": "1 kg"}} if places else None
@@ -94,6 +92,6 @@ def no_run_down(machine: Machine) -> Obstacle | None:
 
 def no_shaft(machine: Machine) -> Obstacle | None:
     """A machine whose driveline does not twist."""
-    if machine.train is not None or (machine.drive is not None and machine.drive.twists):
+    if machine.twists:
         return None
     return no_motor(machine) or Obstacle("The driveline is rigid.", "Add an elastic crankshaft", _ELASTIC)

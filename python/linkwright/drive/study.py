@@ -52,7 +52,7 @@ _SPEEDS = 200
 def made_reduction(known: Results, findings: Findings) -> Reduction | None:
     """Reduced inertia and load; None where nothing but motion can be computed."""
     machine = known.machine
-    if _is_motion_alone(machine):
+    if not (has_mass(machine) or has_motor(machine)):
         # The travel of a screw ends, which is no fault of it.
         (findings.beside_of if is_screw(machine) else findings.of)(require_turn, machine)
         if machine.pumping_unit is None:
@@ -61,10 +61,10 @@ def made_reduction(known: Results, findings: Findings) -> Reduction | None:
     return findings.of(reduction, machine, n=INTERVALS)
 
 
-def _is_motion_alone(machine: Machine) -> bool:
-    """Whether there are no masses, no loads and no motor."""
+def has_mass(machine: Machine) -> bool:
+    """Whether there are masses or loads, a drive with inertia among them."""
     inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
-    return not (machine.bodies or machine.loads or has_motor(machine) or inertia)
+    return bool(machine.bodies or machine.loads or inertia)
 
 
 def made_constant_energy(known: Results, findings: Findings) -> ConstantEnergy | None:

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
 import numpy as np
 
@@ -241,6 +241,13 @@ class Result(Record):
         for kind in reversed(type(self).__mro__):
             names += [name for name, member in vars(kind).items() if isinstance(member, property)]
         return {name: getattr(self, name) for name in dict.fromkeys(names) if not name.startswith("_")}
+
+
+def result_within(owner: type, name: str) -> type[Result] | None:
+    """The kind of result that an attribute of a result is; None if it is none."""
+    hint = get_type_hints(owner).get(name)
+    kinds = (kind for kind in (hint, *get_args(hint)) if isinstance(kind, type) and issubclass(kind, Result))
+    return next(kinds, None)
 
 
 def finite(value: Any) -> Any:

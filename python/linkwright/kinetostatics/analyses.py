@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from linkwright.machine.analysis import Analysis, of
 
 FORCES = Analysis(
@@ -9,7 +11,7 @@ FORCES = Analysis(
     words="Forces",
     lane="fast",
     function=of("kinetostatics.forces:forces"),
-    applies=lambda machine: machine.has_crank,
+    applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_forces"),
     make=of("kinetostatics.study:made_forces"),
     tangents=of("kinetostatics.gradient:force_tangents"),
@@ -22,6 +24,6 @@ FORCES = Analysis(
 
 CONTACT_LOSSES = Analysis(
     name="contact_losses",
-    applies=lambda machine: machine.has_crank,
+    applies=attrgetter("has_crank"),
     make=of("kinetostatics.study:look_for_losses"),
 )

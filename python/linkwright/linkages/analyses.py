@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from linkwright.machine.analysis import Analysis, of
-from linkwright.machine.machine import Machine
-
-
-def _has_crank(machine: Machine) -> bool:
-    return machine.has_crank
-
 
 LINKAGE = Analysis(
     name="linkage",
     words="Extreme positions",
     function=of("linkages.cycle:linkage"),
-    applies=_has_crank,
+    applies=attrgetter("has_crank"),
     make=of("linkages.study:made_linkage"),
     tangents=of("linkages.gradient:linkage_tangents"),
     summary=of("linkages.study:mechanism_summary"),

@@ -84,9 +84,9 @@ class Analysis:
 
     `make` takes the `Results` of a study so far and its `Findings`, and gives the result, a function that
     gives it when it is asked for, results by the name of a part, or None; without it the `function` is called
-    with the machine. `tangents` takes machine and addresses, and gives
-    `Derivatives`. `check` takes machine and `Findings`, and gives what it has looked at, in words. `obstacle`
-    takes the machine. The others are of a study, see `Of`.
+    with the machine. `tangents` takes machine and addresses, and gives `Derivatives`. `check` takes machine
+    and `Findings`, and gives what it has looked at, in words. `obstacle` takes the machine. The others are of
+    a study, see `Of`.
     """
 
     name: str  # in ``--json``, studies, derivatives, the studio
@@ -97,6 +97,7 @@ class Analysis:
     options: Mapping[str, Any] = field(default_factory=dict)  # of the function, in a study
     applies: Callable[[Machine], bool] = _always
     parts: Callable[[Machine], tuple[str, ...]] | None = None  # names of parts, of an analysis of several
+    part: str = ""  # what a part is called, such as "cam"
     obstacle: Of | None = None
     is_of_study: bool = True  # whether a study has it
     is_motion: bool = False  # whether its tables and figures belong to the report's part on motion
@@ -217,7 +218,7 @@ class Results(Mapping[str, Result]):
             parts = [key for key in self._results if key.partition(".")[0] == analysis.name]
             for key in parts if analysis.headline else ():
                 names = analysis.parts(self.machine) if analysis.parts is not None else ()
-                before = f"cam {key.partition('.')[2] or names[0]}: " if names else ""
+                before = f"{analysis.part} {key.partition('.')[2] or names[0]}: " if names else ""
                 yield from few(self[key], analysis.headline, before)
 
     def shown(self, analyses: Iterable[Analysis], what: str) -> Iterator[Any]:

@@ -154,6 +154,11 @@ class Machine(WholeDescription):
         return table_html(self.name, rows)
 
     @property
+    def twists(self) -> bool:
+        """Whether it has shafts that twist: a train, or a driveline with an elastic part."""
+        return self.train is not None or (self.drive is not None and self.drive.twists)
+
+    @property
     def is_train_alone(self) -> bool:
         """Whether it is a torsional train and nothing else."""
         return self.train is not None and self.pumping_unit is None and _is_left_out(self)

@@ -22,14 +22,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, get_args, get_type_hints
+from typing import Any, get_type_hints
 
 from linkwright.app.subjects import ANALYSES
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.errors import InputError, cut
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, shown
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import result_within
 from linkwright.machine.analysis import Analysis
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
@@ -64,7 +64,7 @@ def usual_analysis(machine: Machine) -> str:
     motor = None if machine.drive is None else machine.drive.motor
     if motor is not None and not isinstance(motor, ConstantSpeedMotor):
         return "steady_state"
-    if machine.train is not None or (machine.drive is not None and machine.drive.twists):
+    if machine.twists:
         return "free_vibration"
     own = {
         "turning_moment": machine.turning_moment,
@@ -118,9 +118,9 @@ def _mark(kind: type, name: str) -> Label:
     within, _, rest = name.partition(".")
     if not rest:
         return shown(kind, name)
-    hint = get_type_hints(kind)[within]
-    kinds = [each for each in (hint, *get_args(hint)) if isinstance(each, type) and issubclass(each, Result)]
-    return _mark(kinds[0], rest)
+    inner = result_within(kind, within)
+    assert inner is not None, name
+    return _mark(inner, rest)
 
 
 def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from inspect import signature
-from typing import Any, NamedTuple, get_args, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from linkwright.app.subjects import ANALYSES as SUBJECTS
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, LinkwrightError, MachineError
 from linkwright.kernel.quantities import Label, declared, is_array
-from linkwright.kernel.result import Result
+from linkwright.kernel.result import Result, result_within
 from linkwright.kernel.units.reading import is_number
 from linkwright.machine.address import addresses, get, kind
 from linkwright.machine.machine import Machine
@@ -157,12 +157,8 @@ def _asked_for(first: str, owner: type, rest: list[str], response: Response) -> 
 
 def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:
     """The result within a result that names lead to, its name there, and what is left of them."""
-    if len(rest) > 1:
-        hint = get_type_hints(owner).get(rest[0])
-        for kind in (hint, *get_args(hint)):
-            if isinstance(kind, type) and issubclass(kind, Result):
-                return kind, rest[0], rest[1:]
-    return owner, "", rest
+    kind = result_within(owner, rest[0]) if len(rest) > 1 else None
+    return (owner, "", rest) if kind is None else (kind, rest[0], rest[1:])
 
 
 def require_place(machine: Machine, response: StudyResponse) -> None:

@@ -73,11 +73,6 @@ def _obstacle(analysis: Analysis, machine: Machine) -> dict[str, Any]:
     return {"obstacle": obstacle.words, "mend": obstacle.remedy, "entries": dict(obstacle.entries or {})}
 
 
-def has_train(machine: Machine) -> bool:
-    """Whether the machine has shafts that twist."""
-    return machine.train is not None or (machine.drive is not None and machine.drive.twists)
-
-
 @dataclass(frozen=True)
 class Answers:
     """What one lane has found."""
@@ -103,7 +98,7 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     `held`.
     """
     findings = Findings()
-    train = findings.of(train_view, machine) if has_train(machine) else None
+    train = findings.of(train_view, machine) if machine.twists else None
     views = () if train is None else (train,)
     if not machine.has_crank:
         return Answers([], findings.findings, findings.warnings, views=views)
@@ -143,7 +138,7 @@ def said(results: Any, lane: str, to: Language = ENGLISH) -> Answers:
 
 def lanes(machine: Machine) -> list[str]:
     """The lanes beside that a machine has, in their order."""
-    return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if has_train(machine) else [])]
+    return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if machine.twists else [])]
 
 
 def _study(results: Study, to: Language) -> Answers:

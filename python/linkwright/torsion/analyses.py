@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from linkwright.machine.analysis import Analysis, of
 from linkwright.machine.machine import Machine
 
 
 def _is_rotating(machine: Machine) -> bool:
     return machine.has_crank or machine.train is not None
-
-
-def _twists(machine: Machine) -> bool:
-    return machine.train is not None or (machine.drive is not None and machine.drive.twists)
 
 
 TORSION = Analysis(
@@ -27,7 +25,7 @@ TORSION = Analysis(
 FREE = Analysis(
     name="free_vibration",
     function=of("torsion.modes.free:free_vibration"),
-    applies=_twists,
+    applies=attrgetter("twists"),
     is_of_study=False,
     check=of("torsion.modes.check:check_train"),
     tangents=of("torsion.gradient.modes:mode_derivatives"),
@@ -36,14 +34,14 @@ FREE = Analysis(
 DAMPED = Analysis(
     name="damped_vibration",
     function=of("torsion.modes.damped:damped_vibration"),
-    applies=_twists,
+    applies=attrgetter("twists"),
     is_of_study=False,
 )
 
 FORCED = Analysis(
     name="forced_vibration",
     function=of("torsion.response.forced:forced_vibration"),
-    applies=_twists,
+    applies=attrgetter("twists"),
     is_of_study=False,
     tangents=of("torsion.gradient.forced:forced_tangents"),
 )
@@ -51,6 +49,6 @@ FORCED = Analysis(
 STRESS = Analysis(
     name="shaft_stress",
     function=of("torsion.response.stress:shaft_stress"),
-    applies=_twists,
+    applies=attrgetter("twists"),
     is_of_study=False,
 )

@@ -48,9 +48,8 @@ class Panel(NamedTuple):
 
     label: str  # words along y; symbols between dollar signs are formulas
     lines: Sequence[Line | Level]
-    room: (
-        Floats | Sequence[float] | None
-    ) = ()  # heights that are in view too; None for matplotlib's own limits
+    # Heights that are in view too; None for matplotlib's own limits.
+    room: Floats | Sequence[float] | None = ()
 
 
 CRANK_ANGLE = "crank angle φ [°]"
