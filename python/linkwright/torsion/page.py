@@ -72,7 +72,6 @@ def _content(study: TorsionStudy, command: str) -> Content:
 
 
 def _parts(study: TorsionStudy) -> Iterator[Part]:
-    """Verdict first, then the system, its modes, its vibration; details last."""
     figures = {figure.name: figure for figure in torsion_figures(study)}
 
     def part(title: str, tables: Iterator[Table], *names: str) -> Iterator[Part]:
@@ -96,7 +95,6 @@ def _parts(study: TorsionStudy) -> Iterator[Part]:
 
 
 def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
-    """The few numbers that one looks for first."""
     steady = () if study.verdict is None else study.verdict.judgements
     moved = () if study.transient is None else study.transient.judgements
     if steady or moved:
@@ -124,7 +122,6 @@ def _headline(study: TorsionStudy) -> Iterator[tuple[str, str, str]]:
 
 
 def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
-    """Of all shafts, over all speeds."""
     worst = int(peaks.vibratory.argmax())
     value, rpm = float(peaks.vibratory[worst]), float(peaks.speed[worst]) * 30 / np.pi
     words = f"largest vibratory torque, {peaks.shafts[worst]} at {rpm:.5g} rpm"
@@ -135,7 +132,6 @@ def _largest_torque(peaks: TorquePeaks) -> Iterator[tuple[str, str, str]]:
 
 
 def _formulas(study: TorsionStudy) -> Iterator[Formula]:
-    """What the numbers rest on."""
     den_hartog = "Den Hartog, chapter 5"
     yield Formula("Free vibration", "( K − ω^2 J ) θ = 0", den_hartog)
     if study.free.along:
@@ -159,7 +155,6 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
 
 
 def _balanced(train: Train, at: ExcitedTrain | None) -> str:
-    """How mean torques balance."""
     if at is not None and train.installed and train.drivers and is_balanced(at):
         return "Mean torques of engines, drivers and loads balance."
     if not train.installed:
@@ -181,7 +176,6 @@ def _balanced(train: Train, at: ExcitedTrain | None) -> str:
 
 
 def _inertia_of_shafts(study: TorsionStudy) -> str:
-    """How the inertia of shafts counts."""
     names = ", ".join(shape.name for shape in study.free.along)
     if not names:
         return "Discs are rigid; half of the given inertia of a shaft is added to each disc at its ends."
@@ -190,7 +184,6 @@ def _inertia_of_shafts(study: TorsionStudy) -> str:
 
 
 def _assumptions(study: TorsionStudy) -> Iterator[str]:
-    """What was taken for granted."""
     yield _inertia_of_shafts(study)
     if study.forced is None:
         yield "Free vibration is undamped."

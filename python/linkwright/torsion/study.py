@@ -182,7 +182,6 @@ class TorsionStudy(PlainRecord):
         return plotted_figure(self, name)
 
     def _repr_html_(self) -> str:
-        """Exceeded limits, warnings and all results, as a notebook shows them."""
         from linkwright.kernel.page.notebook import study_html
 
         parts = {entry.name: getattr(self, entry.name) for entry in fields(self)}
@@ -234,7 +233,6 @@ class TorsionStudy(PlainRecord):
 
 
 def _listed(shapes: ShaftShapes) -> dict[str, Any]:
-    """Shapes along a shaft, as lists."""
     arrays = {
         name: value.tolist() for name, value in shapes._asdict().items() if isinstance(value, np.ndarray)
     }
@@ -322,7 +320,6 @@ def torsion_study(
 def _stars(
     machine: Machine, free: FreeVibration, diagram: CampbellDiagram, at: ExcitedTrain
 ) -> tuple[PhaseVectors, ...]:
-    """Phase vectors at all critical speeds."""
     if not diagram.critical:
         return ()
     speeds = np.array([one.speed for one in diagram.critical])
@@ -347,7 +344,6 @@ def _service(machine: Machine) -> float | None:
 
 
 def _is_damped(machine: Machine) -> bool:
-    """Whether anything of a train damps its vibration."""
     train = train_of(machine)
     loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
     shafts = any(shaft.damping or shaft.loss_factor for shaft in train.shafts.values())
@@ -357,7 +353,6 @@ def _is_damped(machine: Machine) -> bool:
 
 
 def _engines(machine: Machine, at: ExcitedTrain) -> dict[str, EngineData]:
-    """What each engine is, at its speed of service."""
     train = machine.train
     if train is None or train.run is None:
         return {}
@@ -382,7 +377,6 @@ def _along(machine: Machine, at: ExcitedTrain, forced: ForcedVibration) -> Uneve
 
 
 def _balance(study: TorsionStudy) -> Iterator[str]:
-    """Torques of the file that count other than they are given."""
     if study.transient is not None and study.transient.balance:
         yield f"Manoeuvre: {study.transient.balance}."
     at, train = study.excited, study.machine.train
@@ -414,7 +408,6 @@ def is_balanced(at: ExcitedTrain) -> bool:
 
 
 def _warnings(study: TorsionStudy) -> Iterator[str]:
-    """What one should know beside the numbers."""
     forced, at, train = study.forced, study.excited, study.machine.train
     yield from () if study.transient is None else (f"Manoeuvre: {note}." for note in study.transient.notes)
     yield from () if train is None else _about_throws(train)
@@ -457,7 +450,6 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
 
 
 def _about_throws(train: Train) -> Iterator[str]:
-    """Crank throws outside the range of the formula that gives their stiffness."""
     for name, engine, _ in train.installed:
         if engine.throw is None or engine.stiffness is not None or len(engine.throws) < 2:
             continue
@@ -468,7 +460,6 @@ def _about_throws(train: Train) -> Iterator[str]:
 
 
 def _about_misfires(verdict: MisfireVerdict) -> Iterator[str]:
-    """Limits that are not kept with a cylinder out, by the cylinder."""
     by_cylinder: dict[str, list[str]] = {}
     for row in verdict.judgements:
         if row.above is not None:
@@ -481,7 +472,6 @@ def _about_misfires(verdict: MisfireVerdict) -> Iterator[str]:
 
 
 def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:
-    """Loads that do not take what an engine gives."""
     if not train.loads:
         left = at.torques.surplus
         if is_balanced(at):
@@ -503,7 +493,6 @@ def _balance_warnings(train: Train, at: ExcitedTrain) -> Iterator[str]:
 
 
 def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
-    """Loads that the engine does not fit."""
     speeds, run = at.torques.speeds, study.machine.train.run if study.machine.train is not None else None
     service = speeds[-1] if run is None else run.service
     factor = float(at.torques.load_factor[np.abs(speeds - service).argmin()])
@@ -516,7 +505,6 @@ def _about_loads(study: TorsionStudy, at: ExcitedTrain) -> Iterator[str]:
 
 
 def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
-    """Couplings that carry more than their curve says."""
     couplings = {} if study.machine.train is None else study.machine.train.couplings
     for name, coupling in couplings.items():
         if coupling.torque is None:
@@ -530,7 +518,6 @@ def _about_couplings(study: TorsionStudy, forced: ForcedVibration) -> Iterator[s
 
 
 def _about_the_ends(study: TorsionStudy, forced: ForcedVibration) -> Iterator[str]:
-    """Limits that are nearest to being broken at an end of the speeds."""
     rows = () if study.verdict is None else study.verdict.judgements
     ends = (forced.speeds[0], forced.speeds[-1])
     near = [row for row in rows if row.speed in ends and row.found > _NEAR * row.permitted > 0]

@@ -76,7 +76,6 @@ def torsion(file: File, holzer: Holzer = None, measured: MeasuredFile = None, *,
 
 
 def _results(study: TorsionStudy, curves: bool) -> dict[str, Any]:
-    """Results by name; with curves every order over the speed, and the samples of the manoeuvre."""
     from linkwright.torsion.tables.orders import order_results
 
     results = study.results()
@@ -96,7 +95,6 @@ def _tail(study: TorsionStudy) -> str:
 
 
 def _files(study: TorsionStudy) -> dict[str, str]:
-    """The report, every order over the speed, the curves of the manoeuvre."""
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.command.out import command_line
     from linkwright.torsion.page import torsion_html

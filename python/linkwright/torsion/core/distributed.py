@@ -100,7 +100,6 @@ class _Same:
 
 
 def _same(referred: ReferredTrain) -> _Same:
-    """A train, told from others by its numbers."""
     arrays: list[NDArray[Any]] = [referred.ends, referred.inertia, referred.stiffness]
     for rod in referred.rods:
         arrays += [rod.stiffness, rod.inertia]
@@ -181,7 +180,6 @@ def _exact_modes(same: _Same, count: int) -> tuple[ExactMode, ...]:
 
 
 def _shapes(referred: ReferredTrain, omega: float, count: int) -> Iterator[ExactMode]:
-    """As many modes as have one frequency."""
     fine = [rod.refined(omega, SHAPE)[0] for rod in referred.rods]
     cut = cut_up(referred, [rod.parts() for rod in fine])
     at = lossless(cut, np.array([omega]))

@@ -121,7 +121,6 @@ def _over(value: NDArray[Any], small: NDArray[Any]) -> Any:
 
 
 def _in_a_row(omega: Floats | Complexes, a: Ends, b: Ends) -> Ends:
-    """Two rods of which the second end of one is the first of the other."""
     m = a.second + b.first
     X = a.spring + b.spring - omega**2 * m
     held = a.held + b.held + (X.real < 0)

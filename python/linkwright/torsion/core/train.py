@@ -95,7 +95,6 @@ class ReferredTrain:
         return damping
 
     def _matrix(self, between: Floats) -> Floats:
-        """The matrix of what acts between the ends of each shaft."""
         n = len(self.inertia)
         matrix = np.zeros((n + 1, n + 1))
         # The last row and column are those of the ground.
@@ -179,7 +178,6 @@ def refer(train: Train) -> ReferredTrain:
 
 
 def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:
-    """Shafts whose inertia is distributed."""
     for n, part in enumerate(twisting):
         if isinstance(part, RodShaft):
             k = np.array([piece.stiffness for piece in part.pieces])
@@ -189,7 +187,6 @@ def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:
 
 
 def _with_ratios(referred: ReferredTrain, given: ModalDamping) -> ReferredTrain:
-    """A train with damping ratios of its modes."""
     modes = int(np.count_nonzero(referred.modes()[0]))
     if len(given.ratios) > modes:
         found, expected = f"{len(given.ratios)} of them", f"at most {modes}, as many as modes of vibration"
@@ -208,7 +205,6 @@ def _rate(part: Shaft | TrainGear) -> float:
 
 
 def _require_numbers(train: Train) -> None:
-    """Refuse arrays over many machines, and numbers that no train has."""
     entries = {f"train.discs.{name}.inertia": disc.inertia for name, disc in train.discs.items()}
     entries |= {f"train.shafts.{name}": shaft.rate for name, shaft in train.shafts.items()}
     for name, gear in train.gears.items():
@@ -227,5 +223,4 @@ def _require_numbers(train: Train) -> None:
 
 
 def _indices(pairs: list[tuple[str, str]], place: Mapping[str, int]) -> Integers:
-    """Places of both ends of each shaft."""
     return np.array([[place.get(end, HELD) for end in pair] for pair in pairs], np.int32).reshape(-1, 2)

@@ -314,7 +314,6 @@ class _SharedParts:
         self._made: dict[int, Any] = {}
 
     def table(self, table: PeriodicTable) -> _core.Periodic:
-        """A table over the angle."""
         if id(table) not in self._made:
             knots = {name: _floats(getattr(table, name)) for name in ("value", "slope", "bend")}
             self._made[id(table)] = _core.Periodic(period=table.period, **knots)
@@ -322,7 +321,6 @@ class _SharedParts:
         return made
 
     def curve(self, curve: Curve) -> _core.Curve:
-        """A curve over twist, speed or time."""
         if id(curve) not in self._made:
             points = {name: _floats(getattr(curve, name)) for name in ("x", "y", "before", "after")}
             self._made[id(curve)] = _core.Curve(**points)
@@ -330,7 +328,6 @@ class _SharedParts:
         return made
 
     def curve_or_none(self, curve: Curve | None) -> _core.Curve | None:
-        """A curve, if there is one."""
         return None if curve is None else self.curve(curve)
 
 
@@ -346,7 +343,6 @@ def _masses(train: MovingTrain) -> list[_core.TorsionMass]:
 
 
 def _shafts(train: MovingTrain, parts: _SharedParts) -> Iterator[_core.TorsionLink]:
-    """What twists between masses."""
     ends = [[None if end == HELD else int(train.mass[end]) for end in pair] for pair in train.tip.tolist()]
     numbers = np.column_stack([train.lead, train.stiffness, train.shaft_damping]).tolist()
     for (first, second), (ratio, stiffness, damping), curve in zip(ends, numbers, train.curves, strict=True):
@@ -387,7 +383,6 @@ def _modal_links(train: MovingTrain) -> list[_core.TorsionLink]:
 
 
 def _torque(train: MovingTrain, torque: TrainTorque, parts: _SharedParts) -> _core.TorsionTorque:
-    """A torque from outside on its mass."""
     n = float(train.speed[torque.on])
     shape = None
     if torque.shape is not None:

@@ -290,7 +290,6 @@ def design_damper(
 
 
 def _without_dampers(machine: Machine) -> Machine:
-    """A machine whose train has no dampers."""
     if machine.train is None or not machine.train.dampers:
         return machine
     return machine.with_entries({"train": machine.train.with_entries({"dampers": {}})})
@@ -318,7 +317,6 @@ def _twisting(free: FreeVibration, mode: int | None) -> int:
 
 
 def _require(ring_inertia: float, kind: str, loss_factor: float | None) -> None:
-    """Refuse what is no damper."""
     in_range(ring_inertia=(ring_inertia, positive(INERTIA)), loss_factor=(loss_factor, positive(RATIO)))
     if kind not in _RULES:
         raise InputError(

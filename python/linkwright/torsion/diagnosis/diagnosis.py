@@ -318,14 +318,12 @@ def diagnosed(fit: Fit, A: Floats, names: tuple[str, ...], measured: MeasuredSpe
 
 
 def _delay_and_compression(fit: Fit, n: int) -> list[tuple[Floats, Floats] | tuple[None, None]]:
-    """Values and deviations of delay and compression, if they were fitted."""
     if len(fit.values) == n:
         return [(None, None), (None, None)]
     return [(fit.values[at : at + n], fit.deviation[at : at + n]) for at in (n, 2 * n)]
 
 
 def _warnings(diagnosis: Diagnosis, A: Floats, open_part: Bools) -> list[str]:
-    """What limits a diagnosis."""
     names = np.array(diagnosis.cylinders)
     listed = []
     if open_part.any():
@@ -352,7 +350,6 @@ def _warnings(diagnosis: Diagnosis, A: Floats, open_part: Bools) -> list[str]:
 
 
 def _names(at: ExcitedTrain, sources: Complexes, cylinders: Sequence[str] | None) -> tuple[str, ...]:
-    """Names of the cylinders, of arrays that fit."""
     if len(at.torques.speeds) != 1:
         speeds = len(at.torques.speeds)
         raise InputError(f"a diagnosis is made at one speed, and the train is at {speeds}")

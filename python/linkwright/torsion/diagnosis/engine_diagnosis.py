@@ -154,7 +154,6 @@ def _fits_at_loads(best: EngineFit, loads: Floats, beside: Floats) -> Iterator[t
 
 
 def _unsettled(values: Floats, asked: Floats, n: int) -> str:
-    """One sentence on values that do not belong to their own operating point."""
     worst = int(np.argmax(np.abs(asked - values)))
     kind, cylinder = divmod(worst, n)
     what = ("that", "the delay [rad]", "the compression")[kind]
@@ -167,13 +166,11 @@ def _unsettled(values: Floats, asked: Floats, n: int) -> str:
 
 
 def _tells_all(best: EngineFit) -> bool:
-    """Whether the measured orders tell delay and compression beside the factors."""
     n = best.model.engine.n_cylinders
     return 2 * len(best.measured.orders) > 3 * n and not best.about(np.zeros(3 * n))[0].is_open.any()
 
 
 def _taken_as_tight(measured: MeasuredSpeed, n: int) -> str:
-    """One sentence on what the intervals rest on."""
     remedy = f": measure more than {1.5 * n:.4g} orders" if len(measured.orders) <= 1.5 * n else ""
     return (
         f"{len(measured.orders)} orders do not distinguish late and leaking cylinders: all are assumed on "

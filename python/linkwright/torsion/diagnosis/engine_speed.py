@@ -60,7 +60,6 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
 
 
 def _place(referred: ReferredTrain, disc: str) -> int:
-    """Place of a disc."""
     if disc not in referred.discs:
         remedy = suggestion(disc, referred.discs)
         raise InputError(f'the train has no disc "{disc}"' + (f": {remedy}" if remedy else ""))

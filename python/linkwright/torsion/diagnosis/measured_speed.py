@@ -172,7 +172,6 @@ def recorded_speed(angle: ArrayLike, speed: ArrayLike, turns: int) -> RecordedSp
 
 
 def _even_step(phi: Floats) -> float:
-    """The step between angles, all of which it is."""
     step = float(phi[-1] - phi[0]) / (len(phi) - 1)
     steps = np.diff(phi)
     wrong = np.flatnonzero(~(np.abs(steps - step) <= _UNEVEN * abs(step))) if step > 0 else np.array([0])

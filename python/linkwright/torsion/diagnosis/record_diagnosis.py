@@ -198,7 +198,6 @@ def _offset(engine: ReciprocatingEngine, zero: int | None) -> float:
 
 
 def _turning(machine: Machine, disc: str) -> float:
-    """Speed of a disc over that of the crank."""
     referred = refer(train_of(machine))
     if disc not in referred.discs:
         raise InputError(

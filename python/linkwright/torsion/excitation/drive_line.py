@@ -227,7 +227,6 @@ def _is_whole(values: Floats) -> Bools:
 
 
 def _positive(speed: ArrayLike) -> Floats:
-    """Speeds at which a machine turns."""
     omega = np.atleast_1d(np.asarray(speed, dtype=np.float64))
     if omega.ndim != 1 or not len(omega):
         raise InputError(f"speed: found an array of shape {omega.shape}, expected a list of speeds")

@@ -123,7 +123,6 @@ def under(
 
 
 def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
-    """Refuse more orders, discs and speeds than there is memory for."""
     own = [torque for part in (train.excitations, train.loads) for torque in part.values()]
     orders = sum(len(order.harmonics) for order in own) + sum(len(source.orders) for source in sources)
     remedy = "take fewer train.run.points, or fewer orders"
@@ -221,7 +220,6 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
 def _operating(
     train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats
 ) -> OperatingState:
-    """Stiffness about the mean torques, damping with that of the loads."""
     stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
     lead = referred.lead
     for name, coupling in ({} if train is None else train.couplings).items():

@@ -107,7 +107,6 @@ def torques_of(
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
-    """Torques that the file gives by themselves."""
     sources = []
     for excitation in train.excitations.values():
         n = turning[place[excitation.on]]
@@ -199,7 +198,6 @@ def _together(listed: tuple[float, ...]) -> Orders:
 
 
 def _counted(values: Floats, unit: float) -> Orders:
-    """Orders as fractions of a unit."""
     share = (values / unit).tolist()
     fractions = [Fraction(value).limit_denominator(_TURNS) for value in share]
     close = [abs(f - v) <= _EQUAL * v for f, v in zip(fractions, share, strict=True)]

@@ -58,7 +58,6 @@ def torsion_figures(study: TorsionStudy) -> Iterator[CaptionedFigure]:
 
 
 def _manoeuvre(study: TorsionStudy, moved: TorsionTransient) -> Iterator[CaptionedFigure]:
-    """Speeds and torques over time, and what orders they hold."""
     caption = "Speeds of discs and torques of the shafts with the largest amplitudes; extremes are marked."
     marks = [(one.start, "ice") for one in moved.ice]
     marks += [(one.end, "") for one in moved.ice if one.end is not None]
@@ -95,7 +94,6 @@ def _moving(study: TorsionStudy, moved: TorsionTransient, marks: Sequence[tuple[
 
 
 def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[CaptionedFigure]:
-    """What the train does under its torques."""
     if study.campbell is not None:
         caption = "Natural frequencies and excitation orders over the speed, with their intersections."
         yield CaptionedFigure("campbell", "Critical speeds", caption, campbell_figure(study.campbell))
@@ -136,7 +134,6 @@ def _forced(study: TorsionStudy, forced: ForcedVibration) -> Iterator[CaptionedF
 
 
 def _of_the_worst_shaft(study: TorsionStudy, forced: ForcedVibration) -> CaptionedFigure:
-    """Orders of the shaft that is nearest to its limit, or twisted most."""
     worst = worst_shaft(forced, study.stress)
     name = forced.shafts[worst]
     single, total = np.abs(forced.shaft_torques[:, worst]), forced.shaft_torque_vibratory[worst]
@@ -159,7 +156,6 @@ def worst_shaft(forced: ForcedVibration, stress: ShaftStress | None) -> int:
 
 
 def _of_the_freest_disc(forced: ForcedVibration) -> CaptionedFigure:
-    """Orders of the disc that swings most."""
     swing = np.nan_to_num(np.abs(forced.amplitudes)).max(axis=(0, 2))
     name = forced.discs[int(swing.argmax())]
     single, total = angular_deflection(forced, name)
@@ -172,7 +168,6 @@ def _of_the_freest_disc(forced: ForcedVibration) -> CaptionedFigure:
 
 
 def _heated(study: TorsionStudy, forced: ForcedVibration) -> list[str]:
-    """Dampers and couplings; without them what gets hottest."""
     train = study.machine.train
     named = [] if train is None else [*train.dampers, *train.couplings]
     if not named:

@@ -44,13 +44,11 @@ _HEIGHT = 2.7
 
 
 def _rpm(speeds: Floats) -> Floats:
-    """Speeds as turns a minute."""
     rpm: Floats = speeds * 30 / math.pi
     return rpm
 
 
 def _over_speed(speeds: Floats, *drawn: Panel, height: float = _HEIGHT) -> Figure:
-    """Panels over the speed, from zero on."""
     figure = line_figure(_rpm(speeds), *drawn, height=height, over="speed of the first disc [rpm]")
     for axes in figure.axes:
         axes.set_ylim(bottom=0)
@@ -90,7 +88,6 @@ def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Fi
 
 
 def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
-    """Shade ranges of speed, as far as they lie in view."""
     left, right = axes.get_xlim()
     for n, (low, high) in enumerate(ranges):
         ends = (max(low * 30 / math.pi, left), min(high * 30 / math.pi, right))
@@ -98,7 +95,6 @@ def _bar(axes: Axes, ranges: Sequence[tuple[float, float]]) -> None:
 
 
 def _limits(stress: ShaftStress, s: int) -> Iterator[Line]:
-    """Permitted in continuous operation, and in transient passage."""
     for limit, words, dashes in (
         (stress.continuous[s], "continuous operation", (5, 3)),
         (stress.transient[s], "transient passage", (2, 2)),
@@ -217,7 +213,6 @@ def heat_figure(forced: ForcedVibration, parts: list[str]) -> Figure:
 
 
 def _largest(rows: Floats, count: int = _LINES_MAX) -> list[int]:
-    """Rows with the largest values, in their order."""
     # A row that is nowhere finite has a resonance that nothing damps: it stays.
     size = np.nan_to_num(rows, nan=0.0, posinf=np.finfo(float).max).max(axis=1)
     return sorted(np.argsort(-size, kind="stable")[:count].tolist())

@@ -63,7 +63,6 @@ def modes_figure(free: FreeVibration, modes: int = 4) -> Figure:
 
 
 def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
-    """One shape: discs as stems, shafts as lines between them."""
     row = in_a_row(free.discs, free.joined)
     place = {free.discs[d]: n for n, d in enumerate(row)}
     shape = free.mode_shapes[k][row]
@@ -111,7 +110,6 @@ def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[in
 
 
 def _from(end: str, about: Mapping[str, Sequence[str]]) -> list[str]:
-    """The chain from one of its ends."""
     row, before = [end], ""
     while after := [name for name in about[row[-1]] if name != before]:
         before = row[-1]
@@ -162,14 +160,12 @@ def campbell_figure(diagram: CampbellDiagram) -> Figure:
 
 
 def _top(diagram: CampbellDiagram) -> float:
-    """Frequency up to which there is something to see."""
     ray = float(diagram.orders.max() * diagram.speeds[-1]) / (2 * math.pi)
     reached = [row.max() for row in diagram.frequencies if 0 < row.min() <= ray]
     return 1.12 * float(max(reached, default=ray))
 
 
 def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
-    """Frequencies of the orders, with their numbers where they leave the picture."""
     (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
     last = None
     for order in sorted(diagram.orders.tolist()):
@@ -201,7 +197,6 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
 
 
 def _points(axes: Axes, diagram: CampbellDiagram) -> None:
-    """Critical speeds, as large as they are severe."""
     critical = diagram.critical
     if not critical:
         return

@@ -53,7 +53,6 @@ class _Pen:
         self.left: set[tuple[str, int]] = set()
 
     def draw(self) -> None:
-        """Lines first, bars and words over them."""
         for span in self.places.spans:
             self._span(span)
         for riser in self.places.risers:
@@ -91,7 +90,6 @@ class _Pen:
         self._words(middle, y - lift, "\n".join(words.below), ha="center", va="top", color=SOFT)
 
     def _elastic(self, span: Span, y: float) -> None:
-        """A line, with a spring or a dashpot in it where it is no plain shaft."""
         part, middle = span.part, 0.5 * (span.start + span.stop)
         if part.kind in ("shaft", "gears"):
             self._line((span.start, span.stop), (y, y), part)
@@ -130,7 +128,6 @@ class _Pen:
     # -- between rows ------------------------------------------------------------------------------------
 
     def _riser(self, riser: Riser) -> None:
-        """Gears, or the way of a branch to its row."""
         x, part = self.places.discs[riser.disc][0], riser.part
         down = riser.side
         start, stop = self.levels[riser.row][0], self.levels[riser.to_row][0]
@@ -160,7 +157,6 @@ class _Pen:
         self._words(x, y, text, color=SOFT, va=va, bbox=clear, **more)
 
     def _rise(self, x: float, begin: float, end: float, part: Connection) -> None:
-        """A vertical line, with a spring in it where teeth are elastic."""
         if part.kind != "mesh":
             self._line((x, x), (begin, end), part)
             return

@@ -184,14 +184,12 @@ class _RowSearch:
 
     @staticmethod
     def _taken(row: int, line: _Line, others: Sequence[_Line]) -> bool:
-        """Whether another line is in the way in a row."""
         return any(
             other.row == row and line.low < other.high + _APART and other.low < line.high + _APART
             for other in others
         )
 
     def _crossed(self, base: int, row: int, line: _Line, others: Sequence[_Line]) -> int:
-        """How many lines the way to a row, and how many ways the line there, would cross."""
         between = range(min(base, row) + 1, max(base, row))
         count = sum(other.row in between and other.low < line.x < other.high for other in others)
         for other in others:
@@ -227,7 +225,6 @@ class _RowSearch:
 
 
 def _geared(part: Connection) -> bool:
-    """Whether a part joins discs of two rows."""
     return part.kind in ("gears", "mesh")
 
 
@@ -262,7 +259,6 @@ def _spanning(
 
 
 def _weights(root: str, below: Mapping[str, Sequence[_Edge]]) -> dict[str, int]:
-    """How many discs are connected behind each."""
     order = [root]
     for at in order:
         order += [edge.other for edge in below.get(at, ())]
@@ -273,7 +269,6 @@ def _weights(root: str, below: Mapping[str, Sequence[_Edge]]) -> dict[str, int]:
 
 
 def _bridges(closing: Sequence[Connection], discs: Mapping[str, tuple[float, int]]) -> Iterator[Bridge]:
-    """Bridges, counted in each row."""
     count: dict[int, int] = {}
     for part in closing:
         row = min(discs[part.first][1], discs[part.second][1])

@@ -203,7 +203,6 @@ class Page:
         return [self.discs[name] for name, (_, at) in self.places.discs.items() if at == row]
 
     def _names(self, row: int) -> float:
-        """What the names of a row take above its shafts."""
         lines = [line for words in self._in_row(row) for line in words.above]
         return HIGH + 2 * GAP + (max(map(wide, lines)) if self.turned and lines else LINE)
 
@@ -214,7 +213,6 @@ class Page:
         return self._names(row) + 2.2 * LINE * bridges + GAP + self._entering(row, 1)
 
     def _below(self, row: int) -> float:
-        """What values, words of shafts, and those of the gears below them take."""
         own = self._in_row(row)
         spans = [self.parts[span.part.name] for span in self.places.spans if span.row == row]
         if self.turned:
@@ -280,13 +278,11 @@ def _sides(scheme: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> 
 
 
 def _sides_turned(scheme: Scheme) -> dict[str, float]:
-    """The same of words that are written upwards: they step aside by a line."""
     ends = Counter(end for part in scheme.connections for end in (part.first, part.second))
     geared = [end for part in scheme.connections if part.kind in ("gears", "mesh") for end in part[2:4]]
     return {name: LINE * (2.2 if ends[name] > 2 or name in geared else 1.0) for name in scheme.discs}
 
 
 def _least(part: Connection, words: Words, sides: dict[str, float], turned: bool) -> float:
-    """Length that the words of a part and of its ends ask for."""
     ends = sum(sides[end] for end in (part.first, part.second) if end != GROUND)
     return max(2.8 * LINE if turned else words.width + 2 * GAP, ends + (LINE if turned else 0.0)) + 2 * HALF

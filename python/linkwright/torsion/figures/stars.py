@@ -43,7 +43,6 @@ def star_figure(stars: Sequence[PhaseVectors]) -> Figure:
 
 
 def _star(axes: Axes, star: PhaseVectors) -> None:
-    """One star; the sum is as long as its share of all lengths together."""
     longest = float(np.abs(star.vectors).max())
     size = 1.55 * longest
     axes.set_aspect("equal")
@@ -64,7 +63,6 @@ def _star(axes: Axes, star: PhaseVectors) -> None:
 
 
 def _arrow(axes: Axes, vector: complex, colour: str, width: float) -> None:
-    """A vector from the middle."""
     axes.annotate(
         "",
         (vector.real, vector.imag),
@@ -81,7 +79,6 @@ def _arrow(axes: Axes, vector: complex, colour: str, width: float) -> None:
 
 
 def _named(star: PhaseVectors, longest: float) -> list[tuple[str, complex]]:
-    """Words in the directions of the vectors, those of nearly one direction together."""
     groups: list[tuple[list[str], complex]] = []
     for name, vector in zip(star.discs, star.vectors.tolist(), strict=True):
         if abs(vector) < _SHORT * longest:
@@ -96,7 +93,6 @@ def _named(star: PhaseVectors, longest: float) -> list[tuple[str, complex]]:
 
 
 def _rows(names: list[str]) -> list[str]:
-    """Words, three in a row."""
     return [" ".join(names[n : n + 3]) for n in range(0, len(names), 3)]
 
 

@@ -99,7 +99,6 @@ def waterfall_figure(waterfall: Waterfall, *, quantity: str = "amplitude") -> Fi
 
 
 def _loaded(motion: TorsionTransient) -> list[int]:
-    """The shafts that swing most, in the order of the train."""
     swing = motion.torque_max - motion.torque_min
     return sorted(np.argsort(-swing, kind="stable")[:_SHAFTS].tolist())
 
@@ -117,7 +116,6 @@ def _curve(axes: Axes, time: Floats, values: Floats, colour: str, label: str | N
 
 
 def _shaft(axes: Axes, motion: TorsionTransient, shaft: int, colour: str) -> None:
-    """Torque of one shaft, its extremes marked."""
     _curve(axes, motion.time, 1e-3 * motion.torque[shaft], colour)
     for time, value in (
         (motion.torque_max_time[shaft], motion.torque_max[shaft]),

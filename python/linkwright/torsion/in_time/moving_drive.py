@@ -81,13 +81,11 @@ def moving_drive(machine: Machine, manoeuvre: TrainTransient) -> tuple[MovingTra
 
 
 def _inertia(compiled: CompiledMachine, crank: int) -> VariableInertia:
-    """Reduced inertia over the cycle of the crank."""
     at = compiled.reductions(_cycle(compiled))
     return variable_inertia(crank, at.inertia, at.inertia_slope, period=compiled.cycle)
 
 
 def _resistance(compiled: CompiledMachine, crank: int, guess: float) -> Iterator[TrainTorque]:
-    """What the loads of the mechanism ask of the crank."""
     phi = _cycle(compiled)
     at = compiled.reductions(phi)
     parts = (
@@ -125,7 +123,6 @@ def _through_rest(speeds: object, torque: object, guess: float) -> Curve:
 
 
 def _geared(torque: TrainTorque, machine: Machine) -> TrainTorque:
-    """The motor's torque, less what the gearbox loses."""
     assert isinstance(torque.law, OverSpeed)
     _, forward, reverse = compile_machine(machine).gear_factors
     return replace(torque, law=OverSpeed(_lossy(torque.law.curve, forward, reverse)))

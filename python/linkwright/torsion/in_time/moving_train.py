@@ -115,7 +115,6 @@ def _mode_damping(referred: ReferredTrain) -> tuple[Floats, list[str]]:
 
 
 def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]) -> None:
-    """Refuse a manoeuvre that speaks of parts that are not there."""
     faults = list(transient_faults(train.model_copy(update={"transient": manoeuvre}), discs))
     if faults:
         contexts = ((wrong["loc"], getattr(wrong["type"], "context", None) or {}) for wrong in faults)
@@ -173,7 +172,6 @@ def _curve(train: Train, name: str) -> Curve | None:
 
 
 def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -> list[TrainTorque]:
-    """Torques of the engines."""
     if not train.installed:
         return []
     service = None if train.run is None else train.run.service
@@ -192,7 +190,6 @@ def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -
 
 
 def _outside(train: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> Iterator[TrainTorque]:
-    """Loads, excitations and motors, as events switch them."""
     for name, load in train.loads.items():
         yield from _load(name, load, manoeuvre, place[load.on])
     for name, excitation in train.excitations.items():
@@ -252,7 +249,6 @@ def _shapes(
 
 
 def _events(manoeuvre: TrainTransient, place: dict[str, int], ice: IceStarts) -> Iterator[TrainTorque]:
-    """Torques that events bring in."""
     for n, event in enumerate(manoeuvre.events, start=1):
         name = f"{event.kind}_{n}"
         match event:
@@ -339,7 +335,6 @@ def combustion_weight(manoeuvre: TrainTransient, cylinder: int, engine: str = ""
 
 
 def _misfires(manoeuvre: TrainTransient, cylinder: int, engine: str) -> Iterator[Curve]:
-    """Share that each event leaves to a cylinder."""
     for event in manoeuvre.events:
         if isinstance(event, Misfire) and cylinder in event.cylinders and event.engine in (None, engine):
             end = [(event.end, 1.0, 0.0)] if np.isfinite(event.end) else []
@@ -349,7 +344,6 @@ def _misfires(manoeuvre: TrainTransient, cylinder: int, engine: str) -> Iterator
 def _gas_tables(
     engine: ReciprocatingEngine, speed: float, highest: float
 ) -> tuple[list[PeriodicTable], list[PeriodicTable]]:
-    """Torque of a cylinder of each bank without combustion, and what the combustion adds."""
     gas = cylinder_torques(engine, np.array([speed]), highest)
     turns = engine.strokes // 2
 
@@ -363,7 +357,6 @@ def _gas_tables(
 
 
 def _weights(installed: InstalledEngine, first: int) -> list[TrainTorque]:
-    """Torque of the weights of each throw."""
     engine, prefix = installed.engine, installed.prefix
     phi = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
     table = smooth(reduced_throw(engine, phi).weight_torque)

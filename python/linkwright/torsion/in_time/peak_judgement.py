@@ -99,7 +99,6 @@ def unjudged(machine: Machine, moved: TorsionTransient) -> Iterator[str]:
 
 
 def _stages(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
-    """Largest torques of gear stages."""
     for name, row, permitted in _limited_stages(machine, moved):
         if np.isfinite(row).all():
             worst = int(np.abs(row).argmax())
@@ -117,7 +116,6 @@ def _limited_stages(machine: Machine, moved: TorsionTransient) -> Iterator[tuple
 
 
 def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
-    """Largest torques of shafts and couplings."""
     shafts = train_of(machine).shafts
     couplings = {} if machine.train is None else machine.train.couplings
     bearing = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None} | couplings
@@ -129,7 +127,6 @@ def _torques(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgemen
 
 
 def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
-    """Stresses of shafts with a section, largest and in transient passage."""
     shafts = train_of(machine).shafts
     for name, (section, limit) in stressed(shafts).items():
         if shafts[name].limit is None:
@@ -150,7 +147,6 @@ def _stresses(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgeme
 
 
 def _largest(moved: TorsionTransient, name: str) -> tuple[float, float]:
-    """Largest torque of a shaft either way, and when."""
     s = moved.shafts.index(name)
     greatest, least = float(moved.torque_max[s]), float(moved.torque_min[s])
     if greatest >= -least:

@@ -51,7 +51,6 @@ def stage_torques(
 
 
 def _joined(train: MovingTrain, gears: dict[str, TrainGear], rigid: list[str]) -> list[int]:
-    """Discs of all masses in which there is a rigid stage."""
     masses = {int(train.mass[train.discs.index(end)]) for name in rigid for end in gears[name].between}
     return [disc for disc, mass in enumerate(train.mass.tolist()) if mass in masses]
 

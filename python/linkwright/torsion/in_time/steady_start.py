@@ -120,7 +120,6 @@ def _at_steady_speed(moving: MovingTrain, manoeuvre: TrainTransient) -> tuple[Mo
 def _with_combustion(
     moving: MovingTrain, manoeuvre: TrainTransient, left: float
 ) -> tuple[MovingTrain, float, str]:
-    """Combustion as much stronger or weaker as balances."""
     motored = replace(moving, torques=tuple(torque for torque in moving.torques if not _burns(torque)))
     given = left - _left(motored, manoeuvre.speed, manoeuvre.angle)
     factor = 1 - left / given if given > 0 else 0.0
@@ -134,7 +133,6 @@ def _with_combustion(
 def _with_loads(
     moving: MovingTrain, train: Train, speed: float, left: float
 ) -> tuple[MovingTrain, float, str]:
-    """Loads as much larger or smaller as balances, where that was asked for."""
     needed = 0.0
     for load in train.loads.values():
         turning = float(moving.speed[moving.discs.index(load.on)])
@@ -147,12 +145,10 @@ def _with_loads(
 
 
 def _burns(torque: TrainTorque) -> bool:
-    """Whether a torque is that of a combustion."""
     return COMBUSTION.search(torque.name) is not None
 
 
 def _scaled(moving: MovingTrain, which: list[bool], factor: float) -> MovingTrain:
-    """The train with some torques larger by a factor."""
     torques = tuple(
         replace(torque, scale=torque.scale * factor) if chosen else torque
         for torque, chosen in zip(moving.torques, which, strict=True)

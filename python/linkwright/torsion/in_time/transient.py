@@ -330,14 +330,12 @@ def follow_train(
 
 
 def _settling_time(manoeuvre: TrainTransient) -> float:
-    """Time before the start of a manoeuvre in which its train swings in."""
     if manoeuvre.settle is not None:
         return manoeuvre.settle
     return _SETTLE if manoeuvre.speed > 0 and manoeuvre.balanced and manoeuvre.loaded else 0.0
 
 
 def _require(duration: float, accuracy: float, sample_time: float | None, settle: float) -> None:
-    """Refuse numbers that make no sense."""
     if not 0 < duration < np.inf:
         raise InputError(f"duration: found {duration:g} s, expected a finite time above 0")
     if not 0 <= settle < np.inf:
@@ -350,7 +348,6 @@ def _require(duration: float, accuracy: float, sample_time: float | None, settle
 
 
 def _require_inertia(train: MovingTrain) -> None:
-    """Refuse masses whose inertia is not positive all over the revolution."""
     least = np.array(train.inertia, dtype=float)
     for rotor in train.inertias:
         least[rotor.on] += rotor.table.value.min()
@@ -364,14 +361,12 @@ def _require_inertia(train: MovingTrain) -> None:
 
 
 def _times(duration: float, sample_time: float | None) -> Floats:
-    """Even times from zero to the end."""
     step = sample_time or min(duration / _SAMPLES, _SAMPLE_TIME)
     samples = min(max(round(duration / step), 1), SAMPLES.most)
     return np.linspace(0.0, duration, samples + 1)
 
 
 def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
-    """One sentence: when, why, and what to do."""
     if moved.end == "rounded":
         shaft = int(np.argmax(train.stiffness))
         return (
@@ -394,7 +389,6 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
 
 
 def _fastest_disc(train: MovingTrain) -> str:
-    """The disc with the stiffest shafts over its inertia."""
     about = np.zeros(train.masses + 1)
     slopes = [0.0 if curve is None else float(np.abs(curve.after).max()) for curve in train.curves]
     ends = np.append(train.mass, train.masses)[train.tip]
@@ -408,7 +402,6 @@ def _fastest_disc(train: MovingTrain) -> str:
 
 
 def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTransient:
-    """The motion in terms of discs."""
     n, torque, speed = train.speed, moved.torque_extremes, moved.speed_extremes
     work, loss, error = _energy(train, moved)
     return TorsionTransient(

@@ -123,7 +123,6 @@ def waterfall(
 
 
 def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, turns: int) -> None:
-    """Refuse what no waterfall can be made of."""
     if not (t.ndim == 1 and t.shape == phi.shape == x.shape and len(t) > 3):
         raise InputError(
             f"time, angle and signal have shapes {t.shape}, {phi.shape}, {x.shape}: expected lists of one "
@@ -156,7 +155,6 @@ def _require(t: Floats, phi: Floats, x: Floats, highest: float, step: float, tur
 
 
 def _cubic(x: Floats, y: Floats, places: Floats) -> Floats:
-    """Cubics through four samples about each place."""
     k = np.clip(np.searchsorted(x, places) - 2, 0, len(x) - 4)
     near = [x[k + n] for n in range(4)]
     values = np.zeros_like(places)

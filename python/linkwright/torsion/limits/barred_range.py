@@ -228,7 +228,6 @@ def _range(
     passing: list[Exceedance],
     peaks: list[float],
 ) -> BarredRange:
-    """One range with its numbers."""
     for_ever, transient = worst
     critical, order = _critical(seen, above.row, peaks)
     formula = [barred_speeds(peak, seen.service) for peak in peaks]

@@ -236,7 +236,6 @@ def _judged(
 def _torsion(
     one: InstalledEngine, seen: Survey, judged: Verdict, misfire: MisfireVerdict | None
 ) -> tuple[float, str, float, str]:
-    """Largest vibratory torque between the throws at speeds that are not barred: shaft, speed, cylinder."""
     kept = not_barred(seen.speeds, [span.barred for span in judged.barred])
     torques = seen.vibratory_at(seen.speeds)[:, kept]
     listed = [(0.0, "", seen.service, "")]
@@ -278,7 +277,6 @@ def _nominal(
 
 
 def _half_range(curve: Floats) -> float:
-    """Amplitude of a curve."""
     return 0.5 * float(np.ptp(curve))
 
 
@@ -289,7 +287,6 @@ def _polar(part: Journal) -> float:
 
 
 def _factors(ratios: ThrowRatios) -> dict[str, float]:
-    """Stress concentration factors by their symbols."""
     factors = {
         "α_B": pin_bending(ratios),
         "α_T": torsion(ratios, ratios.r),
@@ -303,12 +300,10 @@ def _factors(ratios: ThrowRatios) -> dict[str, float]:
 
 
 def _fillet(place: str, bent: float, twisted: float, fatigue: CrankFatigue, strength: float) -> FatiguePlace:
-    """Equivalent stress in a fillet."""
     equivalent = math.sqrt((bent + fatigue.additional_bending) ** 2 + 3 * twisted**2)
     return FatiguePlace(place, bent, twisted, equivalent, strength)
 
 
 def _bore(bent: float, twisted: float, strength: float) -> FatiguePlace:
-    """Equivalent stress at the outlet of the oil bore."""
     equivalent = (bent + 2 * math.sqrt(bent**2 + 2.25 * twisted**2)) / 3
     return FatiguePlace("oil bore", bent, twisted, equivalent, strength)

@@ -76,7 +76,6 @@ def criteria(
 
 
 def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criterion]:
-    """Of shafts with a limit."""
     for row, name in enumerate(stress.shafts):
         limit, vibratory = shafts[name].limit, stress.vibratory[row]
         if limit is None:
@@ -90,7 +89,6 @@ def _stresses(stress: ShaftStress, shafts: dict[str, Shaft]) -> Iterator[Criteri
 
 
 def _torques(train: Train | None, shafts: dict[str, Shaft], response: TorsionResponse) -> Iterator[Criterion]:
-    """Of shafts and couplings."""
     limits = {name: shaft.limit for name, shaft in shafts.items() if shaft.limit is not None}
     bearing: dict[str, ShaftLimit | Coupling] = {**limits, **(train.couplings if train else {})}
     for name, limit in bearing.items():
@@ -104,7 +102,6 @@ def _torques(train: Train | None, shafts: dict[str, Shaft], response: TorsionRes
 
 
 def _heats(train: Train | None, response: TorsionResponse) -> Iterator[Criterion]:
-    """Of couplings and dampers."""
     heated: dict[str, Coupling | Damper] = {**train.couplings, **train.dampers} if train else {}
     for name, part in heated.items():
         if part.heat_permitted is not None:
@@ -113,7 +110,6 @@ def _heats(train: Train | None, response: TorsionResponse) -> Iterator[Criterion
 
 
 def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
-    """Of toothed gear stages."""
     for g, name in enumerate(gears.stages):
         if gears.toothed[g]:
             # No mean torque holds teeth together that carry none but by rounding.
@@ -125,7 +121,6 @@ def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
 
 
 def _stage_torques(train: Train, gears: MeshTorque) -> Iterator[Criterion]:
-    """Of gear stages with a permitted torque."""
     for g, name in enumerate(gears.stages):
         permitted = train.gears[name].torque_permitted
         if permitted is not None:
@@ -198,7 +193,6 @@ def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedan
 
 
 def _runs(above: Bools) -> Iterator[tuple[int, int]]:
-    """First and last place of each run of true values."""
     steps = np.flatnonzero(np.diff(np.concatenate([[0], above.astype(np.int8), [0]])))
     yield from zip(steps[::2].tolist(), (steps[1::2] - 1).tolist(), strict=True)
 

@@ -124,18 +124,15 @@ class _Loads:
 
     @cached_property
     def _stress(self) -> ShaftStress:
-        """Stresses over the run."""
         return shaft_stress(self.seen.machine, self.seen.found, self.seen.service)
 
     @cached_property
     def limited(self) -> list[int]:
-        """Rows of shafts with a permitted stress."""
         rows: list[int] = np.flatnonzero(np.isfinite(self._stress.continuous).any(axis=1)).tolist()
         return rows
 
     @cached_property
     def shafts(self) -> tuple[str, ...]:
-        """Those that count."""
         if not self.limited:
             return self.seen.found.shafts
         return tuple(self._stress.shafts[row] for row in self.limited)
@@ -171,12 +168,10 @@ class _Loads:
         return np.concatenate(amplitudes, axis=1), np.concatenate(permitted, axis=1)
 
     def alone(self, order: float) -> Survey:
-        """The train under one order."""
         return replace(self.seen, at=_one_order(self.seen.at, order))
 
 
 def _one_order(at: ExcitedTrain, order: float) -> ExcitedTrain:
-    """A train under one order of its torques."""
     same = np.abs(at.torques.orders - order) <= _EQUAL * order
     harmonics = at.torques.harmonics[same].sum(axis=0, keepdims=True)
     return replace(at, torques=replace(at.torques, orders=np.array([order]), harmonics=harmonics))
@@ -291,7 +286,6 @@ def _height(size: float) -> float:
 def _chosen(
     loads: _Loads, critical: Sequence[CriticalSpeed], places: Sequence[Sequence[_Place]]
 ) -> list[CriticalResponse]:
-    """The shaft of each critical speed, with its numbers."""
     if not loads.limited:
         places = [[max(listed, key=lambda place: place.single)] for listed in places]
     every = [place for listed in places for place in listed]

@@ -170,7 +170,6 @@ def misfires(machine: Machine, at: ExcitedTrain) -> Iterator[MisfireCase]:
 
 
 def _counts(criterion: Criterion) -> bool:
-    """Whether a limit holds in continuous operation."""
     return criterion.what != PASSING_STRESS and not np.isnan(criterion.permitted).all()
 
 
@@ -188,7 +187,6 @@ def _looked_at(seen: Survey, at: ExcitedTrain) -> tuple[list[Criterion], list[Me
 
 
 def _gears(parts: Sequence[MeshTorque], service: float, cylinder: str) -> Iterator[MisfireGear]:
-    """Each stage of one case, at the speed of service and where K_A is largest."""
     for stage, name in enumerate(parts[0].stages if parts else ()):
         speeds = np.concatenate([part.speeds for part in parts])
         mean, vibratory, factor = (
@@ -202,7 +200,6 @@ def _gears(parts: Sequence[MeshTorque], service: float, cylinder: str) -> Iterat
 
 
 def _worse(one: MisfireGear, other: MisfireGear) -> MisfireGear:
-    """The larger K_A of two cases, in service and of all speeds."""
     service = max(one, other, key=lambda gear: gear.application_factor)
     peak = max(one, other, key=lambda gear: gear.application_factor_max)
     return service._replace(
@@ -229,5 +226,4 @@ def _judged(criterion: Criterion, speeds: Floats, cylinder: str) -> MisfireJudge
 
 
 def _ratio(judged: MisfireJudgement) -> float:
-    """Found over permitted."""
     return judged.found / judged.permitted if judged.permitted > 0 else np.inf

@@ -158,7 +158,6 @@ def overlay(seen: Survey, name: str, curve: MeasuredResponse) -> Overlay:
 
 
 def _computed(seen: Survey, name: str, curve: MeasuredResponse) -> Callable[[Floats], Floats]:
-    """The computed amplitude at any speeds in the range."""
     parts = seen.found.discs if curve.what == "angle" else seen.found.shafts
     if curve.on not in parts:
         remedy = suggestion(curve.on, parts)
@@ -203,7 +202,6 @@ def _amplitudes(response: TorsionResponse, curve: MeasuredResponse, order: int |
 
 
 def _order(at: ExcitedTrain, name: str, order: float) -> int:
-    """Place of an order among those of the train."""
     orders = at.torques.orders
     place = int(np.abs(orders - order).argmin())
     if abs(orders[place] - order) > _EQUAL * order:
@@ -224,7 +222,6 @@ def _permitted(seen: Survey, curve: MeasuredResponse, speeds: Floats) -> Floats 
 
 
 def _peaks(values: Floats) -> list[int]:
-    """Places of the peaks of a measured curve."""
     inner, top = np.arange(1, len(values) - 1), float(values.max())
     higher = (values[inner] >= values[inner - 1]) & (values[inner] > values[inner + 1])
     peaks = set(inner[higher & (values[inner] >= _PEAK * top)].tolist())
@@ -234,7 +231,6 @@ def _peaks(values: Floats) -> list[int]:
 def _compared(
     speeds: Floats, values: Floats, n: int, computed: Callable[[Floats], Floats], known: Floats
 ) -> PeakComparison:
-    """A measured peak beside the highest computed one near it."""
     speed, value = float(speeds[n]), float(values[n])
     low, high = max(speed * (1 - _NEAR), known[0]), min(speed * (1 + _NEAR), known[-1])
     grid = np.linspace(low, high, _POINTS)
@@ -298,7 +294,6 @@ def read_measured(path: str | os.PathLike[str]) -> dict[str, MeasuredResponse]:
 
 
 def _kind(entry: object, name: str, path: Path, line: int) -> str:
-    """What a column holds, by its unit."""
     for what, kind in _KINDS.items():
         try:
             parse(entry, kind)
@@ -321,7 +316,6 @@ def _part(name: str) -> tuple[str, float | None]:
 
 
 def _problem(error: ValidationError, name: str, path: Path, lines: list[int]) -> Problem:
-    """The first of what a curve does not allow, with its line."""
     first = error.errors()[0]
     place = next((part for part in first["loc"] if isinstance(part, int)), None)
     line = lines[0] if place is None else lines[1 + place]

@@ -102,7 +102,6 @@ def damped_resonances(at: ExcitedTrain) -> tuple[Floats, Floats]:
 
 
 def _has_viscous_damping(at: ExcitedTrain) -> bool:
-    """Whether anything but hysteresis damps the train."""
     return bool(at.referred.damping.any() or at.operating.disc_damping.any() or at.referred.ratios.any())
 
 
@@ -121,7 +120,6 @@ def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
 
 
 def _zeros(x: Floats, y: Floats) -> list[float]:
-    """Where a curve through points passes zero."""
     n = np.flatnonzero(y[:-1] * y[1:] < 0)
     share = y[n] / (y[n] - y[n + 1])
     between: list[float] = (x[n] + share * (x[n + 1] - x[n])).tolist()
@@ -229,7 +227,6 @@ class Survey:
     def _joined(
         self, speeds: Floats, limits: list[Criterion], added: Floats
     ) -> tuple[Floats, list[Criterion]]:
-        """Speeds and limits with those at added speeds."""
         if not len(limits) or not len(added):
             return np.sort(np.concatenate([speeds, added])), limits
         every = np.concatenate([speeds, added])
@@ -313,7 +310,6 @@ def _highest(ratio: Floats) -> list[int]:
 
 
 def _is_above(ratio: Floats, low: int, high: int) -> bool:
-    """Whether a limit is exceeded at all places of a span."""
     return bool((ratio[low : high + 1] > 1).all())
 
 

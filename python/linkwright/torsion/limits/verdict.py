@@ -170,7 +170,6 @@ def _judged(
     over: list[Exceedance],
     barred: tuple[BarredRange, ...],
 ) -> Judgement:
-    """One criterion with what follows."""
     state: State = "exceeds" if over else "ok"
     reason = "teeth lose contact" if over and criterion.what == CONTACT else ""
     ranges = tuple((one.low, one.high) for one in over)
@@ -183,7 +182,6 @@ def _judged(
 
 
 def _against_barring(barred: BarredRange) -> str:
-    """Why a range may not be barred and passed; empty if it may."""
     if barred.not_passable:
         low, high = barred.not_passable[0]
         return f"passage not permitted from {_rpm(low)} to {_rpm(high)}"
@@ -198,7 +196,6 @@ def _against_barring(barred: BarredRange) -> str:
 
 
 def _notes(seen: Survey) -> Iterator[str]:
-    """What was not judged, parts of which the same is said together."""
     said: dict[str, list[str]] = {}
     for criterion in seen.criteria:
         silent = np.isnan(criterion.permitted)
@@ -220,12 +217,10 @@ def _notes(seen: Survey) -> Iterator[str]:
 
 
 def _lists(ranges: tuple[tuple[float, float], ...]) -> list[list[float]]:
-    """Ranges for JSON."""
     return [list(span) for span in ranges]
 
 
 def _rpm(speed: float) -> str:
-    """A speed for people."""
     return f"{speed / _RPM:.5g} rpm"
 
 
@@ -240,7 +235,6 @@ def operation(speeds: tuple[float, float], verdict: Verdict, misfire: MisfireVer
 
 
 def _normal(speeds: tuple[float, float], verdict: Verdict) -> Iterator[str]:
-    """With all cylinders firing."""
     exceeded = [row for row in verdict.judgements if row.state == "exceeds"]
     span = _between(*speeds)
     if exceeded:
@@ -260,7 +254,6 @@ def _normal(speeds: tuple[float, float], verdict: Verdict) -> Iterator[str]:
 
 
 def _misfiring(misfire: MisfireVerdict | None) -> Iterator[str]:
-    """With one cylinder misfiring."""
     if misfire is None:
         return
     over = [(row.above, row.part) for row in misfire.judgements if row.above is not None]

@@ -70,7 +70,6 @@ class Coupling(CheckedDescription):
         yield from self._curve_faults()
 
     def _curve_faults(self) -> Iterator[InitErrorDetails]:
-        """A curve that does not start at zero, or does not rise."""
         for name in ("twist", "torque"):
             points = getattr(self, name)
             if points and points[0] != 0.0:

@@ -144,7 +144,6 @@ def _gears(drive: Drive, at: dict[str, str]) -> TrainGear:
 
 
 def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
-    """What twists between discs of the same speed."""
     box, shafts = drive.gearbox, {}
     if drive.motor_shaft is not None:
         shafts[MOTOR_SHAFT] = _between(drive.motor_shaft, (at[MOTOR], at[GEARBOX]))
@@ -159,13 +158,11 @@ def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
 
 
 def _between(shaft: ElasticShaft, ends: tuple[str, str]) -> Shaft:
-    """A shaft of the driveline as one of a train."""
     entries = {name: getattr(shaft, name) for name in ElasticShaft.model_fields}
     return Shaft.model_construct(between=ends, **entries)
 
 
 def _require_numbers(drive: Drive) -> None:
-    """Refuse arrays over many machines, and numbers that no train has."""
     entries: dict[str, Any] = {"drive.gearbox.ratio": drive.gearbox.ratio}
     if drive.gearbox.stiffness is not None:
         entries["drive.gearbox.stiffness"] = drive.gearbox.stiffness
@@ -182,7 +179,6 @@ def _require_numbers(drive: Drive) -> None:
 
 
 def _require_inertia(discs: dict[str, float]) -> None:
-    """Refuse a train with a disc that has no inertia."""
     wrong = [
         Problem(key, f"{J:.6g} kg m²", f"an inertia above zero of {what}", _REMEDY)
         for (key, what), J in ((_LACKS[name], J) for name, J in discs.items())

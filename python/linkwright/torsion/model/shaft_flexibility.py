@@ -96,7 +96,6 @@ def _gauss() -> tuple[tuple[float, float], ...]:
 
 
 def _rule(diameters: tuple[float, float], bores: tuple[float, float], start: float, end: float) -> float:
-    """One rule over shares of the length from start to end."""
     width = end - start
     terms = (
         weight / polar_moment(_at(diameters, start + z * width), _at(bores, start + z * width))

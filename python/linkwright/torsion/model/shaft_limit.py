@@ -138,7 +138,6 @@ class ShaftLimit(CheckedDescription):
             yield fault("stress_transient", found=high, expected=expected)
 
     def _key_faults(self) -> Iterator[InitErrorDetails]:
-        """Keys that belong to other kinds."""
         for key, kinds in _KINDS.items():
             value = getattr(self, key)
             if value is not None and self.kind not in kinds:
@@ -146,7 +145,6 @@ class ShaftLimit(CheckedDescription):
                 yield fault(key, found=value, expected=expected, remedy=f"it belongs to: {', '.join(kinds)}")
 
     def _section_faults(self) -> Iterator[InitErrorDetails]:
-        """Sizes that contradict each other."""
         d, bore = self.diameter, self.inner_diameter
         if d is None and bore:
             yield fault("diameter", expected="the diameter outside, beside that of the bore")

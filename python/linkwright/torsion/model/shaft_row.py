@@ -145,7 +145,6 @@ def _pieces(sections: Sequence[ShaftSection], density: float, modulus: float) ->
 
 
 def _cone(section: ShaftSection, density: float, modulus: float) -> Iterator[RodPiece]:
-    """Pieces of a taper, of one length."""
     length = section.length / _PIECES
 
     def at(ends: tuple[float, float], n: int) -> float:

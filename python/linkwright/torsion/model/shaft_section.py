@@ -120,7 +120,6 @@ class ShaftSection(CheckedDescription):
         yield from self._size_faults()
 
     def _key_faults(self) -> Iterator[InitErrorDetails]:
-        """Keys that the kind needs, and those it does not have."""
         needed, allowed = _KEYS[self.kind]
         for key in _FURTHER:
             value = getattr(self, key)
@@ -135,7 +134,6 @@ class ShaftSection(CheckedDescription):
             yield fault(missing, expected="both width and depth of the keyway")
 
     def _rings(self) -> Iterator[tuple[str, float, float]]:
-        """Bores with the diameters that they lie in."""
         outside = self.diameter if self.root_diameter is None else self.root_diameter
         yield "inner_diameter", self.inner_diameter, outside
         if self.diameter_end is not None:
@@ -143,7 +141,6 @@ class ShaftSection(CheckedDescription):
             yield key, self.bores[1], self.diameter_end
 
     def _size_faults(self) -> Iterator[InitErrorDetails]:
-        """Sizes of flanges, splines and keyways that do not go with the diameter."""
         d = self.diameter
         if self.bolt_circle is not None and self.bolt_circle <= d:
             expected = f"a circle larger than the shaft, {d:.6g} m"

@@ -59,7 +59,6 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
-    """Parts of one name: results name discs with rings, and shafts with couplings and meshes, alike."""
     cranks = [name for engine, throws in _engines(train) for name in crank_names(throws, engine)]
     for tables, taken in (
         (("shafts", "couplings", "dampers", "gears"), cranks),
@@ -75,7 +74,6 @@ def _same_names(train: object) -> Iterator[InitErrorDetails]:
 
 
 def _engines(train: object) -> list[tuple[str, int]]:
-    """Name and throws of each engine."""
     installed = look(train, "engines")
     own = _throws(look(train, "engine"))
     if not keys(installed):
@@ -90,12 +88,10 @@ def _throws(engine: object) -> int:
 
 
 def _throw_names(train: object) -> tuple[str, ...]:
-    """Discs of all engines."""
     return tuple(name for engine, throws in _engines(train) for name in throw_names(throws, engine))
 
 
 def _engine_faults(train: object) -> Iterator[InitErrorDetails]:
-    """Engines that are described nowhere, and cylinders that they have not."""
     if not isinstance(train, Train):
         return
     for name, one in train.engines.items():
@@ -117,7 +113,6 @@ def _engine_faults(train: object) -> Iterator[InitErrorDetails]:
 
 
 def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
-    """Name and ends of each connection of a table that has two of them."""
     node = look(train, table)
     for name in keys(node):
         ends = look(look(node, name), "between")
@@ -126,7 +121,6 @@ def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """Ends that are no discs, and connections of a disc with itself."""
     for table in _TABLES:
         known = (*discs, GROUND) if table == "shafts" else discs
         for name, ends in _pairs(train, table):
@@ -144,7 +138,6 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """Dampers, loads and torques on what is no disc, and a driver that is none."""
     driver = look(train, "driver")
     if isinstance(driver, str) and look(train, "engine") is not None:
         remedy = (
@@ -169,7 +162,6 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _driver_faults(train: object) -> Iterator[InitErrorDetails]:
-    """Shares of the power beside an engine, which gives what its gas says."""
     if not isinstance(train, Train) or not train.installed:
         return
     for name, driver in train.drivers.items():
@@ -179,7 +171,6 @@ def _driver_faults(train: object) -> Iterator[InitErrorDetails]:
 
 
 def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
-    """A train in unconnected parts; the ground alone connects nothing."""
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
     for engine, throws in _engines(train):
         pairs += pairwise(throw_names(throws, engine))
@@ -197,14 +188,12 @@ def _listed(names: Sequence[str]) -> str:
 
 
 def _short_rod(error: AssemblyError) -> InitErrorDetails:
-    """A rod of an engine that does not reach its piston."""
     found, remedy = str(error).split(": ", 1)
     expected = "rods that reach their pistons at every crank angle"
     return fault("train", "engine", "rod", found=found, expected=expected, remedy=remedy)
 
 
 def _no_throw(error: InputError | ArithmeticError) -> InitErrorDetails:
-    """A throw of an engine that has no inertia, or no stiffness."""
     why = str(error) if isinstance(error, InputError) else "check the units of its sizes"
     found = "sizes of which no throw can be made"
     expected = "a throw with inertia and stiffness above 0"
@@ -212,7 +201,6 @@ def _no_throw(error: InputError | ArithmeticError) -> InitErrorDetails:
 
 
 def _loop_fault(wrong: Contradiction) -> InitErrorDetails:
-    """A loop that cannot turn."""
     remedy = "the other way around the loop must give the same ratio, with its sense"
     return fault(
         "train",

@@ -141,7 +141,6 @@ class Excitation(CheckedDescription):
 
 
 def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:
-    """Orders that a list of harmonics has already."""
     if len(orders) > HARMONICS.most:
         yield fault("harmonics", found=f"{len(orders)} of them", expected=HARMONICS.words)
         return

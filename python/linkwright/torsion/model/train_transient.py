@@ -267,7 +267,6 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
 
 
 def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> Iterator[InitErrorDetails]:
-    """The fault of a name that is not known."""
     listed = tuple(known)
     if name not in listed:
         remedy = close_match(name, listed) or suggestion(name, listed) or f"there is no {word}"
@@ -275,7 +274,6 @@ def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> I
 
 
 def _engine_faults(train: Train, event: Misfire | FuelSwitch, n: int) -> Iterator[InitErrorDetails]:
-    """Combustion without an engine, or cylinders that it has not."""
     place = ("train", "transient", "events", n)
     engines = {one.name: one.engine for one in train.installed}
     if not engines:

@@ -55,7 +55,6 @@ def whole_train(train: Train) -> Train:
 
 
 def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
-    """Throws, and what twists between them."""
     engine, names = installed.engine, installed.throws
     n = len(names)
     disc = Disc.model_construct(inertia=mean_throw_inertia(engine), damping=engine.damping)
@@ -70,7 +69,6 @@ def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, 
 
 
 def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Disc]:
-    """Discs with the inertia of the shafts between them."""
     for shaft in shafts.values():
         for name, J in zip(shaft.between, _end_inertias(shaft), strict=True):
             if name in discs and J:
@@ -95,7 +93,6 @@ class RodShaft(Shaft):
 
 
 def _light(train: Train) -> dict[str, Shaft]:
-    """Shafts whose inertia is counted with the discs."""
     return {
         name: _counted(shaft, shaft.inertia or train.inertia) if shaft.is_heavy else shaft
         for name, shaft in train.shafts.items()
@@ -103,7 +100,6 @@ def _light(train: Train) -> dict[str, Shaft]:
 
 
 def _counted(shaft: Shaft, inertia: ShaftInertia) -> Shaft:
-    """A shaft whose inertia is counted with the discs; a rod as well where it is distributed."""
     if inertia == "ends":
         return shaft.model_copy(update={"density": None, "own_inertia": None})
     entries = {name: getattr(shaft, name) for name in type(shaft).model_fields}
@@ -112,7 +108,6 @@ def _counted(shaft: Shaft, inertia: ShaftInertia) -> Shaft:
 
 
 def _coupling(coupling: Coupling) -> Shaft:
-    """What a coupling without mean torque does."""
     return Shaft.model_construct(
         between=coupling.between,
         stiffness=plain(coupling.slope()) if coupling.stiffness is None else coupling.stiffness,
@@ -122,7 +117,6 @@ def _coupling(coupling: Coupling) -> Shaft:
 
 
 def _spring(name: str, damper: Damper) -> Shaft:
-    """What joins the ring of a damper with its disc."""
     # No shaft of a file has the stiffness 0, which a fluid has.
     return Shaft.model_construct(
         between=(damper.on, name),
@@ -206,7 +200,6 @@ def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
 
 
 def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], ratios: dict[str, float]) -> None:
-    """Give speeds to all that is connected with a disc."""
     ratios[root] = 1.0
     waiting = [root]
     while waiting:
@@ -218,7 +211,6 @@ def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], ratios: dic
 
 
 def _checked(joint: Joint, ratios: Mapping[str, float]) -> Contradiction | None:
-    """Whether a connection fits the speeds of its discs."""
     ratio = ratios[joint.first] / ratios[joint.second]
     if abs(ratio - joint.ratio) <= _EQUAL * abs(joint.ratio):
         return None

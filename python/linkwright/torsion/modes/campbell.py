@@ -194,7 +194,6 @@ def _range(given: tuple[float, float] | None) -> tuple[float, float] | None:
 
 
 def _orders(orders: Floats) -> Floats:
-    """Orders, checked."""
     in_range(orders=(orders, positive(COUNT)))
     if orders.ndim != 1 or not len(orders):
         raise InputError(f"orders: found {orders.tolist()}, expected a list of numbers above 0")

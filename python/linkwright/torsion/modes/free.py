@@ -322,7 +322,6 @@ def _along(train: Train, referred: ReferredTrain, modes: TrainModes, n: int, siz
 
 
 def _first_torque(shape: RodShape, omega: float) -> float:
-    """Torque at the first end of a shaft in a mode."""
     first = replace(shape.rod, stiffness=shape.rod.stiffness[:1], inertia=shape.rod.inertia[:1])
     (piece,) = ends([first], np.array([omega]))
     a, b = shape.angles[:2]

@@ -114,7 +114,6 @@ class _OfMachine(ModesAt):
 
     @cached_property
     def _curved(self) -> bool:
-        """Whether couplings change their stiffness under torque."""
         train = self.machine.train
         return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
 
@@ -170,7 +169,6 @@ class _OfMachine(ModesAt):
         return on_discs
 
     def _at(self, speeds: Floats) -> ExcitedTrain:
-        """The machine at some speeds."""
         if self._last is None or not np.array_equal(self._last.torques.speeds, speeds):
             self._last = prepared(self.machine, speeds)
         return self._last
@@ -185,6 +183,5 @@ def _of_rod(train: ReferredTrain, shape: RodShape, ω: float) -> float:
 
 
 def _train(at: ExcitedTrain, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:
-    """The train with the stiffness and damping that it has at a speed."""
     damping = at.referred.disc_damping if damping is None else damping
     return replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)

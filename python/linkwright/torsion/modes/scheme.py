@@ -132,7 +132,6 @@ def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
 def _twisting(
     machine: Machine, train: Train, referred: ReferredTrain, diameter: float
 ) -> Iterator[Connection]:
-    """Shafts, couplings, dampers and elastic meshes."""
     own = own_stiffness(referred)
     GI = _SHEAR_MODULUS * math.pi * diameter**4 / 32
     for n, name in enumerate(referred.shafts):
@@ -148,7 +147,6 @@ def _twisting(
 
 
 def _kind(machine: Machine, train: Train, name: str) -> Kind:
-    """What a part that twists is in the file."""
     if name in train.gears:
         return "mesh"
     described = machine.train
@@ -158,7 +156,6 @@ def _kind(machine: Machine, train: Train, name: str) -> Kind:
 
 
 def _rigid(train: Train) -> Iterator[Connection]:
-    """Gear stages that do not twist."""
     for name, gear in train.gears.items():
         if gear.stiffness is None:
             yield Connection(name, "gears", *gear.between, abs(gear.speed_ratio))

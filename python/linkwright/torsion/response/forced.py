@@ -216,7 +216,6 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
 
 
 def _complex(real: Floats, imaginary: Floats) -> Complexes:
-    """Numbers of which both parts are known, of the shape of the imaginary one."""
     made = np.empty(imaginary.shape, complex)
     made.real, made.imag = real, imaginary
     return made
@@ -281,7 +280,6 @@ class ForcedVibration(TorsionResponse):
 
 
 def _by_name(names: tuple[str, ...], rows: Floats) -> Mapping[str, list[float]]:
-    """A list for every name."""
     return dict(zip(names, rows.tolist(), strict=True))
 
 

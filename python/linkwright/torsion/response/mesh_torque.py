@@ -139,7 +139,6 @@ class MeshTorque(Result):
 
 
 def _runs(speeds: Floats, lost: Bools) -> Iterator[tuple[float, float]]:
-    """Lowest and highest speed of each run of speeds."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
     for first, after in zip(edges[::2], edges[1::2], strict=True):
         yield float(speeds[first]), float(speeds[after - 1])

@@ -132,7 +132,6 @@ def _mean(shares: Floats) -> Floats:
 
 
 def _fired(firing: Mapping[str, float], turns: int) -> tuple[tuple[str, ...], Floats]:
-    """Cylinders and angles in the order of firing."""
     if not firing:
         raise InputError("no cylinder fires: expected the firing angle of each cylinder")
     cycle = 2 * np.pi * turns

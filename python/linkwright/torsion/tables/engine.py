@@ -68,7 +68,6 @@ def engine_table(data: EngineData, names: str = "") -> Table:
 
 
 def _beside(word: str, value: float, used: float, unit: str) -> Row:
-    """A value that is not used, and how far it is from the one that is."""
     return word, "", measured(value, unit), f"{100 * (value / used - 1):+.3g} %".replace("-", "−")
 
 
@@ -93,7 +92,6 @@ def diagnosis_table(read: RecordDiagnosis, level: float) -> Table:
 
 
 def _verdicts(read: RecordDiagnosis, level: float) -> Iterator[tuple[str, str]]:
-    """What is wrong with each cylinder that is accused."""
     diagnosis = read.found
     for n, name in enumerate(diagnosis.cylinders):
         words = ["weak"] if name in read.weak(level) else []

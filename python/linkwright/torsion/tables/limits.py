@@ -52,7 +52,6 @@ def _restricted(row: Any) -> str:
 
 
 def _limits(name: str, title: str, judgements: Sequence[Any], heads: Row, *cells: Cell) -> Table:
-    """Limits: what, found, permitted, and where."""
     heads = ("limit", "", "found", "permitted", *heads)
     both = (of_kind("found"), of_kind("permitted"))
     return part_table(
@@ -80,7 +79,6 @@ def _barred(ranges: Sequence[BarredRange]) -> Table:
 
 
 def _passage(one: BarredRange) -> str:
-    """Whether a range may be barred and passed."""
     if one.is_passable is None:
         return "no limit given"
     if not one.is_passable:
@@ -211,7 +209,6 @@ def measured_words(one: Overlay) -> str:
 
 
 def _beside(one: Overlay, peak: PeakComparison) -> str:
-    """The computed peak beside a measured one."""
     if peak.speed_computed is None or peak.value_computed is None:
         return "no computed peak within 15 % of its speed"
     value, at = shown(peak.value_computed, one.kind), rpm(peak.speed_computed)
@@ -220,7 +217,6 @@ def _beside(one: Overlay, peak: PeakComparison) -> str:
 
 
 def _permitted(one: Overlay) -> str:
-    """Whether what was measured is permitted."""
     if one.permitted is None:
         return ""
     over = one.speeds[one.measured > one.permitted]

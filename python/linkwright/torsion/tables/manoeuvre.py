@@ -21,7 +21,6 @@ def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
 
 
 def _ice(moved: TorsionTransient) -> Table:
-    """Each sequence of impacts, and how the propeller slows down in it."""
     heads: Row = ("propeller", "", "Q_max", "C_q", "α_i", "impacts", "first at", "last passed at")
     cells = ("on", "", "torque_max [N m]", "amplitude", "duration [rad]", "impacts", "start [s]", "end [s]")
     speeds = ("speed_before [rad/s]", "speed_min [rad/s]")
@@ -37,7 +36,6 @@ def _shafts(moved: TorsionTransient) -> Table:
 
 
 def _stages(moved: TorsionTransient) -> Table:
-    """Extremes at the samples; a torque that changes its sign parts the teeth."""
     rows: list[Row] = []
     for name, row in zip(moved.stages, moved.stage_torque, strict=True):
         if not np.isfinite(row).all():

@@ -123,7 +123,6 @@ def _shown(at: ExcitedTrain, size: Floats) -> Mapping[str, int]:
 
 
 def _cells(wave: complex, largest: float) -> tuple[str, str]:
-    """Amplitude and phase."""
     if abs(wave) <= _ROUNDING * largest:
         return "–", "–"
     return quantity(abs(wave), "N m"), quantity(float(np.angle(wave)), "rad", usual="deg")

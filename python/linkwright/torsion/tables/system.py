@@ -69,7 +69,6 @@ def _factor(value: float) -> str:
 
 
 def _contact(meshes: MeshTorque, stage: int) -> str:
-    """Whether teeth stay in contact."""
     if not meshes.toothed[stage]:
         return "belt"
     parted = meshes.separation[stage]
@@ -123,7 +122,6 @@ def system_tables(
 def _joined(
     one: Connection, place: Mapping[str, str], sections: Mapping[str, tuple[StressedSection, ShaftLimit]]
 ) -> Row:
-    """A connection: what it joins, how stiff it is, and its section."""
     between = f"{place.get(one.first, one.first)} – {place.get(one.second, one.second)}"
     section = sections[one.name][0] if one.name in sections else None
     ratio = f"{number(one.ratio)} : 1" if one.kind == "gears" else None

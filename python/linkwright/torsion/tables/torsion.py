@@ -111,14 +111,12 @@ def detail_tables(study: TorsionStudy) -> Iterator[Table]:
 def _severest(
     diagram: CampbellDiagram, responses: Sequence[CriticalResponse]
 ) -> tuple[CriticalResponse, ...]:
-    """Those at the most severe critical speeds, by speed."""
     severity = [point.resonance_amplitude or 0.0 for point in diagram.critical]
     kept = sorted(np.argsort(severity, kind="stable")[::-1][:_CRITICAL].tolist())
     return tuple(responses[n] for n in kept)
 
 
 def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
-    """Natural frequencies with their damping."""
     heads = ("motion", "", "{Hz}", "damped {Hz}", "ζ", "log. decrement")
     cells = ("natural_frequencies", "damped_frequencies", "damping_ratios", "logarithmic_decrements")
     run = study.machine.train.run if study.machine.train is not None else None
@@ -128,7 +126,6 @@ def _damped(study: TorsionStudy, damped: DampedVibration) -> Table:
 
 
 def _motion(mode: NamedPart) -> str:
-    """What a mode with damping does."""
     if mode.natural_frequencies == 0:
         return "rigid-body rotation"
     return "underdamped (oscillatory)" if mode.damped_frequencies > 0 else "overdamped (aperiodic)"
@@ -156,14 +153,12 @@ def _critical(diagram: CampbellDiagram) -> Table:
 
 
 def _amplitude(theta: float | None) -> str:
-    """An angle, where an amplitude was found."""
     if theta is None:
         return "–"
     return quantity(theta, "rad", 3, usual="deg") if np.isfinite(theta) else "∞"
 
 
 def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
-    """Torques of every shaft at their worst, and in service."""
     at, peaks = service_place(study, forced), study.peaks
     assert peaks is not None
     service = rpm(forced.speeds[at])
@@ -181,7 +176,6 @@ def _shafts(study: TorsionStudy, forced: ForcedVibration) -> Table:
 
 
 def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
-    """Speed fluctuation along the train in service."""
     at = service_place(study, forced)
     title = f"Speed fluctuation at {rpm(forced.speeds[at])} {per_minute()}"
     heads: Row = ("disc", "", "δ", "rigid-body", "torsional")
@@ -232,18 +226,15 @@ def _frequencies(free: FreeVibration) -> Table:
 
 
 def _nodes(nodes: Sequence[Node]) -> str:
-    """The first nodes of a mode; results.json has them all."""
     text = ", ".join(map(_node, nodes[:_NODES])) or "–"
     return f"{text}, …" if len(nodes) > _NODES else text
 
 
 def _node(node: Node) -> str:
-    """Where a node is: a disc, or a shaft and the share of its twist."""
     return node.at if node.share == 0 else f"{node.at} {100 * node.share:.0f} %"
 
 
 def _energy(free: FreeVibration, k: int) -> str:
-    """The shafts that twist most and the discs that swing most."""
     if free.natural_frequencies[k] == 0:
         moving = [name for name, q in zip(free.discs, free.mode_shapes[k], strict=True) if q]
         return "rigid-body rotation" if len(moving) > 1 else f"{moving[0]} rotates alone"

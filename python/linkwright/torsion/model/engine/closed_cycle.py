@@ -214,7 +214,6 @@ def closed_trace(gas: ClosedGas, rule: Rule, motored: Floats | None = None) -> C
 
 
 def _check_positive(gas: ClosedGas, p: Floats) -> None:
-    """Refuse a pressure that no gas has."""
     if not (p > 0).all():
         load, place = np.unravel_index(int(np.argmin(np.where(p > 0, np.inf, p))), p.shape)
         angle = math.degrees(float(gas.mesh.angle[place]))
@@ -232,7 +231,6 @@ def _exponent(gas: ClosedGas, T: Floats, Q: Floats) -> Floats:
 
 
 def _check_air(gas: ClosedGas, Q: Floats) -> None:
-    """Refuse heat that the air in the cylinder cannot release."""
     share = Q / burnable(gas.charge)
     if gas.exponent is None and share.max() > _RICHEST:
         i = int(share.argmax())
@@ -280,7 +278,6 @@ def _split(gas: ClosedGas, p: Floats, gamma: Floats, C: Floats | None) -> Split:
 
 
 def _trace(gas: ClosedGas, split: Split, Q: Floats, C: Floats | None) -> ClosedTrace:
-    """The settled pressure with what belongs to it."""
     p = split.without + Q * split.per_heat
     T = p * gas.volume / gas.charge
     lost = (1.0 - gas.kept) * Q

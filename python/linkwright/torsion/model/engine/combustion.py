@@ -155,7 +155,6 @@ class Combustion(Gas):
         )
 
     def _points(self, speeds: Floats) -> tuple[Floats, Floats]:
-        """Speeds to compute at, and the share of each in what is asked for."""
         if self.load is None and not isinstance(self.walls, WallHeat):
             # Nothing depends on the speed.
             return speeds[:1], np.ones((len(speeds), 1))
@@ -204,7 +203,6 @@ class Combustion(Gas):
         return lambda split: heat
 
     def _cycle(self, cylinder: Cylinder, speeds: Floats, charge: Floats) -> WorkingCycle:
-        """The cycle at speeds with their charge pressures."""
         timing = self.valves.timing(cylinder.strokes)
         spans = [(release.start, release.duration) for release in self.releases]
         closed = mesh(closed_edges(timing.closes, timing.opens, spans))
@@ -222,7 +220,6 @@ class Combustion(Gas):
     def _closed_gas(
         self, cylinder: Cylinder, timing: Timing, closed: CycleMesh, speed: Floats, charge: Floats
     ) -> ClosedGas:
-        """The gas between closing and opening."""
         kept = 1.0 - self.walls.share if isinstance(self.walls, HeatShare) else 1.0
         volume, volume_d1 = cylinder.volume(closed.angle, self.compression_ratio)
         return ClosedGas(

@@ -129,7 +129,6 @@ def periodic_cubic(knots: Floats, values: Floats, period: float, at: Floats) -> 
 
 
 def _one_period(knots: Floats, values: Floats, period: float) -> tuple[Floats, Floats]:
-    """The points with the first repeated at the end of the period."""
     # Knots closer than a millionth of the period are the same.
     if abs(knots[-1] - knots[0] - period) < 1e-6 * period:
         knots, values = knots[:-1], np.r_[(values[0] + values[-1]) / 2, values[1:-1]]
@@ -137,7 +136,6 @@ def _one_period(knots: Floats, values: Floats, period: float) -> tuple[Floats, F
 
 
 def _slopes(h: Floats, s: Floats) -> Floats:
-    """Slopes at all points, the last the same as the first."""
     before, after = np.roll(h, 1), h
     left, right = np.roll(s, 1), s
     w_1, w_2 = 2 * after + before, after + 2 * before

@@ -168,7 +168,6 @@ class ReciprocatingEngine(CheckedDescription):
             )
 
     def _number_faults(self) -> Iterator[InitErrorDetails]:
-        """Numbers of cylinders that it has not, and an order that does not fit its cycle."""
         wrong = [*self._order_faults()]
         yield from wrong
         if not wrong:
@@ -178,7 +177,6 @@ class ReciprocatingEngine(CheckedDescription):
                 yield fault("factors", number, found=number, expected=self._numbers())
 
     def _angle_faults(self) -> Iterator[InitErrorDetails]:
-        """Throws that do not start at zero, or no banks."""
         if not self.throws:
             yield fault("throws", found="an empty list", expected="an angle for each throw")
         elif len(self.throws) > THROWS.most:
@@ -194,7 +192,6 @@ class ReciprocatingEngine(CheckedDescription):
                     yield fault(name, n, found=angle, expected="an angle up to a revolution", remedy=remedy)
 
     def _part_faults(self) -> Iterator[InitErrorDetails]:
-        """Parts that are missing, or contradict each other."""
         if self.rods == "articulated" and self.articulated is None:
             expected = "the table of the rods that turn on the master rods"
             yield fault("articulated", expected=expected, remedy='or give other rods than "articulated"')
@@ -219,7 +216,6 @@ class ReciprocatingEngine(CheckedDescription):
             )
 
     def _fatigue_fault(self) -> Iterator[InitErrorDetails]:
-        """Fatigue asked for without what it is computed from."""
         if self.fatigue is None:
             return
         if self.throw is None:
@@ -230,14 +226,12 @@ class ReciprocatingEngine(CheckedDescription):
             yield fault("fatigue", found="a table", expected=expected)
 
     def _limit_fault(self) -> Iterator[InitErrorDetails]:
-        """A limit of stress without the section where it counts."""
         limit = self.crank_limit
         if limit is not None and limit.needs_section and not limit.has_section:
             expected = "the diameter where the stress counts, or [train.engine.throw] with its pin"
             yield fault("limit", "diameter", expected=expected)
 
     def _order_faults(self) -> Iterator[InitErrorDetails]:
-        """A firing order that is no permutation of the cylinders."""
         numbers, seen = range(1, self.n_cylinders + 1), set()
         for n, number in enumerate(self.firing_order):
             if number not in numbers:
@@ -251,7 +245,6 @@ class ReciprocatingEngine(CheckedDescription):
             yield fault("firing_order", found=f"an order without {listed}", expected="each cylinder once")
 
     def _cycle_fault(self) -> Iterator[InitErrorDetails]:
-        """An order that needs more, or fewer, turns than a cycle has."""
         angle, wanted = firing_angles(self.places, self.firing_order, self.cycle)[1], self.cycle
         if abs(angle - wanted) > _EQUAL:
             yield fault(

@@ -96,14 +96,12 @@ def diagram_faults(angle: tuple[float, ...], pressure: tuple[float, ...]) -> Ite
 
 
 def _holes(steps: Floats) -> list[int]:
-    """Steps that are too large, alone or beside their neighbours."""
     beside = np.maximum(np.r_[steps[1:2], steps[:-1]], np.r_[steps[1:], steps[-2:-1]])
     lone = (steps > _HOLE * beside) & (steps > _SMALL_STEP) if len(steps) > 1 else np.zeros(len(steps), bool)
     return [int(i) for i in np.flatnonzero((steps > _LARGEST_STEP) | lone)]
 
 
 def _hole(before: float, after: float) -> InitErrorDetails:
-    """The fault of a diagram that has no points between two angles."""
     a, b = math.degrees(before), math.degrees(after)
     return fault(
         "angle",
@@ -136,7 +134,6 @@ def whole_cycle_faults(
 
 
 def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDetails:
-    """The fault of a diagram over another angle than that of the cycle."""
     a, b, span = (math.degrees(end) for end in (angle[0], angle[-1], cycle))
     return fault(
         "angle",
@@ -147,7 +144,6 @@ def _wrong_span(angle: tuple[float, ...], cycle: float, how: str) -> InitErrorDe
 
 
 def _end_faults(pressure: Floats, closing: float) -> Iterator[InitErrorDetails]:
-    """Ends of the cycle whose pressures do not go over into each other."""
     jump, top = abs(pressure[0] - pressure[-1]), pressure.max()
     # Points one step apart may differ as any two neighbours of the diagram do.
     within = _DRIFT * top + (0.0 if closing < _SAME_ANGLE else float(np.abs(np.diff(pressure)).max()))
@@ -163,7 +159,6 @@ def _end_faults(pressure: Floats, closing: float) -> Iterator[InitErrorDetails]:
 def _peak_faults(
     angle: tuple[float, ...], pressure: tuple[float, ...], cycle: float
 ) -> Iterator[InitErrorDetails]:
-    """A maximum pressure far from the angle that should be the firing dead centre."""
     at = angle[int(np.argmax(pressure))]
     off = math.remainder(at, cycle)
     if abs(off) > _PEAK_WITHIN:
@@ -202,7 +197,6 @@ def _fitted(volume: Floats, pressure: Floats) -> float:
 
 
 def _check_combustion(fired: Floats, motored: Floats, peak: float) -> None:
-    """Refuse diagrams of motored cylinders where a load is asked for."""
     for mean, without in zip(fired, motored, strict=True):
         if mean - without < _NO_COMBUSTION * peak:
             found = f"a mean effective pressure of {mean:.6g} Pa, {without:.6g} Pa of it without combustion"
@@ -279,7 +273,6 @@ class Indicator(Diagram, Gas):
         yield from self._load_faults()
 
     def _load_faults(self) -> Iterator[InitErrorDetails]:
-        """Diagrams that no load map leads to; a load map with what only a model can follow."""
         if self.other_loads and self.load is None:
             expected = "a load map, which says at which speed each diagram holds"
             yield fault("load", expected=expected)
@@ -307,13 +300,11 @@ class Indicator(Diagram, Gas):
         )
 
     def _angles(self, cycle: float) -> Floats:
-        """Even angles of a cycle, as close as the finest diagram has them."""
         steps = [cycle / len(other_load.angle) for other_load in (self, *self.other_loads)]
         n = round(cycle / max(_FINEST, min(_STEP, *steps)))
         return np.asarray(np.arange(n) * (cycle / n) - cycle / 2)
 
     def _motored(self, pressure: Floats, angle: Floats, cylinder: Cylinder) -> Floats:
-        """The diagram without its combustion."""
         start, opens = self.combustion_start, self.exhaust_opens or default_opening(cylinder.strokes)
         V, _ = cylinder.volume(angle, self.compression_ratio)
         ahead = (angle <= start) & (angle > start - _FITTED)

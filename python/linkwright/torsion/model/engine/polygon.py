@@ -73,7 +73,6 @@ def _between(a: Point, b: Point, p: Point) -> bool:
 
 
 def _meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether two segments share a point."""
     s, t = (_side_of(a, b, c), _side_of(a, b, d)), (_side_of(c, d, a), _side_of(c, d, b))
     if s[0] * s[1] < 0 and t[0] * t[1] < 0:
         return True

@@ -93,7 +93,6 @@ class Rod(CheckedDescription):
                 return
 
     def _key_faults(self) -> Iterator[InitErrorDetails]:
-        """Entries that are missing, or too many."""
         given = [key for key in _WAYS if getattr(self, key) is not None]
         if len(given) != 1:
             expected = f"one of {', '.join(_WAYS[:-1])} and {_WAYS[-1]}, which say how the mass is spread"
@@ -106,7 +105,6 @@ class Rod(CheckedDescription):
             yield fault("centre", found=self.centre, expected="no entry", remedy=remedy)
 
     def _swing_faults(self) -> Iterator[InitErrorDetails]:
-        """Pendulum tests that fit no rod."""
         if self.swing is not None and self._below_edge <= 0:
             expected = "a centre of mass below the knife edge of the swing"
             yield fault("centre", found=self.centre, expected=expected)
@@ -132,7 +130,6 @@ class Rod(CheckedDescription):
             yield fault("two_point_swing", found=found, expected=expected, remedy=remedy)
 
     def _body_faults(self) -> Iterator[InitErrorDetails]:
-        """A mass that no rod can be spread like."""
         low, high = -_OVERHANG * self.length, (1 + _OVERHANG) * self.length
         if self._is_two_masses and self.distribution is None and self.mass_piston <= 0:
             expected = f"less than mass times length squared, {self.mass * self.length**2:.6g} kg m^2"
@@ -176,7 +173,6 @@ class Rod(CheckedDescription):
 
     @property
     def _is_two_masses(self) -> bool:
-        """Whether nothing but the moment about the small end is known."""
         return self.centre is None and self.two_point_swing is None
 
     @property
@@ -211,7 +207,6 @@ class Rod(CheckedDescription):
         return RodBody(m, self.centre, self._moment - m * (length - self.centre) ** 2)
 
     def _swung_body(self, test: TwoPointSwing) -> RodBody:
-        """The rod of tests in both heads."""
         b = two_point_centre(test.big_end.length, test.small_end.length, self._edges_apart)
         J = inertia_about_centre(self.mass, b, test.small_end.length)
         return RodBody(self.mass, self.length - (b - test.small_end.edge), J)

@@ -151,7 +151,6 @@ def slider_crank(
 
 
 def _open(phi: Floats, sine: Floats, rod_length: float, name: str) -> AssemblyError:
-    """The error of a rod that does not reach its cylinder."""
     wrong = ~(np.abs(sine) < 1.0)
     at = int(np.flatnonzero(wrong)[0])
     away = abs(float(sine.flat[at])) * rod_length

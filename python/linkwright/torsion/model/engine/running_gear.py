@@ -91,7 +91,6 @@ def throw_motion(
 
 
 def _master(gears: Sequence[RunningGear], at: int) -> int:
-    """Place of the master rod of an articulated rod."""
     place = gears[at].master
     if not 0 <= place < len(gears) or gears[place].is_articulated:
         found = "none" if not 0 <= place < len(gears) else "an articulated rod"
@@ -215,7 +214,6 @@ def _own_rows(crank_radius: float, gears: Sequence[RunningGear], angle: Floats) 
 
 
 def _counted(angle: Floats, piston: Floats, bank_angle: float) -> DeadCentres:
-    """Dead centres with their angles counted from the cylinder's axis."""
     top = bank_angle + math.remainder(float(angle[0]) - bank_angle, 2.0 * math.pi)
     bottom = top + (float(angle[1]) - top) % (2.0 * math.pi)
     return DeadCentres(top, bottom, float(piston[0]), float(piston[1]))

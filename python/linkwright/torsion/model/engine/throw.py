@@ -102,7 +102,6 @@ class CrankWeb(CheckedDescription):
             yield from self._polygon_faults()
 
     def _polygon_faults(self) -> Iterator[InitErrorDetails]:
-        """Corners that enclose nothing, or whose sides cross."""
         assert self.along is not None
         assert self.across is not None
         if len(self.along) != len(self.across):
@@ -190,7 +189,6 @@ class Counterweight(CheckedDescription):
         yield from self._sector_faults()
 
     def _sector_faults(self) -> Iterator[InitErrorDetails]:
-        """A sector of a ring without width, or of more than a revolution."""
         if self.outer_radius is not None and (self.inner_radius or 0.0) >= self.outer_radius:
             expected = f"less than the outer radius, {self.outer_radius:.6g} m"
             yield fault("inner_radius", found=self.inner_radius, expected=expected)
@@ -228,7 +226,6 @@ class CrankThrow(CheckedDescription):
                 yield fault("web", key, found=getattr(self.web, key), expected=expected)
 
     def _web_holds(self, point: tuple[float, float]) -> bool:
-        """Whether a point lies inside the outline of the web."""
         if self.web.outline == "polygon":
             return holds(self.web.corners, point)
         if self.web.outline == "disc":

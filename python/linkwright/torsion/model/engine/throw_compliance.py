@@ -159,7 +159,6 @@ class ComplianceFormula:
 
 
 def _restraint_remark(throw: CrankThrow) -> str:
-    """Webs so slender that the bearings turn the torque of the pin round."""
     k = throw.restraint_length or restraint_length(throw)
     if k > throw.radius:
         return ""
@@ -167,7 +166,6 @@ def _restraint_remark(throw: CrankThrow) -> str:
 
 
 def _overlap_remark(throw: CrankThrow) -> str:
-    """Journal and pin so thick that no web is left between them."""
     taken = 0.2 * (throw.journal.diameter + throw.pin.diameter)
     if throw.radius > taken:
         return ""
@@ -175,7 +173,6 @@ def _overlap_remark(throw: CrankThrow) -> str:
 
 
 def _short_remark(throw: CrankThrow) -> str:
-    """A journal so short that what is added to it is longer than itself."""
     added = 0.6 * throw.web.thickness * throw.journal.diameter / throw.journal.length
     if added <= throw.journal.length:
         return ""
@@ -183,7 +180,6 @@ def _short_remark(throw: CrankThrow) -> str:
 
 
 def _nothing(throw: CrankThrow) -> str:
-    """No limit is published."""
     return ""
 
 

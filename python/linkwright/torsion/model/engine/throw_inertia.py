@@ -87,7 +87,6 @@ def throw_inertia(throw: CrankThrow) -> ThrowInertia:
 
 
 def _parts(throw: CrankThrow) -> Iterator[ThrowPart]:
-    """All parts of a throw, one after the other."""
     rho, R, pin = throw.density, throw.radius, throw.pin
     yield from _cylinder("journal", throw.journal, rho, 0.0, 0.0)
     yield from _cylinder("pin", pin, rho, R, R + pin.bore_offset)
@@ -105,14 +104,12 @@ def _round(name: str, diameter: float, length: float, density: float, at: float)
 
 
 def _cylinder(name: str, journal: Journal, density: float, at: float, bore: float) -> Iterator[ThrowPart]:
-    """A journal or pin, and its bore if it has one."""
     yield _round(name, journal.diameter, journal.length, density, at)
     if journal.inner_diameter > 0:
         yield _round(f"{name}.bore", journal.inner_diameter, journal.length, -density, bore)
 
 
 def _webs(throw: CrankThrow) -> ThrowPart:
-    """Both webs."""
     web, volume = throw.web, _WEBS * throw.web.thickness
     if web.outline == "polygon":
         area, centre, polar = area_moments(web.corners)
@@ -134,7 +131,6 @@ def _hole(name: str, drilling: Drilling, density: float) -> ThrowPart:
 
 
 def _counterweight(name: str, weight: Counterweight, density: float) -> ThrowPart:
-    """A counterweight, given as a lump or as the sector of a ring."""
     if weight.mass is not None:
         assert weight.radius is not None
         mass, r, own = weight.mass, weight.radius, weight.inertia or 0.0

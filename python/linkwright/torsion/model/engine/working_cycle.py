@@ -179,12 +179,10 @@ class WorkingCycle:
 
     @property
     def _blowdown(self) -> Floats:
-        """Pressure of the open cylinder per pressure at opening."""
         return np.asarray(self.timing.blowdown(self.open.angle))
 
     @property
     def _exchange(self) -> Floats:
-        """Pressure of the open cylinder besides."""
         s = self.timing.charging(self.open.angle)
         p_e = self.exhaust_pressure
         return np.asarray(p_e + (self.charge_pressure - p_e) * s - p_e * self._blowdown)
@@ -242,7 +240,6 @@ class WorkingCycle:
 
 
 def _check_work(work: Floats) -> None:
-    """Refuse heat that does no work, or raises no pressure, so that no heat gives what is wanted."""
     if not (work > 0).all():
         raise FindingError(
             "the heat released in a cylinder does no work: it is so early, so late or so sudden that no "
