@@ -102,7 +102,6 @@ def cam_laws() -> dict[str, LawFactors]:
 
 
 def _of_unit(law: MotionLaw) -> LawFactors:
-    """Factors of a law with lift and length of one."""
     (low_a, high_a), (low_j, high_j) = (
         [extreme.value for extreme in law.extremes(order)] for order in (2, 3)
     )
@@ -146,7 +145,6 @@ def _peak_of_product(law: MotionLaw) -> float:
 
 
 def _peak_in_piece(v: Piece, a: Piece, j: Piece) -> float:
-    """The same in one piece, of its velocity, acceleration and jerk."""
     degree = 2 * max(len(v.polynomial) - 1, 0)
     turns = zeros(lambda u: a.at(u) ** 2 + v.at(u) * j.at(u), degree, 2 * v.waves)
     u = np.array([0.0, *turns, 1.0])

@@ -75,7 +75,6 @@ def reach(machine: Machine) -> Iterator[tuple[str, float]]:
 
 
 def _contacts(machine: Machine, name: str, cam: Cam) -> tuple[Contact, ...]:
-    """Contacts of a cam; none if a second follower has no room."""
     try:
         return contacts(cam, machine.mechanism.fixed_points(), name)
     except LinkwrightError:
@@ -84,7 +83,6 @@ def _contacts(machine: Machine, name: str, cam: Cam) -> tuple[Contact, ...]:
 
 
 def _centre(cam: Cam) -> str:
-    """Name of the point that it turns about."""
     return cam.pivot or ORIGIN
 
 
@@ -103,7 +101,6 @@ def _outline(curve: CamCurve) -> Floats:
 
 
 def _cam(name: str, cam: Cam, contact: Contact, series: int, *, second: bool) -> Scene:
-    """One cam with its outlines."""
     radius = contact.sizes.roller_radius
     away = (-radius, radius) if cam.closure == "groove" else (-radius,)
     outlines = [_outline(CamCurve(contact, point)) for point in away]
@@ -144,7 +141,6 @@ def _apart(cam: Cam, contact: Contact) -> float:
 
 
 def _on_arm(name: str, cam: Cam, contact: Contact, look: Scene, *, second: bool) -> Scene:
-    """Roller or face of an oscillating follower."""
     look |= {"rod": [0.0, 0.0] if second else None, "at": cam.arm_pivot, "link": name, "angle": 0.0}
     if not contact.kernel.is_roller:
         rows = contact.kernel.shape(_PLACES)

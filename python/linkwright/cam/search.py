@@ -181,7 +181,6 @@ def useful_entries(cam: Cam, *asked: str) -> tuple[str, ...]:
 
 
 def _columns(entries: Mapping[str, ArrayLike]) -> tuple[dict[str, Floats], int]:
-    """Columns by name, and how many variants."""
     columns = {}
     for key, values in entries.items():
         columns[key] = np.atleast_1d(array(f"entries: {key}", values))
@@ -198,7 +197,6 @@ def _columns(entries: Mapping[str, ArrayLike]) -> tuple[dict[str, Floats], int]:
 
 
 def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[Indices, int]:
-    """Number of the law of each cam, and how often the variants are repeated."""
     if law is None:
         return np.repeat(np.arange(n_laws), n), n_laws
     given = array("law", law)
@@ -213,7 +211,6 @@ def _numbers(law: ArrayLike | None, n_laws: int, n: int) -> tuple[Indices, int]:
 
 
 def _variants(cam: Cam, laws: Sequence[str]) -> list[Cam]:
-    """The cam with each law in its moving sections."""
     if not laws:
         return [cam]
     return [
@@ -246,7 +243,6 @@ def _cams(
     numbers: Indices,
     results: dict[str, Floats],
 ) -> Cams:
-    """The results in the field's terms."""
     lead, sound, most, least = (results[name] for name in _SEARCHED)
     n = len(numbers)
     roller = np.broadcast_to(columns.get("roller_radius", np.array([cam.radius_of_roller])), n)

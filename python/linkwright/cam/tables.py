@@ -140,7 +140,6 @@ def section_table(profile: CamProfile) -> Table:
 
 
 def _law_words(section: Mapping[str, Any]) -> str:
-    """Name of the law of a section for people."""
     return str(section["law"]).replace("_", " ")
 
 
@@ -214,7 +213,6 @@ def comparison_table(profile: CamProfile) -> Table:
 
 
 def _factor_table(name: str, title: str, laws: Mapping[str, LawFactors], columns: Mapping[str, str]) -> Table:
-    """A law a row; what jumps, in one word."""
     rows = [
         (
             law,
@@ -227,7 +225,6 @@ def _factor_table(name: str, title: str, laws: Mapping[str, LawFactors], columns
 
 
 def _own(profile: CamProfile) -> Iterator[tuple[str, LawFactors]]:
-    """Name and factors of each section from rest to rest; sections alike are reported once."""
     law, seen = profile.cam.lift, []
     ends = [joint.angle for joint in profile.cam.programme.joints] + [law.end]
     for n, (low, high) in enumerate(pairwise(ends), start=1):
@@ -262,6 +259,5 @@ def bound_table() -> Table:
 
 
 def _named(name: str) -> str:
-    """A law's name, with the order that a law of several kinds is shown for."""
     order = LAWS[name].parameters.get("order") if name in LAWS else None
     return name if order is None else f"{name}, order {order}"

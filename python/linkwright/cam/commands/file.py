@@ -132,7 +132,6 @@ class _Drawing(NamedTuple):
 
 
 def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawing], list[str]]:
-    """Name of the file → drawing, of the cams that can be made; what cannot be drawn is a finding."""
     from tempfile import TemporaryDirectory
 
     from linkwright.cam.manufacture.drawing import cam_drawings
@@ -158,7 +157,6 @@ def _drawn(study: Study, options: dict[str, Any]) -> tuple[dict[str, _Drawing], 
 
 
 def _measured(name: str, drawn: _Drawing) -> str:
-    """What was measured in a drawing."""
     most = max(outline.deviation.largest for outline in drawn.outlines)
     sides = "+".join(str(outline.deviation.sides) for outline in drawn.outlines)
     if name.endswith(".csv"):

@@ -97,7 +97,6 @@ def _read(text: str) -> _LawChoice:
 
 
 def _value(text: str) -> Any:
-    """A number, or a word."""
     for kind in (int, float):
         try:
             return kind(text)

@@ -119,7 +119,6 @@ def search(
 
 
 def _levels(wanted: list[str]) -> dict[str, Levels]:
-    """What varies, by name."""
     from linkwright.cam.search import ENTRIES
     from linkwright.studies.cams import Levels
 
@@ -158,7 +157,6 @@ def _smallest(plan: StudyPlan, cams: Cams, keeps: Bools, count: int) -> list[dic
 
 
 def _row(cams: Cams, i: int, exact: dict[str, float]) -> dict[str, Any]:
-    """What is said of one cam."""
     law = cams.laws[int(cams.law[i])] if cams.laws else None
     entries = {key: float(column[i]) for key, column in cams.entries.items()}
     convex = exact["convex_radius"]
@@ -172,7 +170,6 @@ def _row(cams: Cams, i: int, exact: dict[str, float]) -> dict[str, Any]:
 
 
 def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
-    """That there is no cam to show."""
     if best:
         return []
     if not keeps.any():
@@ -185,7 +182,6 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
 
 
 def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:
-    """The smallest cams."""
     from linkwright.kernel.page.numbers import quantity
     from linkwright.kernel.page.table import Table
 

@@ -75,7 +75,6 @@ def side_changes(course: CamCourse, force: Floats, mass: float, clearance: float
 def _change(
     course: CamCourse, force: Floats, place: tuple[int, float], mass: float, clearance: float
 ) -> SideChange:
-    """One change, in the interval that ends at a row, after a share of it."""
     b, share = place
     step = course.cam_angle[b] - course.cam_angle[b - 1]
     time = step / (0.5 * (course.speed[b] + course.speed[b - 1]))

@@ -227,7 +227,6 @@ def _held(course: CamCourse, bearing: Bearing, friction: float, side: Floats) ->
 
 
 def _without_friction(bearing: Bearing) -> Bearing:
-    """The same bearing with a coefficient of zero."""
     return bearing if isinstance(bearing, NoFriction) else replace(bearing, coefficient=0.0)
 
 
@@ -265,12 +264,10 @@ def _energy(course: CamCourse, follower: FollowerLoad) -> tuple[Floats, Floats]:
 
 
 def _every_second(n: int) -> Indices:
-    """Every second of n places, with the last."""
     return np.unique(np.append(np.arange(0, n, 2), n - 1))
 
 
 def _simpson(angle: Floats, values: Floats) -> float:
-    """Integral over the angle."""
     from scipy.integrate import simpson
 
     # Angles may come twice, at both sides of a joint of the law: a step in between has no width.
@@ -280,13 +277,11 @@ def _simpson(angle: Floats, values: Floats) -> float:
 
 
 def _stretches(flags: Bools) -> Iterator[tuple[int, int]]:
-    """First and last row of each run of flags."""
     edges = np.diff(np.concatenate([[False], flags, [False]]).astype(int))
     yield from zip(np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1, strict=True)
 
 
 def _from_to(course: CamCourse, low: int, high: int) -> str:
-    """A range of angles in words."""
     first, last = np.degrees(course.cam_angle[[low, high]])
     angle = "cam angle θ ="
     return f"at {angle} {first:.4g}°" if low == high else f"from {angle} {first:.4g}° to {last:.4g}°"
@@ -329,7 +324,6 @@ def _gain(
 
 
 def _losses(course: CamCourse, force: Floats, lost: Bools) -> Iterator[str]:
-    """Where the closing force does not suffice."""
     for low, high in _stretches(lost):
         k = low + int(np.argmin(force[low : high + 1]))
         yield (

@@ -241,7 +241,6 @@ def _size(extremes: tuple[Extreme, Extreme]) -> float:
 
 
 def _findings(impulses: tuple[Impulse, ...], low: Extreme) -> tuple[str, ...]:
-    """What a designer must know."""
     sentences = [
         f"the velocity of the lift jumps by {impulse.velocity_step:.4g} m/s at "
         f"cam angle θ = {np.degrees(impulse.cam_angle):.4g}°: impact"

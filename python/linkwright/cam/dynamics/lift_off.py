@@ -103,7 +103,6 @@ def lift_off(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None = N
 
 
 def _no_drop(lift: MotionLaw, consequence: str) -> None:
-    """Raise if the velocity of the lift drops at once."""
     drops = steps(lift, 1, "turn")
     if (drops < 0).any():
         k = int(np.argmin(drops))
@@ -114,7 +113,6 @@ def _no_drop(lift: MotionLaw, consequence: str) -> None:
 
 
 def _spring(lift: MotionLaw, follower: FollowerLoad, load: MotionLaw | None) -> MotionLaw:
-    """ks + F₀ + F_load over the revolution."""
     outside = np.asarray(follower.load, dtype=float)
     if outside.ndim:
         raise InputError(
@@ -151,7 +149,6 @@ def _least(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> LiftOff:
 
 
 def _start(lift: MotionLaw, follower: FollowerLoad, held: MotionLaw) -> tuple[Extreme, float]:
-    """A speed at which the follower has surely left, and the angle."""
     places = [lift.extremes(2)[0], lift.extremes(1)[0]]
     for low, high in zip(lift.breaks, lift.breaks[1:], strict=False):
         places += [Extreme(float(x), 0.0, "after") for x in np.linspace(low, high, _STARTS)[:-1]]

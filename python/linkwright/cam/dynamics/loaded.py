@@ -200,7 +200,6 @@ def _angles(profile: CamProfile) -> Floats:
 
 
 def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:
-    """Forces at crank angles of one revolution, in steady motion or at a speed."""
     drive = machine.drive
     if speed is None and drive is not None and drive.motor is not None:
         return forces(machine, steady_state(machine, accuracy=_ACCURACY, angles=angles))
@@ -250,7 +249,6 @@ def _left(profile: CamProfile, least: float, at: float, size: float, acting: For
 
 
 def _others(acting: Forces) -> tuple[str, ...]:
-    """Findings of forces at some angles, but for those that are looked at between the angles here."""
     return tuple(text for text in acting.findings if not text.startswith(LEAVES))
 
 
@@ -322,7 +320,6 @@ def _hertz(
 
 
 def _inner(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
-    """Radii of curvature of profile and follower."""
     bend = rows["bend"]
     if not flank.contact.kernel.is_roller:
         return bend, np.full_like(bend, np.inf)

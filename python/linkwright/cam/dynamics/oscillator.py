@@ -177,7 +177,6 @@ def _integral(
 
 
 def _run(start: complex, growth: Complexes, inner: Complexes, kick: Floats) -> tuple[Complexes, complex]:
-    """States after the kicks at the starts of all steps, and the one at the end."""
     states = np.empty(len(growth), dtype=complex)
     q = start
     for i, (g, f, v) in enumerate(zip(growth.tolist(), inner.tolist(), kick.tolist(), strict=True)):

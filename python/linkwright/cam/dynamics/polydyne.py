@@ -116,7 +116,6 @@ def _jump(wanted: MotionLaw, ends: Ends, order: int) -> str:
 
 
 def _findings(wanted: MotionLaw, lift: MotionLaw, smooth: int) -> list[str]:
-    """What a designer must know of the lift."""
     sentences = []
     if smooth == 2:
         sentences.append(

@@ -198,7 +198,6 @@ def _kernel(rise: MotionLaw, tau: Floats, train: tuple[float, float, float]) -> 
 
 
 def _height(rise: MotionLaw) -> float:
-    """Total lift: how far apart the extremes are."""
     low, high = rise.extremes()
     if not high.value > low.value:
         raise InputError(f"rise: found a lift that stays at {high.value:g} m, expected one that moves")
@@ -263,7 +262,6 @@ class _Kernel:
 
 
 def _quiet(kernel: _Kernel, low: float, high: float, height: float) -> tuple[Quiet, ...]:
-    """Minima of the residual between two ratios."""
     if high - low < _GRID:
         return ()
 

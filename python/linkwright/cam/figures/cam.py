@@ -162,7 +162,6 @@ def _near(limits: list[Level], drawn: Floats) -> list[Level]:
 
 
 def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Degrees and values, with a gap where an angle stands twice with two values."""
     same = np.diff(angle) <= 0
     size = float(np.nanmax(np.abs(values))) if len(values) else 0.0
     jumps = np.flatnonzero(same & (np.abs(np.diff(values)) > 1e-6 * size)) + 1
@@ -170,7 +169,6 @@ def _with_gaps(angle: Floats, values: Floats) -> tuple[Floats, Floats]:
 
 
 def _parts(profile: CamProfile) -> Sequence[Flank]:
-    """One contact of each cam."""
     return profile.flanks if profile.cam.closure == "conjugate" else profile.flanks[:1]
 
 
@@ -185,7 +183,6 @@ def _course(curve: CamCurve) -> Floats:
 
 
 def _draw_cam(axes: Axes, profile: CamProfile, flank: Flank) -> None:
-    """Outline, pitch curve, base circle, centre."""
     roller = flank.contact.sizes.roller_radius
     outline = _course(flank.curve())
     axes.fill(*outline.T, color=BLUE, alpha=0.1, linewidth=0)

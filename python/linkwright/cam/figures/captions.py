@@ -44,7 +44,6 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
 
 
 def _cam_words(profile: CamProfile) -> str:
-    """What is drawn, and its circles."""
     words = "Position at the start of the programme, θ = 0, seen along the line to the follower's guide "
     words += "or pivot. "
     words += f"Base circle {_mm(profile.base_radius)}"
@@ -56,7 +55,6 @@ def _cam_words(profile: CamProfile) -> str:
 
 
 def _lift_words(profile: CamProfile) -> str:
-    """How far it goes, and what jumps where."""
     swings = profile.cam.is_oscillating
     reach = degrees(profile.stroke) if swings else _mm(profile.stroke)
     names = ("lift", "velocity", "acceleration", "jerk")
@@ -82,7 +80,6 @@ def _lift_words(profile: CamProfile) -> str:
 
 
 def _curvature_words(profile: CamProfile) -> str:
-    """Minimum radii of convex and concave parts."""
     parts = [
         f"{word} parts {_mm(value)}"
         for word, value in (

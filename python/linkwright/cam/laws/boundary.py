@@ -155,7 +155,6 @@ def or_none(value: float | None) -> float:
 
 
 def _conditions(key: str, values: Sequence[float], order: int) -> dict[int, float]:
-    """Order → value, up to the order that is wanted."""
     left_out = [i for i in range(order + 1, len(values)) if moves(values[i])]
     if left_out:
         expected = f"{left_out[-1]} or more, as the section has a derivative of that order at this end"

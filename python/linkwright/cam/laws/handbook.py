@@ -83,7 +83,6 @@ def freudenstein_1_3_5() -> MotionLaw:
 
 
 def _series(amplitudes: dict[int, float]) -> MotionLaw:
-    """The law with amplitudes b_n by n."""
     waves = tuple(Harmonic(2 * pi * n, 0.0, -b / (2 * pi)) for n, b in amplitudes.items())
     return MotionLaw((0.0, 1.0), (Piece((0.0, 1.0), waves),))
 

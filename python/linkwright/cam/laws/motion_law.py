@@ -108,7 +108,6 @@ class MotionLaw:
         return self.end - self.start
 
     def _stretches(self) -> Iterable[tuple[float, float, Piece]]:
-        """Start, length and piece of each."""
         for low, high, piece in zip(self.breaks, self.breaks[1:], self.pieces, strict=False):
             yield low, high - low, piece
 

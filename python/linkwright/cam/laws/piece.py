@@ -156,7 +156,6 @@ class Piece(NamedTuple):
 
 
 def _shifted(harmonic: Harmonic, low: float, width: float) -> Harmonic:
-    """A harmonic over low + width·u."""
     k, a, b = harmonic
     c, s = cos(k * low), sin(k * low)
     return Harmonic(k * width, a * c + b * s, b * c - a * s)

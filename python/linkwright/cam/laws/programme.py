@@ -183,7 +183,6 @@ def joints(law: MotionLaw, places: Sequence[float]) -> tuple[Joint, ...]:
 
 
 def _ends(before: Section, after: Section) -> tuple[tuple[str, Section, str], ...]:
-    """Each end of a section with the neighbour there and the neighbour's end."""
     return (("start", before, "end"), ("end", after, "start"))
 
 

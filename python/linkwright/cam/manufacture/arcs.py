@@ -116,7 +116,6 @@ def _corners(part: Stretch, tolerance: float) -> Floats:
     """Starts of the chords of a stretch, (n, 2)."""
 
     def errors(cuts: Floats) -> Floats:
-        """Largest distance of the curve from each chord, at samples."""
         p = part.points(cuts)
         chords = Sides(p[:-1], np.diff(p, axis=0), np.zeros(len(p) - 1))
         places = part.points(cuts[:-1, None] + np.diff(cuts)[:, None] * _CHORD_SHARES)
@@ -181,7 +180,6 @@ def _distances(part: Stretch, cuts: Floats) -> Floats:
 
 
 def _biarcs(part: Stretch, cuts: Floats) -> tuple[Sides, Sides]:
-    """First and second arc of each piece."""
     p, t = part.points(cuts), part.directions(cuts)
     v, t_0, t_1 = np.diff(p, axis=0), t[:-1], t[1:]
     vt, vv = dot(v, t_0 + t_1), dot(v, v)

@@ -127,12 +127,10 @@ def stretches(curve: ClosedCurve) -> tuple[Stretch, ...]:
 
 
 def _pairs(curve: ClosedCurve) -> list[tuple[float, float]]:
-    """Ends of the stretches of a curve."""
     return list(zip(curve.breaks[:-1], curve.breaks[1:], strict=True))
 
 
 def _samples(low: float, high: float) -> Floats:
-    """Equal steps from end to end."""
     return np.linspace(low, high, _SAMPLES)
 
 
@@ -142,7 +140,6 @@ def _extent(part: Stretch) -> float:
 
 
 def _refuse_gaps(parts: list[Stretch], extent: float) -> None:
-    """Each stretch begins where the one before it ends, the first where the last ends."""
     for before, after in zip(parts[-1:] + parts[:-1], parts, strict=True):
         gap = after.points(np.array([after.low]))[0] - before.points(np.array([before.high]))[0]
         length = math.hypot(*gap)
@@ -155,7 +152,6 @@ def _refuse_gaps(parts: list[Stretch], extent: float) -> None:
 
 
 def _refuse_cusps(part: Stretch) -> None:
-    """The direction of a stretch turns smoothly, however closely one looks."""
     phi = _samples(part.low, part.high)
     for _ in range(_ROUNDS):
         t = part.tangents(phi)

@@ -186,13 +186,11 @@ def cam_drawings(profile: CamProfile) -> tuple[Drawing, ...]:
 
 
 def _turned(curve: ClosedCurve, flank: Flank) -> ClosedCurve:
-    """A curve in the frame of the first contact."""
     angle = flank.contact.turned
     return TurnedCurve(curve, angle) if angle else curve
 
 
 def _curves(profile: CamProfile, flank: Flank) -> Iterator[tuple[str, ClosedCurve]]:
-    """Layers and curves of one part."""
     roller = flank.contact.sizes.roller_radius
     is_groove = profile.cam.closure == "groove"
     yield PROFILE, flank.curve()

@@ -67,12 +67,10 @@ def write_dxf(
 
 
 def _add_layer(document: Document, name: str) -> None:
-    """A layer with its colour."""
     document.layers.add(name, color=_COLOURS.get(name, _PLAIN))
 
 
 def _add_outline(space: Modelspace, path: Outline | Spline, layer: str) -> None:
-    """One closed entity."""
     attributes = {"layer": layer}
     if isinstance(path, Outline):
         rows = np.column_stack([1e3 * path.vertices, path.bulges]).tolist()
@@ -85,7 +83,6 @@ def _add_outline(space: Modelspace, path: Outline | Spline, layer: str) -> None:
 
 
 def _add_marks(document: Document, drawing: Drawing) -> None:
-    """A cross and a point at the centre, and the mark of the zero angle."""
     space, half = document.modelspace(), 1e3 * drawing.cross
     _add_layer(document, CENTRE)
     _add_layer(document, ZERO_ANGLE)
@@ -97,7 +94,6 @@ def _add_marks(document: Document, drawing: Drawing) -> None:
 
 
 def _add_notes(document: Document, drawing: Drawing, notes: tuple[str, ...]) -> None:
-    """Lines of text under the outline."""
     if not notes:
         return
     _add_layer(document, TEXT)
@@ -125,7 +121,6 @@ def read_dxf(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
 
 
 def _outline_of(file: File, document: Document, layer: str) -> FileOutline:
-    """The one closed entity of a layer."""
     entities: list[Any] = [entity for entity in document.modelspace() if entity.dxf.layer == layer]
     kinds = [entity.dxftype() for entity in entities]
     if kinds not in (["LWPOLYLINE"], ["SPLINE"]):
@@ -141,7 +136,6 @@ def _outline_of(file: File, document: Document, layer: str) -> FileOutline:
 
 
 def _spline_of(file: File, tool: BSpline, layer: str) -> EvaluatedSpline:
-    """A spline that ezdxf evaluates; its ends must meet."""
 
     def values(x: Floats) -> tuple[Floats, Floats]:
         """Places and first derivatives [m]."""

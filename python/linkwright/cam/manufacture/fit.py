@@ -86,12 +86,10 @@ def deviation(path: Path, track: Track) -> Deviation:
     low, high = _intervals(path.vertices, track)
 
     def from_path(which: Indices, u: Floats) -> tuple[Floats, Floats]:
-        """From places of the path to the nearest of the curve."""
         tau, distance = track.project(path.at(which, u), *_between(low[which], high[which], u))
         return distance, tau
 
     def from_curve(which: Indices, u: Floats) -> tuple[Floats, Floats]:
-        """From places of the curve to the nearest of the path."""
         tau, _, end = _between(low[which], high[which], u)
         return path.distances(which, track.points(tau, end)), tau
 
@@ -200,7 +198,6 @@ def fit(
 
 
 def _path(track: Track, form: Form, tolerance: float) -> Outline | Spline:
-    """The path of a form."""
     if form == "arcs":
         return arcs(track, tolerance)
     if form == "polyline":

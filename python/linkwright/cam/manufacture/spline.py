@@ -142,11 +142,9 @@ def spline(track: Track, tolerance: float, degree: int = 5) -> Spline:
 
 
 def _cuts(part: Stretch, tolerance: float, degree: int) -> Floats:
-    """Where to cut a stretch."""
     order = degree + 1.0
 
     def errors(cuts: Floats) -> Floats:
-        """Distance over tolerance; too long a piece errs as well."""
         return np.maximum(_distances(part, cuts, degree) / tolerance, (np.diff(cuts) / _LONGEST) ** order)
 
     return equal_errors(errors, part.low, part.high, order, 1.0)

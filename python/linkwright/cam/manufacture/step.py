@@ -58,7 +58,6 @@ def write_step(file: File, name: str, path: Spline, width: float) -> None:
 
 
 def _edge(path: Spline) -> Any:
-    """One closed edge."""
     gp, kernel = _kernel("gp"), _kernel("collections")
     cuts, repeated = np.unique(path.knots, return_counts=True)
     poles = [gp.gp_Pnt(x, y, 0) for x, y in (1e3 * path.controls).tolist()]

@@ -54,7 +54,6 @@ def write_svg(file: File, drawing: Drawing, paths: Mapping[str, Outline]) -> Non
 
 
 def _element(layer: str, data: str) -> str:
-    """A path with its layer as identifier."""
     colour = _COLOURS.get(layer, "#000")
     return f'<path id={quoteattr(layer)} stroke="{colour}" d="{data}"/>'
 
@@ -90,7 +89,6 @@ def read_svg(file: File, layers: tuple[str, ...]) -> dict[str, FileOutline]:
 
 
 def _refuse_scale(file: File, root: ElementTree.Element) -> None:
-    """One unit of the drawing is a millimetre."""
     width, box = root.get("width", ""), root.get("viewBox", "").split()
     try:
         is_true = width.endswith("mm") and float(width[:-2]) == float(box[2])
@@ -128,7 +126,6 @@ def _bulge(step: tuple[str, list[float]], chord: float) -> float:
 
 
 def _steps(data: str) -> Iterator[tuple[str, list[float]]]:
-    """Letters of path data with their numbers."""
     tokens = _TOKEN.findall(data)
     at = 0
     while at < len(tokens):

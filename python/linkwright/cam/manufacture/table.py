@@ -78,7 +78,6 @@ def curvature(track: Track, tau: Floats) -> Floats:
 
 
 def _count(step: float) -> int:
-    """How many steps make a revolution."""
     n = 2 * math.pi / step if step > 0 else math.nan
     if not math.isnan(n):
         remedy = f"take {360 / ROWS_OUT.most:.3g}° or more"
@@ -143,7 +142,6 @@ def read_csv(file: File) -> Table:
 
 
 def _refuse(file: File, rows: Table, radius: Floats) -> None:
-    """A table that is open, or says two things."""
     if (rows.place[0] != rows.place[-1]).any():
         raise ExchangeError(f"{file}: the last row is not the place of the first")
     x, y = radius * np.cos(rows.polar_angle), radius * np.sin(rows.polar_angle)

@@ -62,7 +62,6 @@ _READERS = {".dxf": read_dxf, ".svg": read_svg}
 
 
 def _compare(file: File, layer: str, outline: FileOutline, track: Track, tolerance: float) -> MeasuredOutline:
-    """The deviation of an outline; refused if larger than the tolerance."""
     try:
         measured = deviation(outline.path, track)
     except ExchangeError as error:
@@ -95,7 +94,6 @@ def _compare_rows(file: File, track: Track, layer: str) -> MeasuredOutline:
 
 
 def _compare_curvature(file: File, rows: Table, track: Track, tau: np.ndarray) -> None:
-    """Refuse a curvature that is that of the curve on neither side of the place."""
     sides = [curvature(track, tau + beside) for beside in (-_BESIDE, 0.0, _BESIDE)]
     with np.errstate(invalid="ignore"):
         off = np.min([np.abs(side - rows.curvature) for side in sides], axis=0)
@@ -197,12 +195,10 @@ def _checked(
 
 
 def _with_ending(place: File, ending: str) -> File:
-    """A file beside others of the same drawing; points in the name stay."""
     return place.with_name(place.name + ending)
 
 
 def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
-    """The drawing as DXF, with name, tolerance and what was measured as text."""
     fits = {layer: fit(track, form, tolerance) for layer, track in drawing.tracks.items()}
     paths: dict[str, Outline | Spline] = {layer: path for layer, (path, _) in fits.items()}
     notes = (
@@ -221,7 +217,6 @@ def _dxf(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written
 
 
 def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
-    """The drawing as SVG; splines, which it has not, as arcs."""
     paths = {}
     for layer, track in drawing.tracks.items():
         path, _ = fit(track, "polyline" if form == "polyline" else "arcs", tolerance)
@@ -250,12 +245,10 @@ def _step(place: File, drawing: Drawing, form: Form, tolerance: float) -> Writte
 
 
 def _spline(form: Form) -> Form:
-    """The spline nearest to a form."""
     return "cubic" if form == "cubic" else "spline"
 
 
 def _csv(place: File, drawing: Drawing, layer: str, step: float, by: By) -> WrittenFile:
-    """One outline as a table."""
     rows = table(drawing.tracks[layer], step, by)
     tail = "" if layer == PROFILE else f"_{layer.lower()}"
     return _checked(

@@ -221,7 +221,6 @@ class Cam(CheckedDescription):
             yield from self._line_faults()
 
     def _closure_faults(self) -> Iterator[InitErrorDetails]:
-        """What a closure needs, and what it cannot do with."""
         wanted = {"constant_diameter": True, "constant_breadth": False, "groove": True, "conjugate": True}
         if self.closure in wanted and wanted[self.closure] != self.is_roller:
             kinds = "rollers or points" if wanted[self.closure] else 'contact = "flat"'
@@ -246,7 +245,6 @@ class Cam(CheckedDescription):
             yield from self._second_faults(self.second)
 
     def _second_faults(self, second: SecondFollower) -> Iterator[InitErrorDetails]:
-        """A second follower that is of another kind than the first."""
         swings = self.is_oscillating
         wanted, what = ("angle", "the two arms") if swings else ("distance", "the two rollers")
         if getattr(second, wanted) is None:
@@ -259,7 +257,6 @@ class Cam(CheckedDescription):
             yield fault("second", "roller_radius", found=second.roller_radius, expected="nothing for an edge")
 
     def _breadth_faults(self) -> Iterator[InitErrorDetails]:
-        """A breadth that leaves no cam between the followers."""
         if self.breadth is None or not self.has_opposite or np.ndim(self.breadth):
             return
         if any(True for _ in section_faults(self.sections, "lift")) or self.is_oscillating:
@@ -270,7 +267,6 @@ class Cam(CheckedDescription):
             yield fault("breadth", found=self.breadth, expected=f"more than {least:.6g} m", remedy=remedy)
 
     def _arm_faults(self) -> Iterator[InitErrorDetails]:
-        """An oscillating follower needs its pivot and arm, and no line."""
         if self.arm_pivot is None:
             yield fault("arm_pivot", expected="the fixed pivot of the follower")
         if self.arm_length is None and self.is_roller:
@@ -283,7 +279,6 @@ class Cam(CheckedDescription):
             yield fault("offset", found=self.offset, expected="nothing for an arm with a roller or edge")
 
     def _line_faults(self) -> Iterator[InitErrorDetails]:
-        """A translating follower needs no arm, and a line that meets the prime circle."""
         for key in ("arm_pivot", "arm_length", "side"):
             if key in self.model_fields_set and getattr(self, key) is not None:
                 yield fault(key, found=getattr(self, key), expected="nothing for a translating follower")

@@ -60,7 +60,6 @@ class Law(CheckedDescription):
         return LAWS[name].section(task, **self._parameters())
 
     def _parameters(self) -> dict[str, Any]:
-        """The parameters of the law by name."""
         return {name: getattr(self, name) for name in type(self).model_fields if name != "kind"}
 
 

@@ -56,7 +56,6 @@ SwingAcceleration = Annotated[float, Quantity(SWING_D2)]
 
 
 def _as_table(value: object) -> object:
-    """The table that a bare name stands for."""
     return {"kind": value} if isinstance(value, str) else value
 
 
@@ -205,7 +204,6 @@ def section_faults(sections: Sequence[MotionSection], expected: Family) -> Itera
 def _family_faults(
     section: MotionSection, family: Family, place: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """Entries of the other kind of follower."""
     other: Family = "lift" if family == "swing" else "swing"
     moves = "swings" if family == "swing" else "moves along a guide"
     for here, instead in ((other, family), *((key_of(n, other), key_of(n, family)) for n in ENDS)):
@@ -217,7 +215,6 @@ def _family_faults(
 def _own_faults(
     section: MotionSection, family: Family, place: tuple[str | int, ...]
 ) -> Iterator[InitErrorDetails]:
-    """Ends that contradict the section itself, and a lift that nothing says."""
     said = {name: section.end(name, family) for name in ENDS}
     if section.is_dwell:
         yield from _ends_other_than(0.0, said, "0, as the section is a dwell", family, place)
@@ -242,14 +239,12 @@ def _ends_other_than(
     family: Family,
     place: tuple[str | int, ...],
 ) -> Iterator[InitErrorDetails]:
-    """Entries that are given and are not what they must be."""
     for name, value in said.items():
         if value is not None and abs(value - wanted) > _SAME * abs(wanted):
             yield fault(*place, key_of(name, family), found=value, expected=expected)
 
 
 def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails]:
-    """Angles that do not add to a revolution."""
     turn = math.fsum(section.angle for section in sections)
     over = turn - TURN
     if abs(over) <= CLOSES * TURN:
@@ -272,7 +267,6 @@ def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails
 
 
 def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
-    """Lifts that do not come back to zero."""
     lifts = [section.change(family) or 0.0 for section in sections]
     over, largest = math.fsum(lifts), max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
@@ -289,7 +283,6 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[
 
 
 def _law_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
-    """Laws that cannot do what their section asks."""
     stretches = [stretch(section, family) for section in sections]
     for i, (section, task) in enumerate(zip(stretches, boundaries(stretches), strict=True)):
         try:
@@ -302,7 +295,6 @@ def _law_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[I
 
 
 def _degrees(angle: float) -> str:
-    """An angle in degrees, to ten digits."""
     return f"{math.degrees(angle):.10g} deg"
 
 

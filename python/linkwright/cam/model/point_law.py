@@ -85,7 +85,6 @@ class PointLaw(Law):
 
     @property
     def _degree(self) -> int:
-        """Of the spline."""
         degree: int = getattr(self, "degree")  # noqa: B009
         return degree
 

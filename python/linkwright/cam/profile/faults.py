@@ -97,7 +97,6 @@ def _mm(length: float) -> str:
 
 
 def _subject(profile: CamProfile, flank: Flank) -> str:
-    """Name of the cam, and of the contact if there are several."""
     several = len(profile.flanks) > 1 and flank.contact.name != "cam"
     return f"cam {profile.name}, {flank.contact.name}" if several else f"cam {profile.name}"
 
@@ -119,7 +118,6 @@ def _undercut_range(flank: Flank, worst: float) -> str:
 
 
 def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A profile that the follower cuts away again."""
     shape, size = flank.shape, flank.contact.sizes
     is_roller = flank.contact.kernel.is_roller
     worst = shape.greatest["bend"] if is_roller else shape.least["bend"]
@@ -157,7 +155,6 @@ def _undercut(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _turns_over(cam: Cam, flank: Flank) -> bool:
-    """Whether the normal of an oscillating face turns back against the cam."""
     if not cam.is_oscillating:
         return False
     # Seen from the cam the normal turns by −σ − s′ for an arm to the left, by −σ + s′ for one to the right.
@@ -183,7 +180,6 @@ def _size_for(profile: CamProfile, flank: Flank, base: float | None, more: str =
 
 
 def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A follower that cannot be moved by any force."""
     gamma = flank.shape.rows["pressure_angle"]
     worst = int(np.argmax(np.abs(gamma)))
     if not np.isfinite(gamma).all():
@@ -201,7 +197,6 @@ def _locked(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A profile that crosses itself though it is nowhere undercut."""
     # Joints stand twice among the angles: a side of no length crosses nothing.
     angle = flank.shape.angle
     keep = np.append(np.diff(angle) > 0, False)
@@ -221,7 +216,6 @@ def _crossed(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
-    """A cutter that does not fit into the concave parts, or into a groove."""
     cutter, concave = profile.cam.cutter_radius, flank.concave
     roller = flank.contact.sizes.roller_radius
     if profile.cam.closure == "groove":
@@ -240,7 +234,6 @@ def _hollow(profile: CamProfile, flank: Flank) -> Iterator[str]:
 
 
 def _diameter(profile: CamProfile) -> Iterator[str]:
-    """Two followers of which one leaves the cam or is pressed into it."""
     both = profile.opposite
     if both is None or both.is_constant:
         return
@@ -256,7 +249,6 @@ def _diameter(profile: CamProfile) -> Iterator[str]:
 
 
 def _steep(profile: CamProfile) -> Iterator[str]:
-    """A pressure angle above its limit."""
     limit = profile.cam.limit
     if profile.pressure_angle_max <= limit:
         return
@@ -272,7 +264,6 @@ def _steep(profile: CamProfile) -> Iterator[str]:
 
 
 def _tight(profile: CamProfile) -> Iterator[str]:
-    """A radius of curvature below what is allowed."""
     limit = profile.cam.curvature_limit
     for flank in profile.flanks:
         convex = flank.convex
@@ -293,7 +284,6 @@ def _places(angles: list[float]) -> str:
 
 
 def _jumps(profile: CamProfile) -> Iterator[str]:
-    """Places where velocity or acceleration jumps, or jerk: between sections, or inside a law."""
     effects = {
         1: ("velocity", "an impact, which the forces here do not include"),
         2: ("acceleration", "a sudden force"),
@@ -307,7 +297,6 @@ def _jumps(profile: CamProfile) -> Iterator[str]:
 
 
 def _leaps(profile: CamProfile) -> Iterator[str]:
-    """A lift that jumps: no follower gets from one place to the other."""
     angles = [joint.angle for joint in profile.cam.motion.joints if joint.order < 0]
     if angles:
         # A lift made for a mass on a spring has the acceleration of the wanted motion in it.
@@ -316,7 +305,6 @@ def _leaps(profile: CamProfile) -> Iterator[str]:
 
 
 def _rubs(profile: CamProfile) -> Iterator[str]:
-    """Friction that steady motion does without."""
     if profile.cam.sliding_friction:
         yield (
             f"the friction of cam {profile.name} is included in the forces and the driving torque, not in "

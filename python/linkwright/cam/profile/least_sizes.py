@@ -89,7 +89,6 @@ def base_without_crossing(contact: Contact) -> float | None:
 
 
 def _crosses(contact: Contact, base: float) -> bool:
-    """Whether the profile with another base radius crosses itself, or has no place."""
     kernel = contact.kernel.with_sizes(contact.sizes._replace(base_radius=base))
     points = CamCurve(replace(contact, kernel=kernel), -contact.sizes.roller_radius).points(_TURN)
     return bool(np.isnan(points).any()) or len(crossings(points).x) > 0

@@ -248,7 +248,6 @@ class CamProfile(Result):
         return tuple(self._section(law, section) for law, section in described)
 
     def _section(self, law: MotionLaw, section: MotionSection) -> dict[str, Any]:
-        """One section with its extremes."""
         entries: dict[str, Any] = {"start": law.start, "end": law.end, "law": section.law_name}
         for order, (by_angle, over_time) in enumerate(_DERIVATIVES):
             least, most = law.extremes(order)
@@ -391,7 +390,6 @@ def radius_beside(bend: Any, roller: Any, sign: float) -> Any:
 
 
 def _flank(contact: Contact, n: int) -> Flank:
-    """One contact with its extremes."""
     shape = contact.kernel.shape(n, (("soundness", 0.0), ("bend", 0.0)))
     high, low = shape.greatest, shape.least
     steep = high["pressure_angle"], low["pressure_angle"]
