@@ -136,7 +136,6 @@ def allocate(
 
 
 def _check(wanted: float, power: float, rows: int) -> None:
-    """Refuse numbers out of range, and a yield that so many rows do not tell."""
     if not 0 < wanted < 1:
         raise InputError(f"wanted {wanted}: expected a number between 0 and 1, such as 0.99")
     if not 0.1 <= power <= 10:
@@ -209,7 +208,6 @@ class _Problem:
         self.table = np.array(rows)
 
     def cost(self, factors: Floats) -> float:
-        """Cost of all tolerances that have one."""
         return float(self.costs @ factors**-self.power)
 
     def factors(self, z: float) -> Floats:
@@ -224,7 +222,6 @@ class _Problem:
         return factors
 
     def active(self, factors: Floats, z: float) -> tuple[str, ...]:
-        """Limits that are nearest by their deviations."""
         use = z**2 * self.table @ factors**2
         return tuple(word for word, share in zip(self.words, use, strict=True) if share > 0.999)
 

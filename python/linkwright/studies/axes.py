@@ -200,7 +200,6 @@ def _made(machine: Machine, named: Axis, variable: Variable, kind: Kind) -> Axis
 
 
 def _require_possible_truncation(machine: Machine, cut: Axis, given: Distribution, kind: Kind) -> None:
-    """Refuse ends of a distribution beyond those of an entry, which it may approach."""
     for key, near in (("min", cut.low + kind.least), ("max", cut.high - kind.least)):
         end = getattr(given, key)
         expected = "" if end is None else _impossible(machine, cut, [near])
@@ -253,14 +252,12 @@ def variant(machine: Machine, changes: list[tuple[str, Any]]) -> Machine:
 
 
 def _open(node: Any) -> Any:
-    """Tables and lists that may be written to."""
     if isinstance(node, Mapping):
         return {key: _open(entry) for key, entry in node.items()}
     return [_open(entry) for entry in node] if isinstance(node, list | tuple) else node
 
 
 def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None) -> tuple[Any, ...]:
-    """The values of a list, numbers in SI."""
     given = variable.values or ()
     if kind is None:
         for nth, value in enumerate(given):
@@ -293,7 +290,6 @@ def _check_range(name: str, variable: Variable, low: float, high: float) -> None
 
 
 def _scatter(name: str, given: Distribution, kind: Kind) -> tuple[tuple[str, float, float], float, float]:
-    """Kind, mean, deviation; and the ends of a distribution."""
     read = {
         key: _parsed(name, f"distribution.{key}", value, kind)
         for key in ("mean", "deviation", "min", "max")
@@ -325,10 +321,8 @@ def _middles(n: int) -> Floats:
 
 
 def _problem(name: str, key: str, found: str, expected: str, remedy: str = "") -> MachineError:
-    """What is wrong at a key of a variable."""
     return size_limits.problem(f"variables.{name}.{key}", found, expected, remedy)
 
 
 def _parsed(name: str, key: str, value: object, kind: Kind) -> float:
-    """A value as the quantity of its entry."""
     return size_limits.parsed(f"variables.{name}.{key}", value, kind)

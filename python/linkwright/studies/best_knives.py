@@ -73,7 +73,6 @@ def best_knife_study(
 
 
 def _speeds(knob: Knob, low: float, high: float) -> dict[str, Any]:
-    """The variable of the speed of the knife, from its range."""
     ends = knob.values(np.array([low, high])).tolist()
     return _between(knob.address, ends[0], ends[1])
 

@@ -120,7 +120,6 @@ def search_entries(plan: StudyPlan, rows: Mapping[str, Floats]) -> dict[str, Flo
 
 
 def _asked(plan: StudyPlan) -> list[str]:
-    """Names of the entries in the order of the variables."""
     return ["lift_factor" if axis.name == "lift" else axis.name for axis in plan.axes]
 
 
@@ -130,7 +129,6 @@ def _levels(levels: Levels, factor: float = 1.0) -> dict[str, Any]:
 
 
 def _laws(cam: Cam, place: str, laws: Sequence[str]) -> dict[str, Any]:
-    """The variable of the laws of all sections that move."""
     for law in laws:
         require_law(law)
     moving = [
@@ -144,7 +142,6 @@ def _laws(cam: Cam, place: str, laws: Sequence[str]) -> dict[str, Any]:
 
 
 def _lifts(cam: Cam, place: str, levels: Levels) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-    """The variable of the lift, what follows from it, and the factor on the lift."""
     entries = dict(_motions(cam))
     first = max(
         entries, key=lambda key: entries[key] if key[1] in ("lift", "swing") else -np.inf, default=None
@@ -164,7 +161,6 @@ def _lifts(cam: Cam, place: str, levels: Levels) -> tuple[dict[str, Any], dict[s
 
 
 def _motions(cam: Cam) -> Iterator[tuple[tuple[int, str], float]]:
-    """Number of a section and key → what of its motion is not zero."""
     ends = [f"{kind}{end}" for kind in ("", "swing_") for end in ENDS]
     for nth, section in enumerate(cam.sections):
         for key in ("lift", "swing", *ends):

@@ -20,13 +20,11 @@ def choice_names(values: Sequence[object]) -> tuple[str, ...]:
 
 
 def _own_text(table: Mapping[str, object], tables: Sequence[Mapping[str, object]]) -> str:
-    """The first text that no other table has; empty without one."""
     others = [text for other in tables if other is not table for text in other.values()]
     return next((text for text in table.values() if isinstance(text, str) and text not in others), "")
 
 
 def _written(value: object) -> str:
-    """A value as it stands in a machine file."""
     if isinstance(value, Mapping):
         return ", ".join(f"{key} = {_written(entry)}" for key, entry in value.items())
     if isinstance(value, list | tuple):

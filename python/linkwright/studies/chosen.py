@@ -57,7 +57,6 @@ def choice(axis: Axis, share: float) -> Any:
 
 
 def _with_choices(plan: StudyPlan, chosen: Mapping[str, Any]) -> Machine:
-    """The machine with values of the variables that are no numbers."""
     changes = [
         (place, chosen[axis.name]) for axis in plan.axes if axis.name in chosen for place in axis.addresses
     ]

@@ -97,7 +97,6 @@ def _columns(plan: StudyPlan, variables: Mapping[str, Floats]) -> dict[str, Floa
 
 
 def _entries(plan: StudyPlan, columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Address → its values, of all that are numbers."""
     numbers = [(axis.name, axis.addresses) for axis in plan.axes if axis.is_number]
     numbers += [(entry.name, entry.addresses) for entry in plan.derived]
     return {place: columns[name] for name, addresses in numbers for place in addresses}
@@ -112,7 +111,6 @@ def _refuse_impossible(machine: Machine, entries: Mapping[str, Floats], rows: Ro
 
 
 def _machines(plan: StudyPlan, rows: Rows) -> Any:
-    """Machines that differ in what is no number, each with the rows that it counts for."""
     choices = [axis for axis in plan.axes if not axis.is_number]
     sound = np.flatnonzero(rows.status == SOLVED)
     if not choices:
@@ -134,7 +132,6 @@ def _machines(plan: StudyPlan, rows: Rows) -> Any:
 
 
 def _solve(plan: StudyPlan, part: _Members) -> None:
-    """All responses of the rows of one machine."""
     if not len(part.members):
         return
     batch = [asked for asked in plan.asked if asked.is_batch and part.entries]
@@ -156,7 +153,6 @@ def _solve(plan: StudyPlan, part: _Members) -> None:
 
 
 def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Floats]:
-    """The entries with those of the machine itself in front."""
     columns = {}
     for address, column in entries.items():
         first = get(machine, address)
@@ -175,7 +171,6 @@ class _Members:
     members: Indices  # which rows they are
 
     def steady(self, wanted: list[StudyResponse]) -> None:
-        """Steady motion of all rows at once."""
         states = steady_states(self.machine, _with_first(self.machine, self.entries))
         status = states.status[1:]
         self.rows.fast_starts[self.members] = states.fast_starts[1:]
@@ -205,7 +200,6 @@ class _Members:
             )
 
     def one_by_one(self, wanted: list[StudyResponse]) -> None:
-        """Analyses of each row by itself."""
         for nth, row in enumerate(self.members):
             if self.rows.status[row] != SOLVED:
                 continue
@@ -259,7 +253,6 @@ def numbers(machine: Machine, wanted: list[StudyResponse]) -> list[float]:
 
 
 def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> None:
-    """Numbers that follow from others, one after the other."""
     n = len(rows)
     for formula in formulas:
         with np.errstate(all="ignore"):
@@ -280,5 +273,4 @@ def _require_finite(rows: Rows, plan: StudyPlan) -> None:
 
 
 def _sentence(error: Exception) -> str:
-    """A message on one line."""
     return " ".join(str(error).split())

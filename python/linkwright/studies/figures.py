@@ -237,7 +237,6 @@ def _whole_rows(shown: StudyRows) -> Indices:
 
 
 def _chosen(shown: StudyRows) -> Sequence[str]:
-    """Columns for a matrix: responses in any case, and as many variables as fit."""
     responses = shown.responses[: _PANELS - 1]
     return (*shown.variables[: _PANELS - len(responses)], *responses)
 
@@ -252,7 +251,6 @@ def _drawn(shown: StudyRows, rows: Indices, most: int) -> Indices:
 
 
 def _ends(values: Floats) -> Indices:
-    """Places of the smallest and the largest of some values; none where there is none."""
     known = np.flatnonzero(np.isfinite(values))
     return known[[values[known].argmin(), values[known].argmax()]] if len(known) else known
 

@@ -220,7 +220,6 @@ class _FitJudgement:
         ]
 
     def _correlated(self, curves: Floats) -> list[str]:
-        """Channels whose residuals follow from sample to sample."""
         sentences = []
         for (name, measured), curve in zip(self.model.record.channels.items(), curves, strict=True):
             left = measured - curve

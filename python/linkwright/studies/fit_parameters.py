@@ -74,7 +74,6 @@ def _check_record(record: MeasuredRecord, options: FitOptions) -> None:
 
 
 def _own(name: str, plan: StudyPlan, record: MeasuredRecord) -> Number:
-    """A number of the record, from what was measured on."""
     if name == "angle_start":
         start = float(record.channels.get("angle", [0.0])[0])
         return Number(name, OWN[name], start, -np.inf, np.inf, 1.0)

@@ -81,7 +81,6 @@ def _left(model: RecordModel, x: Floats) -> Floats:
 
 
 def _least_squares(model: RecordModel, x: Floats, noise: Floats) -> Floats:
-    """Numbers that explain the record best for the noise of its channels."""
     from scipy.optimize import least_squares
 
     numbers = model.numbers

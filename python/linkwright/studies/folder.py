@@ -134,7 +134,6 @@ class SweepFolder:
 
     @contextmanager
     def _alone(self, first: int, count: int, *, wait: bool = False) -> Iterator[None]:
-        """Claim bytes of the lock, which the last one that uses it removes."""
         place = self.path / _LOCK
         for n in range(_TRIES):
             try:
@@ -157,7 +156,6 @@ class SweepFolder:
         )
 
     def _require_nothing_else(self) -> None:
-        """Refuse a folder of others."""
         if any(not _is_ours(path) for path in self.path.iterdir()):
             raise InputError(
                 f"{self.path}: found a folder with other files, expected a new or empty one, or that of "
@@ -165,7 +163,6 @@ class SweepFolder:
             )
 
     def _require_own_rows(self) -> None:
-        """Refuse a folder without a readable description whose rows are not those of this study."""
         if any(self.path.glob("part-*.parquet")) and next(self.parts(), None) is None:
             raise InputError(
                 f"{self.path / MANIFEST}: found no description of a sweep, and rows of another study or "
@@ -248,7 +245,6 @@ def plan_of(manifest: dict[str, Any]) -> StudyPlan:
 
 
 def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
-    """Refuse a folder of another study."""
     if folder.manifest["hash"] == wanted.manifest["hash"]:
         return
     words = {"machine": "the machine", "study": "the study", "version": "the version of Linkwright"}
@@ -275,7 +271,6 @@ def _remove(place: Path) -> None:
 
 
 def _is_still(file: IO[bytes], place: Path) -> bool:
-    """Whether an open file has its name."""
     try:
         return os.path.samestat(os.fstat(file.fileno()), place.stat())
     except FileNotFoundError:
@@ -283,7 +278,6 @@ def _is_still(file: IO[bytes], place: Path) -> bool:
 
 
 def _hash(manifest: dict[str, Any]) -> str:
-    """A sign for a description without its own."""
     return sha256(_text(manifest).encode()).hexdigest()
 
 
@@ -293,5 +287,4 @@ def _text(manifest: dict[str, Any]) -> str:
 
 
 def _digest(ready: StudyPlan) -> str:
-    """A sign for the rows of a list; empty without one."""
     return "" if ready.listed is None else sha256(ready.listed.tobytes()).hexdigest()

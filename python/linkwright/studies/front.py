@@ -156,7 +156,6 @@ def _end(
 
 
 def _of_one(plan: StudyPlan, goal: str, other: str, limit: float | None) -> StudyPlan:
-    """The study with one of its goals, and the other within a limit."""
     study = plan.study.model_copy(update={"goals": {goal: plan.study.goals[goal]}})
     limits = dict(plan.limits)
     if limit is not None:
@@ -167,7 +166,6 @@ def _of_one(plan: StudyPlan, goal: str, other: str, limit: float | None) -> Stud
 
 
 def _best(optimums: list[Optimum], goals: tuple[str, str], signs: Any) -> tuple[Optimum, ...]:
-    """Those that none of the others beats in both goals, in the order of the first."""
     table = signs * np.array([[optimum.responses[goal] for goal in goals] for optimum in optimums])
     order = np.lexsort((table[:, 1], table[:, 0]))
     slack = _SAME * np.ptp(table[:, 1])

@@ -146,7 +146,6 @@ class _Progress:
         self.watch, self.total, self.done = watch, total, 0
 
     def add(self, n: int) -> None:
-        """So many more are done."""
         self.done += n
         if self.watch is not None:
             self.watch(self.done / self.total)
@@ -180,7 +179,6 @@ def _by_rest(machine: Machine, axes: dict[str, Floats]) -> list[tuple[Machine, d
 def _plan(
     machine: Machine, axes: Mapping[str, Floats], seed: int | None, level: float
 ) -> tuple[StudyPlan, dict[str, Knob]]:
-    """The study of some entries, and the variable of each of them."""
     in_range(level=(level, Quantity(RATIO, INSIDE_ONE)))
     fitted = with_field(machine, seed, needed="cut_height" in axes)
     knobs = {name: knob_of(fitted, name) for name in axes}
@@ -246,7 +244,6 @@ def _valued(values: Floats) -> dict[str, Any]:
 
 
 def _axis(name: str, values: ArrayLike) -> Floats:
-    """Values of an entry, or the fault."""
     if name not in ENTRIES:
         raise InputError(f'over: found "{name}", expected an entry of the knife; {suggestion(name, ENTRIES)}')
     axis = np.atleast_1d(array(f"over: {name}", values))
@@ -276,7 +273,6 @@ def _expected(name: str) -> str:
 
 
 def _axes(over: Mapping[str, ArrayLike]) -> dict[str, Floats]:
-    """Values of the entries that vary, or what is wrong with them."""
     axes = {name: _axis(name, values) for name, values in over.items()}
     if not 1 <= len(axes) <= 2:
         raise InputError(f"over: found {len(axes)} entries, expected one or two")

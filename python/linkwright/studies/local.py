@@ -61,7 +61,6 @@ class _Place:
 
     @property
     def merit(self) -> float:
-        """The goal with the cost of limits that are passed."""
         return self.goal + _PENALTY * float(np.maximum(self.over, 0.0).sum())
 
 
@@ -115,7 +114,6 @@ class Descent:
         return self._known[key]
 
     def _computed(self, share: Floats) -> _Place:
-        """Goal and limits at a place."""
         shares = self.base.copy()
         shares[self.free] = share
         _, rates, slopes = self.log.slopes(self.plan, shares)

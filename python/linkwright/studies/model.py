@@ -27,7 +27,6 @@ WAYS = ("range", "values", "distribution", "tolerance", "clearance")
 
 
 def _as_list(value: object) -> object:
-    """One address as a list of one."""
     return [value] if isinstance(value, str) else value
 
 
@@ -145,7 +144,6 @@ class Response(CheckedDescription):
         yield from self._faults_of_results()
 
     def _faults_of_results(self) -> Iterator[InitErrorDetails]:
-        """What is said of a result beside a response that is none."""
         if self.otherwise is not None and math.isnan(self.otherwise):
             yield fault("otherwise", found=self.otherwise, expected="a number, or inf")
         has_result = self.quantity is not None or self.curve is not None
@@ -155,7 +153,6 @@ class Response(CheckedDescription):
 
 
 def _as_response(value: object) -> object:
-    """The table that a bare name stands for."""
     return {"quantity": value} if isinstance(value, str) else value
 
 
@@ -169,7 +166,6 @@ class DerivedNumber(Description):
 
 
 def _as_derived(value: object) -> object:
-    """The table that a bare formula stands for."""
     return {"formula": value} if isinstance(value, str) else value
 
 

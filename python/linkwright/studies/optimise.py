@@ -158,7 +158,6 @@ def searched(
 
 
 def _optimum(search: Search) -> Optimum:
-    """The best machine, computed once more by itself."""
     if search.best is None or search.best[0][0] > 0:
         raise FindingError(_refusal(search))
     plan, values = search.plan, search.plan.values(search.best[1][None])
@@ -192,7 +191,6 @@ def _optimum(search: Search) -> Optimum:
 
 
 def _prices(search: Search) -> tuple[list[Price], str]:
-    """What active limits cost, or why that is not known."""
     assert search.best is not None
     plan, kept = numbers_alone(search.plan, search.best[1])
     try:
@@ -204,7 +202,6 @@ def _prices(search: Search) -> tuple[list[Price], str]:
 
 
 def _refusal(search: Search) -> str:
-    """Why there is no best machine."""
     if search.best is not None and search.best[0][0] == 1:
         rows = evaluate(search.plan, search.plan.values(search.best[1][None]))
         limits = search.plan.limits.items()

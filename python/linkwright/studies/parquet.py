@@ -102,7 +102,6 @@ def one_by_one(path: Path) -> Counter[str]:
 
 
 def _counts(metadata: Mapping[bytes, bytes]) -> Counter[str]:
-    """The same of its metadata."""
     return Counter(json.loads(metadata.get(ONE_BY_ONE, b"{}")))
 
 
@@ -163,7 +162,6 @@ def parquet_columns(
 
 
 def _places(path: Path, name: str, cells: Sequence[str | None], names: Sequence[str]) -> Floats:
-    """Places of texts among names."""
     places = [place_of(cell or "", names) for cell in cells]
     if None in places:
         row = places.index(None)

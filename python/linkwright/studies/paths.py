@@ -91,7 +91,6 @@ def _variables(task: PathTask, generator: PathGenerator) -> dict[str, Any]:
 
 
 def _frame(task: PathTask) -> dict[str, str]:
-    """Distance of the pivots, by their variables or given."""
     if task.crank_pivot is None or task.rocker_pivot is None:
         return {"formula": "sqrt((B0_x - A0_x)^2 + (B0_y - A0_y)^2)"}
     crank, rocker = task.crank_pivot, task.rocker_pivot
@@ -99,12 +98,10 @@ def _frame(task: PathTask) -> dict[str, str]:
 
 
 def _of_frame(task: PathTask) -> dict[str, str]:
-    """The length of the frame as a response, where it is limited and free."""
     return {"frame_length": "frame"} if task.length_max is not None and task.crank_pivot is None else {}
 
 
 def _limits(task: PathTask) -> dict[str, Any]:
-    """Limits of the responses."""
     limits: dict[str, Any] = {
         "rotation_margin": {"min": SPARE},
         "length_ratio": {"max": task.length_ratio_max},

@@ -166,7 +166,6 @@ def plan(machine: Machine, study: StudyFile, listed: Floats | None = None) -> St
     problems: list[Problem] = []
 
     def gather(items: Iterable[tuple[str, Any]], read: Any) -> tuple[Any, ...]:
-        """All that can be read; problems are kept for the end."""
         results = []
         for name, item in items:
             try:
@@ -225,7 +224,6 @@ def _require_in_range(axis: Axis, values: Floats, what: str) -> None:
 
 
 def _lost_points(machine: Machine, study: StudyFile) -> Iterable[Problem]:
-    """Paths of points that the machine does not have."""
     points = compile_machine(machine).points if study.paths else {}
     for name, path in study.paths.items():
         if path.point not in points:
@@ -285,12 +283,10 @@ def _other_problems(machine: Machine, study: StudyFile, listed: Floats | None) -
 
 
 def _is_swept(study: StudyFile) -> bool:
-    """Whether a sweep is described, and not only what scatters or is sought."""
     return "sweep" in study.model_fields_set or any(variable.steps for variable in study.variables.values())
 
 
 def _taken_twice(study: StudyFile) -> Iterable[Problem]:
-    """Entries that two variables set."""
     setters: dict[str, str] = {}
     for table in ("variables", "derived"):
         for name, entry in getattr(study, table).items():
@@ -317,7 +313,6 @@ def _within_tables(study: StudyFile, setters: Mapping[str, str]) -> Iterable[Pro
 
 
 def _holds(table: object, keys: Sequence[str]) -> bool:
-    """Whether a table has an entry."""
     for key in keys:
         if not isinstance(table, Mapping) or key not in table:
             return False
@@ -326,7 +321,6 @@ def _holds(table: object, keys: Sequence[str]) -> bool:
 
 
 def _check_rows(ready: StudyPlan) -> None:
-    """Refuse more rows than there may be."""
     limit = LATIN_ROWS if ready.sweep.method == "latin_hypercube" else SWEEP_ROWS
     require_within(limit, ready.n_rows, "rows of the sweep", "reduce the ranges, or use coarser steps")
     if ready.sweep.method == "grid" and ready.listed is None:
@@ -335,7 +329,6 @@ def _check_rows(ready: StudyPlan) -> None:
 
 
 def _derived(machine: Machine, known: list[str], name: str, entry: Any) -> Formula:
-    """A derived number; from then on it is known."""
     formula = _formula(known, f"derived.{name}", name, entry.formula)
     for address in entry.address:
         try:
@@ -353,7 +346,6 @@ def _derived(machine: Machine, known: list[str], name: str, entry: Any) -> Formu
 
 
 def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
-    """A formula whose names are all known."""
     try:
         tree = parse(text)
     except FormulaError as error:
@@ -368,7 +360,6 @@ def _formula(known: list[str], key: str, name: str, text: str) -> Formula:
 
 
 def _limits(study: StudyFile, units: Mapping[str, str], name: str, constraint: Any) -> tuple[float, float]:
-    """Minimum and maximum of a response in SI."""
     if name not in study.responses:
         remedy = suggestion(name, study.responses)
         raise MachineError([Problem(f"constraints.{name}", show(name), "a response", remedy)])
@@ -390,7 +381,6 @@ def kind_of(unit: str) -> Kind | None:
 
 
 def _quantity(key: str, value: object, kind: Kind | None) -> float:
-    """A limit in SI."""
     try:
         return parse_any(value) if kind is None else parse_quantity(value, kind)
     except UnitError as error:

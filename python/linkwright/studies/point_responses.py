@@ -78,7 +78,6 @@ def of_path(
 
 
 def _refuse_options(name: str, response: Response, what: str) -> None:
-    """Refuse what is said of results of other analyses."""
     for key in ("level", "otherwise"):
         if getattr(response, key) is not None:
             raise wrong(name, key, f"{getattr(response, key):g}", f"nothing beside {what}")

@@ -97,7 +97,6 @@ def _off(machine: Machine, path: StudyPath) -> tuple[Complexes, Floats]:
 
 
 def _is_across(machine: Machine, path: StudyPath, off: Complexes, angles: Floats, weights: Floats) -> bool:
-    """Whether the curve passes across the distances that count."""
     table = motions(machine, angles, points=[path.point])[0]
     rate = table[2] + 1j * table[3]
     slope, most = np.abs((np.conj(rate) * off).real), np.abs(rate) * np.abs(off)

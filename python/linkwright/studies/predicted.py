@@ -155,7 +155,6 @@ class RecordModel:
         return table
 
     def _steady(self, machine: Machine) -> dict[str, Floats]:
-        """Channels of steady motion over the crank angle."""
         angles, back = np.unique(
             self.record.at % over_whole_cycle(compile_machine(machine)).cycle, return_inverse=True
         )
@@ -168,7 +167,6 @@ class RecordModel:
         }
 
     def _manoeuvre(self, machine: Machine) -> dict[str, Floats]:
-        """Speeds of discs and torques of shafts in the manoeuvre of a train."""
         from linkwright.torsion.in_time.transient import torsion_transient
 
         given = None if machine.train is None else machine.train.transient

@@ -122,7 +122,6 @@ def study_file(path: Path) -> Path:
 
 
 def _text(path: Path) -> str:
-    """The text of the file."""
     try:
         return text_of(path, FILE_BYTES)
     except TextError as error:
@@ -133,7 +132,6 @@ def _text(path: Path) -> str:
 
 
 def _no_study(path: Path) -> Problem:
-    """A machine file where a study is expected."""
     remedy = (
         f'write the table [{TABLE}] into it, or a study into a file of its own with machine = "{path.name}"'
     )
@@ -153,7 +151,6 @@ def _divided(changes: Sequence[Override]) -> tuple[list[Override], list[Override
 
 
 def _machine_of(path: Path, study: StudyFile, *, allow_outside: bool) -> Path:
-    """The machine file that a study names."""
     if study.machine is None:
         remedy = 'machine = "FILE", or a table [study] in the machine file'
         raise MachineError([Problem("machine", "nothing", "the machine file", remedy)])

@@ -140,7 +140,6 @@ def read_record(path: str | os.PathLike[str], machine: Machine | None = None) ->
 
 
 def _of_train(machine: Machine | None) -> dict[str, Any]:
-    """Discs and shafts of a train by name."""
     train = None if machine is None else machine.train
     if train is None:
         return {}

@@ -203,7 +203,6 @@ def _require_part(
 
 
 def _of_entry(machine: Machine, name: str, address: str) -> StudyResponse:
-    """A number of the machine, given or of a catalogue."""
     try:
         value, mark = get(machine, address), kind(machine, address)
     except MachineError as error:
@@ -224,7 +223,6 @@ def entry_number(machine: Machine, address: str) -> float:
 
 
 def _of_element(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
-    """A number of one element of a linkage."""
     from linkwright.linkages.cycle import ElementMotion, elements_of
 
     element, _, quantity = text.removeprefix(f"{LINKAGE}.").rpartition(".")
@@ -243,7 +241,6 @@ def _of_element(machine: Machine, name: str, key: str, text: str, response: Resp
 
 
 def _of_cycle(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
-    """An extreme of a curve of the motion over the cycle."""
     curve, _, extreme = text.removeprefix(f"{CYCLE}.").rpartition(".")
     if response.curve is not None:
         raise wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
@@ -280,7 +277,6 @@ def curves_of(machine: Machine) -> dict[str, tuple[str, str]]:
 
 
 def _rates(curve: str, of: str, words: tuple[str, str, str], unit: str) -> dict[str, tuple[str, str]]:
-    """A coordinate with its velocity and acceleration."""
     endings = (("", unit), (".velocity", f"{unit}/s"), (".acceleration", f"{unit}/s²"))
     return {
         curve + ending: (f"{word} {of}", of_rate)
@@ -289,7 +285,6 @@ def _rates(curve: str, of: str, words: tuple[str, str, str], unit: str) -> dict[
 
 
 def _of_pair(machine: Machine, name: str, key: str, text: str, response: Response) -> StudyResponse:
-    """The largest force of a pair."""
     pair = text.removeprefix(f"{PAIRS}.")
     if response.curve is not None:
         raise wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')

@@ -82,7 +82,6 @@ def _uniform(seed: int, column: int, start: int, stop: int) -> Floats:
 
 @lru_cache(maxsize=64)
 def _strata(rows: int, seed: int, column: int) -> Integers:
-    """Stratum of each row in a column."""
     # The streams of the places in the strata have the numbers of the columns.
     stream = np.random.Generator(np.random.Philox(key=[seed, (1 << 32) + column]))
     return stream.permutation(rows).astype(np.int32)

@@ -137,7 +137,6 @@ class Search:
         return [given] if given is not None and self._ranked(given[None])[0][0] < 2 else []
 
     def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
-        """The best of many places that fill the ranges."""
         points = np.tile(shares, (starts * _LOOKED, 1))
         points[:, free] = sampling.sobol(len(free), seed, 0, len(points))
         keys = self._ranked(points)

@@ -57,7 +57,6 @@ class SearchLog:
             self._open(path, self._digest(plan, "study", b""))
 
     def _open(self, path: Path, study: str) -> None:
-        """Read what is there, and go on behind it."""
         try:
             # As bytes: the place where it goes on is counted in them, with ends of lines as they are.
             self.file = path.open("a+b")
@@ -141,12 +140,10 @@ class SearchLog:
         return Slopes(dict(line["values"]), rates, frozenset(line["exact"]), dict(line["ties"]))
 
     def _count_once(self, key: str, machines: int) -> None:
-        """Count the machines of a computation, once."""
         self.count += 0 if key in self._counted else machines
         self._counted.add(key)
 
     def _line(self, key: str, compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """What a computation gave, or gives now."""
         if key not in self.known:
             self.known[key] = compute()
             if self.file is not None:
@@ -163,7 +160,6 @@ class SearchLog:
             raise unwritable(Path(str(self.file.name)), error) from None
 
     def _digest(self, plan: StudyPlan, kind: str, asked: bytes) -> str:
-        """A sign for what is asked of which machine in which study."""
         if self._machine[0] is not plan.machine:
             study = plan.study.model_dump_json(by_alias=True, exclude_unset=True)
             self._machine = plan.machine, f"{__version__} {LAYOUT} {_LINES}\n{study}\n{dumps(plan.machine)}"

@@ -241,14 +241,12 @@ def _one(name: str | None, known: Collection[str], what: str) -> str:
 
 
 def _about(address: str, value: float) -> dict[str, Any]:
-    """A variable about its present value."""
     return {"address": address, "range": [value / _LARGER, value * _LARGER], "scale": "log"}
 
 
 def _tables(
     variables: dict[str, Any], responses: dict[str, Any], limits: dict[str, Any], goal: str
 ) -> dict[str, Any]:
-    """The tables of a study."""
     return {
         "variables": variables,
         "responses": responses,

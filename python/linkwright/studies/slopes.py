@@ -113,7 +113,6 @@ def machine_at(plan: StudyPlan, entries: Mapping[str, Any]) -> Machine:
 
 
 def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:
-    """Address → its value, as variables and derived numbers are known."""
     named = [(axis.name, axis.addresses) for axis in plan.axes]
     named += [(entry.name, entry.addresses) for entry in plan.derived]
     strange = [name for name, _ in named if known[name] is None]
@@ -217,7 +216,6 @@ def _address(asked: StudyResponse) -> str:
 
 
 def _is_over_speeds(asked: StudyResponse) -> bool:
-    """Whether the extreme is that of a shaft over the speeds, which has derivatives."""
     return asked.analysis == "forced_vibration" and asked.extreme == "max" and bool(asked.of)
 
 

@@ -219,7 +219,6 @@ def _elsewhere(
 def _compute_beside(
     folder: SweepFolder, missing: list[int], written: Iterable[int], watch: Callable[..., None] | None
 ) -> None:
-    """Follow files that are written elsewhere."""
     rows = {number: stop - start for number in missing for start, stop in [folder.rows_of(number)]}
     done, total, began = 0, sum(rows.values()), monotonic()
     for number in written:

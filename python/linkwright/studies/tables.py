@@ -47,7 +47,6 @@ def sweep_tables(sweep: Sweep, plan: StudyPlan, units: dict[str, str]) -> list[T
 
 
 def _value(axis: Axis, value: float, units: dict[str, str]) -> str:
-    """A value of a variable: a number, or what a choice is called."""
     return measured(value, units[axis.name]) if axis.is_number else choice_names(axis.choices)[int(value)]
 
 
@@ -57,7 +56,6 @@ def tolerance_tables(tolerance: Tolerance, units: dict[str, str]) -> list[Table]
 
 
 def _given(tolerance: Tolerance, units: dict[str, str]) -> Table:
-    """How variables scatter."""
     rows: list[Row] = []
     for name, given in tolerance.variables.items():
         mean = given["mean"]
@@ -68,7 +66,6 @@ def _given(tolerance: Tolerance, units: dict[str, str]) -> Table:
 
 
 def _scatter(tolerance: Tolerance, units: dict[str, str]) -> Table:
-    """How responses scatter."""
     keys = ("mean", "deviation", "deviation_first_order", "band_low", "band_high", "worst_low", "worst_high")
     rows: list[Row] = [
         (name, "", *(measured(response[key], units[name]) for key in keys))
@@ -79,7 +76,6 @@ def _scatter(tolerance: Tolerance, units: dict[str, str]) -> Table:
 
 
 def _contributions(tolerance: Tolerance) -> Table:
-    """What contributes to the scatter."""
     rows: list[Row] = []
     for name, parts in tolerance.contributions.items():
         for variable, share in parts.items():
@@ -92,7 +88,6 @@ def _contributions(tolerance: Tolerance) -> Table:
 
 
 def _indices(tolerance: Tolerance, name: str, variable: str) -> list[str]:
-    """First and total Sobol index with half the width of their intervals."""
     both = tolerance.indices.get(name, {}).get(variable, (None, None))
     ends = tolerance.index_intervals.get(name, {}).get(variable, ((0.0, 0.0),) * 2)
     return [

@@ -220,7 +220,6 @@ def tolerance(
 
 
 def _check(plan: StudyPlan, rows: int, indices: int) -> None:
-    """Refuse what cannot be drawn at random."""
     if not 2 <= rows <= 10_000_000 or not 0 <= indices <= 1_000_000:
         raise InputError(
             f"rows {rows}, indices {indices}: expected 2 to 10 000 000 rows, to 1 000 000 blocks"
@@ -251,7 +250,6 @@ class _Scatters:
         self.low, self.high = np.array([(axis.low, axis.high) for axis in plan.axes]).T
 
     def to_dict(self) -> dict[str, dict[str, float]]:
-        """All of it by the name of the variable."""
         table = np.stack([self.means, self.deviations, self.low, self.high], axis=1).tolist()
         keys = ("mean", "deviation", "low", "high")
         return {name: dict(zip(keys, row, strict=True)) for name, row in zip(self.names, table, strict=True)}
@@ -292,7 +290,6 @@ def _row(
 
 
 def _shares(names: list[str], parts: Floats) -> dict[str, float]:
-    """Shares of the variance, the largest first."""
     squares = parts**2
     total = squares.sum()
     shares = squares / total if total > 0 else squares

@@ -67,7 +67,6 @@ def computed(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers:
 
 
 def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: int) -> Iterator[int]:
-    """The same until a process is lost."""
     given = (folder.path, folder.manifest, ready.listed, workers)
     others = active_children()
     with safe_path():
@@ -116,7 +115,6 @@ def _end_with_parent() -> None:
 
 
 def _compute(number: int) -> None:
-    """Compute a file, in a process that has begun."""
     from linkwright.studies.sweep import compute_part
 
     assert _own is not None
@@ -151,7 +149,6 @@ def computed_on(ready: StudyPlan, folder: SweepFolder, numbers: list[int], addre
 
 
 def _client(address: str) -> Client:
-    """A connection to the scheduler."""
     require("distributed", "cluster", "a cluster needs distributed")
     from distributed import Client
 
@@ -165,7 +162,6 @@ def _client(address: str) -> Client:
 
 
 def _require_workers(client: Client, address: str) -> None:
-    """Refuse a cluster without workers, or whose workers have another version."""
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except TimeoutError:
@@ -178,12 +174,10 @@ def _require_workers(client: Client, address: str) -> None:
 
 
 def _version() -> str:
-    """The version of a worker."""
     return __version__
 
 
 def _gathered(client: Client, ready: StudyPlan, folder: SweepFolder, numbers: list[int]) -> Iterator[int]:
-    """Files as they come, some at a time."""
     from distributed import KilledWorker, as_completed
 
     losses = dict.fromkeys(numbers, 0)
@@ -219,7 +213,6 @@ def _gathered(client: Client, ready: StudyPlan, folder: SweepFolder, numbers: li
 
 
 def _ahead(client: Client) -> int:
-    """How many files are asked for at once."""
     threads: dict[str, int] = client.nthreads()
     return _AHEAD * max(sum(threads.values()), 1)
 
@@ -240,6 +233,5 @@ def _part(about: bytes, listed: Floats | None, number: int) -> bytes:
 
 @lru_cache(maxsize=4)
 def _study(about: bytes) -> tuple[SweepFolder, StudyPlan]:
-    """The study of a description, made once at each worker."""
     manifest = json.loads(about)
     return SweepFolder(Path(), manifest), plan_of(manifest)

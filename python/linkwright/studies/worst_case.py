@@ -109,7 +109,6 @@ def _judged(
 
 
 def _not_monotone(plan: StudyPlan, column: Floats, own: Indices, solved: Indices, room: float) -> str:
-    """Which variables lead beyond a corner."""
     way = np.array([[-1.0], [1.0]])
     beyond = np.where(solved, way * (column[own] - column[own[:, :1]]), 0.0)[:, 1:]
     leads = np.flatnonzero((beyond.reshape(2, -1, 3) > room).any(axis=(0, 2)))

@@ -88,7 +88,6 @@ def _source(place: Path, source: Path) -> str:
 
 
 def _variable(plan: StudyPlan, name: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    """A variable, one address as a text, numbers with their unit."""
     addresses = given["address"]
     entries = {**given, "address": _addresses(addresses)}
     mark = kind(plan.machine, addresses[0])
@@ -99,18 +98,15 @@ def _variable(plan: StudyPlan, name: str, given: Mapping[str, Any]) -> dict[str,
 
 
 def _derived(given: Mapping[str, Any]) -> Any:
-    """A derived number; the formula alone if it sets no entry."""
     addresses = given.get("address", ())
     return {**given, "address": _addresses(addresses)} if addresses else given["formula"]
 
 
 def _addresses(addresses: Sequence[str]) -> str | list[str]:
-    """One address as a text, several as a list."""
     return addresses[0] if len(addresses) == 1 else list(addresses)
 
 
 def _path(given: Mapping[str, Any]) -> dict[str, Any]:
-    """A path, numbers with their unit."""
     kinds = {"x": LENGTH, "y": LENGTH, "crank_angle": ANGLE}
     return {
         key: [to_text(value, kinds[key]) for value in entry] if key in kinds else entry
@@ -119,12 +115,10 @@ def _path(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _response(given: Mapping[str, Any]) -> Any:
-    """A response; a quantity without more as its name."""
     return given["quantity"] if given.keys() == {"quantity"} else given
 
 
 def _worded(value: Any, mark: Kind | None) -> Any:
-    """A number as a text with its unit; anything else as it is."""
     return to_text(value, mark) if mark is not None and mark.unit and is_number(value) else value
 
 

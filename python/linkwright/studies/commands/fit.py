@@ -73,7 +73,6 @@ def fit(
 
 
 def _plan(file: StudyFile, vary: list[str], motion: str | None) -> StudyPlan:
-    """The study of a file, or that of a machine file and of what varies."""
     from linkwright.studies.read import new_study
 
     if vary:
@@ -106,7 +105,6 @@ def _variable(text: str) -> tuple[str, dict[str, Any]]:
 
 
 def _value(text: str) -> float | str:
-    """A number, or a text with a unit."""
     try:
         return float(text)
     except ValueError:
@@ -114,7 +112,6 @@ def _value(text: str) -> float | str:
 
 
 def _record(file: StudyFile, record: Path | None, plan: StudyPlan) -> Path:
-    """The file of the record; one that a study names lies in its folder."""
     from linkwright.kernel.files.named_file import named_file
     from linkwright.studies.read import study_file
 
@@ -128,7 +125,6 @@ def _record(file: StudyFile, record: Path | None, plan: StudyPlan) -> Path:
 
 
 def _head(name: str, fitted: Fit) -> str:
-    """What was done, and what is known."""
     samples, channels = len(fitted.record.at), ", ".join(fitted.record.channels)
     how = "exact" if not fitted.jacobian_error else f"by differences, to {fitted.jacobian_error:.1g}"
     noise = ", ".join(

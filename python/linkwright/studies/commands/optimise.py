@@ -94,7 +94,6 @@ def optimum_answer(plan: StudyPlan, options: dict[str, Any], untried: str = "") 
 
 
 def _front(plan: StudyPlan, points: int, options: dict[str, Any]) -> Answer:
-    """The machines of which none is better in both goals."""
     from linkwright.studies.front import front
 
     try:
@@ -120,7 +119,6 @@ def _front(plan: StudyPlan, points: int, options: dict[str, Any]) -> Answer:
 
 
 def _short_warnings(best: Front, points: int) -> list[str]:
-    """That the front has fewer machines than were asked for."""
     without = points - len(best.failed) - len(best.machines)
     if without <= 0:
         return []
@@ -129,7 +127,6 @@ def _short_warnings(best: Front, points: int) -> list[str]:
 
 
 def _flat_warnings(optimum: Optimum) -> list[str]:
-    """That no machine is better than another."""
     if not optimum.is_flat:
         return []
     value = f"{optimum.responses[optimum.goal]:.6g}"
@@ -137,7 +134,6 @@ def _flat_warnings(optimum: Optimum) -> list[str]:
 
 
 def _head(name: str, optimum: Optimum) -> str:
-    """What was done, and what limits the answer."""
     failed = f", {optimum.n_failed} without a result" if optimum.n_failed else ""
     limits = "; ".join(optimum.active) or "no limit is active"
     return "\n".join([name, f"{optimum.n_evaluations} machines computed{failed}", limits, *optimum.worth])

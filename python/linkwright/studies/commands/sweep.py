@@ -118,7 +118,6 @@ def _share(text: str | None) -> tuple[int, int] | None:
 
 
 def _answer(plan: StudyPlan, swept: Sweep, units: dict[str, str]) -> Answer:
-    """Counts, extremes, and what failed."""
     from linkwright.studies.rows import fast_start_warnings
 
     solved = swept.n_done - swept.n_failed

@@ -85,7 +85,6 @@ def tolerance(
 
 
 def _failed(scatter: Tolerance) -> list[str]:
-    """That machines have no result, and why most of them have none."""
     if not scatter.n_failed:
         return []
     return [
@@ -95,7 +94,6 @@ def _failed(scatter: Tolerance) -> list[str]:
 
 
 def _dropped(scatter: Tolerance, n: int) -> list[str]:
-    """That blocks were omitted from the Sobol indices, and what decides on machines without a result."""
     if not scatter.n_dropped:
         return []
     total = {name: index for name, (_, index) in scatter.failure_indices.items()}
@@ -108,7 +106,6 @@ def _dropped(scatter: Tolerance, n: int) -> list[str]:
 
 
 def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
-    """That what holds to first order does not hold."""
     from linkwright.kernel.page.numbers import measured
 
     shown = {key: measured(value, unit) for key, value in row.items()}
@@ -121,7 +118,6 @@ def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
 
 
 def _allocation(plan: StudyPlan, wanted: float, power: float, rows: int, seed: int) -> Answer:
-    """The cheapest tolerances for a yield."""
     from linkwright.studies.allocation import allocate
     from linkwright.studies.rows import fast_start_warnings
 
@@ -149,14 +145,12 @@ def _allocation(plan: StudyPlan, wanted: float, power: float, rows: int, seed: i
 
 
 def _held(allocation: Allocation) -> str:
-    """What keeps the tolerances from being wider."""
     if allocation.active:
         return f"limited by {', '.join(allocation.active)}"
     return "no constraint limits them: they are at the upper end of the search"
 
 
 def _head(plan: StudyPlan, scatter: Tolerance) -> str:
-    """Name of the machine and its yield."""
     rest = [name for name in plan.responses if name not in scatter.exact]
     how = f"by differences of {', '.join(rest)}, exact otherwise" if rest else "exact"
     lines = [plan.machine.name, f"{scatter.n_rows} machines; derivatives {how}"]
