@@ -214,11 +214,9 @@ class _Search:
         return least
 
     def spare(self, angles: Floats) -> Floats:
-        """Minimum radicand of all dyads as a share of its maximum, at crank angles."""
         return self._least(_gaps(self.compiled, angles))
 
     def limiter(self, angle: float) -> str:
-        """Name of the dyad with the minimum radicand at an angle."""
         gaps = _shares(self.compiled, _gaps(self.compiled, np.array([angle])), self.sizes)
         return _parts(self.compiled)[int(np.nanargmin(gaps[:, 0]))]
 
@@ -311,7 +309,6 @@ class _Search:
 def _without(
     ranges: tuple[tuple[float, float], ...], gaps: Iterable[tuple[float, float]], period: float
 ) -> tuple[tuple[float, float], ...]:
-    """Ranges that end at either side of gaps within them."""
     for before, after in gaps:
         cut: list[tuple[float, float]] = []
         for low, high in ranges:
@@ -476,7 +473,6 @@ def driver_word(machine: Machine) -> str:
 
 
 def _sentence(closed: Closure, machine: Machine) -> str:
-    """What does not close, where, and the remedy."""
     gap = compile_machine(machine).law_gap
     if gap is not None and closed.element == gap.element:
         where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)

@@ -115,7 +115,6 @@ def motion(
 def _pose(
     machine: Machine, phi: float, speed: CrankSpeed, acceleration: float, zero: Zero, *, json: bool, csv: bool
 ) -> str:
-    """One pose as a table, CSV or JSON."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
     from linkwright.linkages.pose import pose
@@ -151,7 +150,6 @@ def _pose(
 
 
 def _warnings(machine: Machine, zero: float = 0.0) -> list[str]:
-    """What the designer of the linkage should know besides; nothing of one that does not turn fully."""
     from linkwright.linkages.cautions import linkage_cautions
     from linkwright.linkages.closure import closure
     from linkwright.linkages.cycle import linkage
@@ -163,12 +161,10 @@ def _warnings(machine: Machine, zero: float = 0.0) -> list[str]:
 
 
 def _worded(machine: Machine, zero: Zero) -> list[str]:
-    """The same as lines for people, with angles as they count them."""
     return [f"WARNING  {caution}" for caution in _warnings(machine, zero.angle)]
 
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
-    """One pose as a report shows it."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import Table
 
@@ -202,7 +198,6 @@ def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str
 
 
 def _pose_rows(pose: Pose) -> list[tuple[str, str, tuple[float, ...]]]:
-    """Name, quantity with its unit, and position, velocity, acceleration."""
     from linkwright.linkages.kinematics import unit_of_coordinate
 
     rows: list[tuple[str, str, tuple[float, ...]]] = []
@@ -225,12 +220,10 @@ def _from(zero: Zero) -> str:
 
 
 def _zero_data(zero: Zero) -> dict[str, Any]:
-    """The same for JSON, whose angles are those of the file."""
     return {"angle_zero": zero.angle, "zero": zero.words} if zero.words else {}
 
 
 def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: bool, csv: bool) -> str:
-    """A revolution at a constant speed."""
     from linkwright.linkages.closure import driver_word
     from linkwright.linkages.law import constant_speed
 
@@ -249,7 +242,6 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
 
 
 def _under_law(machine: Machine, law: str, end: float, steps: int, *, json: bool, csv: bool) -> str:
-    """The motion under a law of the crank."""
     import numpy as np
 
     from linkwright.kernel.page.angle_zero import Zero
@@ -313,7 +305,6 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 
 
 def _table(followed: Motion) -> str:
-    """Positions alone, for people; everything is in the CSV."""
     from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.out_units import OutUnits, reader, reading, shown_columns
     from linkwright.kernel.page.table import head
@@ -352,7 +343,6 @@ def _is_table(law: str) -> bool:
 
 
 def _law(text: str) -> Law:
-    """A formula, or the table in a file."""
     if _is_table(text):
         from linkwright.linkages.law import TableLaw, read_law_table
 

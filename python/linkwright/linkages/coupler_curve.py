@@ -150,7 +150,6 @@ class _Path:
         self.place = self.motion.place.T
 
     def at(self, angles: Floats) -> PointRows:
-        """Motion of the point at crank angles."""
         return self.compiled.point_motion(self.index, angles)
 
     def result(self, point: str, straight: float) -> CouplerCurve:
@@ -188,7 +187,6 @@ class _Path:
         return bool(np.ptp(self.place, axis=0).max() <= _ROUNDING * size)
 
     def standing(self, point: str) -> CouplerCurve:
-        """What is known of a point that stands still: where it is."""
         (x, y), start = self.motion.place, float(self.cycle.angles[0])
         return CouplerCurve(
             crank_angle=self.cycle.angles,
@@ -220,7 +218,6 @@ class _Path:
         return float((speed @ weights @ (0.5 * (high - low)[:, 0])).item())
 
     def _extent(self, axis: int) -> tuple[float, float]:
-        """Minimum and maximum x or y."""
         _, column = brackets(self.motion.d1[axis][None])
         angles = self.cycle.angles
         at = angles[[0, -1]]
@@ -284,7 +281,6 @@ class _Path:
 
 
 def _crossings(place: Floats, *, closed: bool) -> list[tuple[int, int]]:
-    """Pairs of segments of a polygon that cross, neighbours left out."""
     a, d = place[:-1], np.diff(place, axis=0)
     n = len(d)
     first, second = np.triu_indices(n, 2)

@@ -79,7 +79,6 @@ def dead_points(compiled: CompiledMachine, swept: LinkageSweep, where: Closure) 
 
 
 def _of_closure(compiled: CompiledMachine, where: Closure) -> Iterator[DeadPoint]:
-    """Limits, or a change point that is not passed."""
     if where.change_point is not None:
         yield DeadPoint(where.change_point, where.element, NOT_PASSED, 2)
     elif not where.turns_fully:
@@ -90,7 +89,6 @@ def _of_closure(compiled: CompiledMachine, where: Closure) -> Iterator[DeadPoint
 
 
 def _passed(compiled: CompiledMachine, swept: LinkageSweep) -> Iterator[DeadPoint]:
-    """Change points in every revolution of the cycle in which they are passed."""
     turns = np.arange(swept.cycle.period or 1) * (2 * np.pi)
     for dyad in swept.dyads:
         gaps = compiled.gaps(np.ascontiguousarray(swept.cycle.angles))[compiled.dyads.index(dyad.name)]
@@ -359,7 +357,6 @@ def swept_cycle(machine: Machine) -> tuple[CompiledMachine, Closure, LinkageSwee
 
 
 def _element(swept: LinkageSweep, k: int, output: Output, loop: FourBar | None) -> ElementMotion:
-    """The entry of one output."""
     travel = swept.travel(k)
     slow, fast = swept.ratios(k)
     most = max(abs(slow), abs(fast)) if slow is not None and fast is not None else None

@@ -68,7 +68,6 @@ def _dyad(compiled: CompiledMachine, element: Closing) -> Dyad:
 
 
 def _change_points(compiled: CompiledMachine, element: Closing) -> tuple[float, ...]:
-    """Crank angles of the change points that a dyad passes."""
     if not isinstance(element, Element.Rocker | Element.GuidedRod):
         return ()
     q = compiled.parameters

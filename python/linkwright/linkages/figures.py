@@ -98,14 +98,12 @@ def linkage_figures(machine: Machine, linkage: Linkage) -> Iterator[CaptionedFig
 
 
 def _on_ground(machine: Machine) -> set[str]:
-    """Points of links that turn about a fixed point: their paths are circles."""
     links, fixed = machine.linkage.links(), machine.linkage.fixed_points()
     parts = machine.linkage.rigid_points.items()
     return {name for name, part in parts if links[part.link].start in fixed}
 
 
 def _links(machine: Machine, angle: float) -> list[tuple[np.ndarray, bool]]:
-    """Ends of the links at a crank angle, with the points that they carry."""
     places = {name: np.array(point.position) for name, point in pose(machine, angle).points.items()}
     fixed = machine.linkage.fixed_points()
     links = []
@@ -118,7 +116,6 @@ def _links(machine: Machine, angle: float) -> list[tuple[np.ndarray, bool]]:
 
 
 def _words(curves: list[CouplerCurve]) -> str:
-    """Length and what is special of each path."""
     parts = []
     for curve in curves:
         extras = [f"{len(point)} {word}" for point, word in _special(curve) if point]

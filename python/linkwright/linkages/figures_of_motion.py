@@ -89,5 +89,4 @@ def _is_angle(name: str) -> bool:
 
 
 def _name(curve: str) -> str:
-    """What moves, of the name of its curve."""
     return curve.removesuffix(".place").removesuffix(".angle")

@@ -79,7 +79,6 @@ class FourBar:
         return sorted((self.driver, self.coupler, self.follower, self.ground))
 
     def _change_point(self) -> str:
-        """The kind of a linkage whose links can all come into line."""
         opposite = _same(self.driver, self.follower) and _same(self.coupler, self.ground)
         if opposite:
             words = {
@@ -145,7 +144,6 @@ def _stays_parallel(compiled: CompiledMachine, driver: tuple[int, int], follower
 
 
 def _arms(compiled: CompiledMachine, grounds: dict[int, Floats]) -> dict[int, tuple[int, float]]:
-    """Point that turns about a fixed point → that point and its distance."""
     centres = dict(_centred(compiled.elements, grounds))
     arms: dict[int, tuple[int, float]] = {}
     for element in compiled.elements:
@@ -156,7 +154,6 @@ def _arms(compiled: CompiledMachine, grounds: dict[int, Floats]) -> dict[int, tu
 
 
 def _centred(elements: tuple[Element, ...], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
-    """Links that turn about a fixed point, with that point."""
     ends = []
     for element in elements:
         match element:
@@ -170,7 +167,6 @@ def _centred(elements: tuple[Element, ...], grounds: dict[int, Floats]) -> list[
 
 
 def _carried(element: Element, centres: dict[int, int], grounds: dict[int, Floats]) -> list[tuple[int, int]]:
-    """Points of an element that a link on a fixed point carries."""
     match element:
         case Element.Crank(pin=pin, pivot=pivot):
             return [(pin, pivot)]

@@ -293,7 +293,6 @@ def crank_angles(angles: ArrayLike) -> Floats:
 
 
 def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
-    """Rows of the core's table by name."""
     makers: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
     table.flags.writeable = False
     at = 0
@@ -405,7 +404,6 @@ def _filled(
 
 
 def _room(shape: tuple[int, ...]) -> Floats:
-    """An array to write into."""
     try:
         return np.empty(shape)
     except (MemoryError, ValueError):

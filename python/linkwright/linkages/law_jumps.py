@@ -146,7 +146,6 @@ def _jumps(compiled: CompiledMachine, slide: int, order: int) -> list[tuple[floa
 
 
 def _bodies_moved(machine: Machine, corner: LawJump) -> list[str]:
-    """Bodies with a place or direction that the driver of a law moves."""
     if not machine.bodies:
         return []
     address = f"mechanism.cranks.{corner.name}.phase"

@@ -193,7 +193,6 @@ def _rates(position: Floats, part: Any, rates: Floats) -> Path:
 
 
 def _path(position: Floats, point: Any, rates: Floats) -> Path:
-    """The chain rule."""
     _, w, a, j = rates
     return Path(position, *rates_of(point, w, a), point.d3 * w**3 + 3 * point.d2 * w * a + point.d1 * j)
 
@@ -233,7 +232,6 @@ def _require_within(compiled: CompiledMachine, machine: Machine, law: Law, times
 
 
 def _range_around(start: float, where: Closure) -> tuple[float, float]:
-    """The range that holds an angle, in the cycle of that angle."""
     ranges = where.ranges
     cycle = 2 * np.pi * (where.turns or 1)
     for low, high in ranges:
@@ -248,7 +246,6 @@ def _range_around(start: float, where: Closure) -> tuple[float, float]:
 
 
 def _with_turning_points(law: Law, times: Floats) -> Floats:
-    """The times, and those between them at which the crank turns back."""
     speed = law.at(times)[1]
     _, column = brackets(speed[None])
     if not len(column):

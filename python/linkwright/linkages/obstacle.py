@@ -80,7 +80,6 @@ def _group(element: str, mechanism: Mechanism) -> Words:
 
 
 def _bars_at(joints: tuple[str, ...], mechanism: Mechanism) -> str:
-    """The bars that hold joints, with their lengths."""
     carried = {
         name for name, part in mechanism.rigid_points.items() if _hangs_on(part.link, joints, mechanism)
     }

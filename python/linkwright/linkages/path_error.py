@@ -154,7 +154,6 @@ def _targets(x: ArrayLike, y: ArrayLike, crank_angle: ArrayLike | None) -> tuple
 
 
 def _require_point(machine: Machine, point: str) -> None:
-    """Raise MachineError if a machine has no such point."""
     points: Sequence[str] = list(compile_machine(machine).points)
     if point not in points:
         remedy = suggestion(point, points)

@@ -137,7 +137,6 @@ def pose(machine: Machine, crank_angle: float, *, speed: float = 1.0, accelerati
 
 
 def _short_levers(compiled: CompiledMachine, at: Floats) -> set[str]:
-    """Slotted levers whose pin is near their pivot at an angle."""
     if not has_levers(compiled):
         return set()
     reach = np.nanmax(compiled.gaps(turn_angles(_LOOKS)), axis=1)

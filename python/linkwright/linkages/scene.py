@@ -79,7 +79,6 @@ def _series(mechanism: Mechanism) -> dict[str, int]:
 
 
 def _all_guides(mechanism: Mechanism) -> Iterator[tuple[str, str, Guide]]:
-    """Point that runs on it, slide along it, and guide of each element that has one."""
     for name, slider in mechanism.sliders.items():
         yield (
             name,
@@ -124,7 +123,6 @@ def _span(values: Floats) -> list[float]:
 
 
 def _blocks(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
-    """Blocks on guides and in slots; those that carry a body are larger."""
     mechanism = machine.linkage
     loaded = {body.on or name for name, body in machine.bodies.items()}
     for point, slide, guide in _all_guides(mechanism):
@@ -146,7 +144,6 @@ def _block(point: str, link: str | None, angle: float, *, heavy: bool, series: i
 
 
 def _links(mechanism: Mechanism, series: dict[str, int]) -> Iterator[Scene]:
-    """Links between two points, and arms to points that lie beyond them."""
     links = mechanism.links()
     for name, link in links.items():
         if link.start != link.end and link.role != "lever":
@@ -188,7 +185,6 @@ def _levers(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) ->
 
 
 def _cables(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
-    """Cables, and the part of the arc that they run off."""
     links = mechanism.links()
     for name, cable in mechanism.cables.items():
         side = cable.angle + (np.pi / 2 if cable.side == "left" else -np.pi / 2)
@@ -207,7 +203,6 @@ def _cables(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) ->
 
 
 def _plates(mechanism: Mechanism, series: dict[str, int]) -> Iterator[Scene]:
-    """A point beside its link makes the link a plate."""
     links = mechanism.links()
     for name, part in mechanism.rigid_points.items():
         link = links[part.link]
@@ -220,7 +215,6 @@ def _plates(mechanism: Mechanism, series: dict[str, int]) -> Iterator[Scene]:
 
 
 def _grounds(machine: Machine) -> Iterator[Scene]:
-    """Fixed points that something turns about."""
     mechanism = machine.linkage
     pivots = [crank.pivot or ORIGIN for crank in mechanism.cranks.values()]
     pivots += [cam.pivot or ORIGIN for cam in machine.mechanism.cams.values()]
@@ -266,7 +260,6 @@ def _bodies(machine: Machine) -> Iterator[Scene]:
 
 
 def _place(body: Body, link: Link) -> Scene:
-    """Point that a link starts at, and its centre of mass from there."""
     along = 0.5 * link.length if body.along is None else body.along
     return {"at": link.start, "place": [float(along), float(body.across)]}
 
@@ -333,7 +326,6 @@ def _circles(name: str, gear: Gear, mechanism: Mechanism, motion: Kinematics) ->
 
 
 def _share(gear: Gear) -> float:
-    """Radius over the distance of the axes."""
     size, other = float(gear.size), float(gear.size_other)
     if gear.kind == "external":
         return size / (size + other)

@@ -84,7 +84,6 @@ def _longest(path: Floats, most: int, stride: int, straight: float) -> Portion:
 
 
 def _chord(part: Floats) -> tuple[float, float]:
-    """Chord and error of one portion."""
     chords, errors = _off_chords(part[None])
     return float(chords[0]), float(errors[0])
 

@@ -151,12 +151,10 @@ class LinkageSweep:
         return slopes
 
     def _by_dyad(self, values: list[Rows]) -> Iterator[tuple[Dyad, list[Rows]]]:
-        """The dyads with the motion of their channels."""
         for k, dyad in enumerate(self.dyads):
             yield dyad, values[self._ends[k] : self._ends[k + 1]]
 
     def _locate(self, slopes: Floats) -> list[Floats]:
-        """Angles of the zeros of each slope."""
         largest = np.nan_to_num(np.abs(slopes)).max(axis=1, initial=0.0)
         kinds = ["angle"] * len(self.dyads) + [output.kind for output in self.outputs] * 2
         sizes = {kind: max(x for x, k in zip(largest, kinds, strict=True) if k == kind) for kind in kinds}
@@ -303,7 +301,6 @@ class _Names:
         self.grounds = {fixed.point for fixed in compiled.ground}
 
     def of(self, element: Element) -> Iterator[Output]:
-        """What one element moves."""
         dyads = self.compiled.dyads
         match element:
             case Element.SliderRod() | Element.GuidedRod():
@@ -335,7 +332,6 @@ class _Names:
         return dyad.coupler_link if first else dyad.rocker_link
 
     def _group(self, dyad: str) -> Iterator[Output]:
-        """Bars of a group that hang on fixed points, and joints on guides."""
         joints = dyad.split(" and ")
         fixed = self.mechanism.fixed_points()
         for name, bar in self.mechanism.bars.items():

@@ -46,7 +46,6 @@ def _travel(linkage: Linkage) -> Table:
 
 
 def _travel_row(element: ElementMotion, of_two: bool, cycle: float) -> Row:
-    """Swing, stroke or turns, where the extremes are, and the ratios."""
     # `of_two`: whether link and slide have one name, as of a slotted lever; `cycle`: of the crank [rad].
     places = crank_angle(element.low_angle, cycle=cycle), crank_angle(element.high_angle, cycle=cycle)
     if element.turns is not None:

@@ -106,7 +106,6 @@ def _turns(compiled: CompiledMachine) -> int:
 
 
 def _unrepeated(compiled: CompiledMachine) -> str:
-    """Why a machine has no cycle, in words, and what to change."""
     turns = turns_to_repeat(compiled)
     after = f"only after {turns} revolutions" if turns else "and never do"
     remedy = _law_that_goes_on(compiled) or (

@@ -97,7 +97,6 @@ def _parts(where: str) -> tuple[str, str]:
 
 
 def _output(cycle: Linkage, name: str) -> ElementMotion:
-    """The output that is named, or the only one."""
     outputs = [element for element in cycle.elements if element.turns is None]
     names = list(dict.fromkeys(output.output for output in outputs))
     if not names:

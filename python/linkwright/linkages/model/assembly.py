@@ -67,7 +67,6 @@ class _Builder:
         return self.build
 
     def _single(self) -> bool:
-        """Places the next element that hangs only on what is placed."""
         for name, part in self.parts.items():
             if part.role != "joint" and self.placed.issuperset(part.needs):
                 if part.role == "bar" and name not in self.used and name not in self.ignored:
@@ -144,7 +143,6 @@ class _Builder:
         return any(need not in self.placed and need != joint for need in part.needs)
 
     def _complain(self, system: dict[str, set[str]], matched: dict[str, tuple[str, int]]) -> None:
-        """What is missing or too much among the joints that are left."""
         taken = list(matched.values())
         open_joints = [name for name, part in self.parts.items() if part.role == "joint"]
         self.build.loose.extend(
@@ -181,7 +179,6 @@ def _smallest(depends: Mapping[str, set[str]], full: set[str]) -> Iterator[set[s
 
 
 def _reach(joint: str, depends: Mapping[str, set[str]]) -> set[str]:
-    """All joints that one depends on, itself included."""
     reach, open_ = {joint}, [joint]
     while open_:
         for other in depends.get(open_.pop(), ()):

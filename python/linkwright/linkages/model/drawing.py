@@ -143,7 +143,6 @@ def _number(entry: object, key: str, kind: Kind) -> float | None:
 
 
 def _layers(drawing: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Places by layer of a DXF file that has been read."""
     file = drawing.get("file")
     return file if isinstance(file, Layers) else {}
 
@@ -184,7 +183,6 @@ class _Sheet:
 
     @property
     def referred(self) -> set[str]:
-        """Names that elements refer to as points at rest."""
         return {
             element.references[key]
             for element in Topology.of(self.mechanism).elements
@@ -193,7 +191,6 @@ class _Sheet:
         }
 
     def filled(self) -> dict[str, Any]:
-        """The tables of the mechanism with what follows."""
         made: dict[str, Any] = {}
         for table, entries in self.mechanism.items():
             fill = self._fills.get(table)
@@ -345,7 +342,6 @@ class _Sheet:
         return made
 
     def _on_link(self, name: str, link: object) -> dict[str, Any]:
-        """Along and across of a point on a link."""
         start, way, place = self._at(self._ends(link)[0]), self._heading(link), self._at(name)
         if start is None or way is None or place is None:
             return {}
@@ -356,7 +352,6 @@ class _Sheet:
         return self._on_link(name, look(point, "link"))
 
     def body(self, name: str, body: Mapping[str, Any]) -> dict[str, Any]:
-        """A body with its centre of mass, where that is drawn."""
         link = body.get("on", name)
         is_point = link in Topology.of(self.mechanism).moving_points and "." not in str(link)
         drawn = name in self.places and not (is_point and name == link)
@@ -370,7 +365,6 @@ class _Sheet:
         return {} if place is None else {"x": place[0], "y": place[1]}
 
     def _driver(self, name: str, driver: Any) -> dict[str, Any]:
-        """Place along the guide at the crank angle zero."""
         way, place = self._guide_angle(look(driver, "guide") or {}), self._at(name)
         per_turn, through = _number(driver, "per_turn", LENGTH), look(look(driver, "guide"), "through")
         start = self._at(through or ORIGIN)
@@ -380,7 +374,6 @@ class _Sheet:
         return {"start": along - per_turn * (self.angle or 0.0) / (2 * math.pi)}
 
     def _with_guides(self, made: dict[str, Any]) -> dict[str, Any]:
-        """Offsets of the guides that stand in tables of their own."""
         for table, parts in _GUIDES.items():
             entries = made.get(table)
             if not isinstance(entries, Mapping):

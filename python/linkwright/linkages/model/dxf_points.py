@@ -84,7 +84,6 @@ def _read(path: Path) -> tuple[list[tuple[str, tuple[float, float]]], int]:
 
 
 def _drawn(document: Document) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Layer and place of every point, centre and insertion."""
     for entity in document.modelspace().query("POINT CIRCLE ARC INSERT"):
         place = entity.dxf.location if entity.dxftype() == "POINT" else None
         if place is None:

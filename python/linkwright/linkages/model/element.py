@@ -64,7 +64,6 @@ Constants = dict[str, Annotated[float, AnyQuantity()]]
 
 
 def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
-    """A law that is no formula of the crank angle."""
     yield from constant_faults(constants, law or "")
     if law is None and constants:
         yield fault("law", expected="a law that asks for the constants")

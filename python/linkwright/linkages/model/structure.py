@@ -179,7 +179,6 @@ class _Builder:
         return Structure(self.members, pairs, drives, self.carriers, redundant, origin(self.mechanism))
 
     def _carried(self) -> Iterator[tuple[str, str]]:
-        """Each point with the member that carries it."""
         m = self.mechanism
         yield "", FRAME
         yield from ((name, FRAME) for name in m.fixed_points())
@@ -198,7 +197,6 @@ class _Builder:
         self.members[name] = Member(name, point, name)
 
     def _block(self, name: str, guide: Guide) -> None:
-        """A block on a guide, which turns with it."""
         self.members[name] = Member(name, name, guide.on)
         self._guide(f"{name}.guide", name, guide)
 
@@ -210,12 +208,10 @@ class _Builder:
         self.others.append(Pair(name, "guide", first, member, member, guide, member))
 
     def _pin(self, point: str, link: str) -> None:
-        """A pin of a link to what carries a point."""
         if self.carriers[point] != link:
             self.pins.append((point, self.carriers[point], link))
 
     def _named_pins(self) -> Iterator[Pair]:
-        """The pins with their names."""
         count = Counter(point for point, _, _ in self.pins)
         for point, first, second in self.pins:
             label = point or ORIGIN

@@ -57,7 +57,6 @@ class ElementKind(NamedTuple):
 
 
 def _guide(key: str, **others: Wanted) -> dict[str, Wanted]:
-    """What a guide under a key refers to, after other references."""
     return {**others, f"{key}.through": "point", f"{key}.on": "link"}
 
 
@@ -249,7 +248,6 @@ class Topology:
         return faults or ([*self._mobility()] if values_fit else [])
 
     def _mobility(self) -> Iterator[InitErrorDetails]:
-        """Joints that can still move, and bars that are too many."""
         build = self.build()
         kinds = {element.name: element.kind for element in self.elements}
         for joint in build.loose:
@@ -284,7 +282,6 @@ class Topology:
             )
 
     def _too_many(self, name: str) -> str:
-        """What to do about a bar or guide that is too many."""
         drivers = self._drivers(name)
         if len(drivers) > 1:
             return (
@@ -308,7 +305,6 @@ class Topology:
         return needs
 
     def _drivers(self, name: str) -> list[str]:
-        """Drivers that an element hangs on."""
         needs, drivers, open_ = self._needs(), {name}, [name]
         while open_:
             fresh = set(needs.get(open_.pop(), ())) - drivers
@@ -327,7 +323,6 @@ class Topology:
         return " → ".join(circle) if circle and joint in circle else ""
 
     def _twice(self) -> Iterator[InitErrorDetails]:
-        """Names that an earlier element has."""
         first: dict[str, ElementKind] = {}
         for element in self.elements:
             before = first.setdefault(element.name, element.kind)
@@ -375,7 +370,6 @@ class Topology:
         }
 
     def _circles(self) -> Iterator[InitErrorDetails]:
-        """Elements that are built on one another in a circle."""
         graph = self._graph()
         while (circle := _circle(graph)) is not None:
             kind = next(element.kind for element in self.elements if element.name == circle[0])
@@ -400,7 +394,6 @@ def _circle(graph: dict[str, list[str]]) -> list[str] | None:
 
 
 def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
-    """The elements of one table."""
     for name in keys(table):
         element = look(table, name)
         if kind.variant is not None and (look(element, kind.variant[0]) == "oscillating") != bool(kind.links):
@@ -419,7 +412,6 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
 
 
 def _conditions(holds: list[str]) -> str:
-    """The conditions of a joint that is not fixed, in words."""
     if len(holds) > 1:
         return f"conditions shared with other free joints: {', '.join(holds)}"
     return f"one of two conditions: {holds[0]}" if holds else "no bar or guide"
