@@ -39,7 +39,6 @@ def topper_findings(described: Topper, study: TopperStudy) -> Iterator[str]:
 
 
 def _head(study: TopperStudy) -> str:
-    """The head of which most is left."""
     place, side = abs(study.uncut_offset), "left" if study.uncut_offset > 0 else "right"
     where = f"a head {place:.4g} m to the {side} of the row" if place else "a head on the row"
     return f"{where}, at the phase {round(np.degrees(study.uncut_phase), 3):.6g}°" if study.stroke else where
@@ -106,7 +105,6 @@ def field_cautions(field: TopperField, topper: Topper, knife: Knife) -> Iterator
 
 
 def _locked(field: RandomField, forward_speed: float, knife: Knife) -> Iterator[str]:
-    """Even distances that go with the strokes of the knife."""
     spacing = field.spacing
     if spacing is None or not spacing.is_constant or not knife.rate:
         return

@@ -108,7 +108,6 @@ def length_chart(described: Topper, edges: Sequence[Edge]) -> LengthChart:
 
 
 def _lines(described: Topper, forward: Sequence[float], roots: Floats, speeds: Floats) -> Lines:
-    """All closed forms."""
     alpha, delta, v = described.edge_angle, described.offset, np.array(forward)[:, None]
     d = head_diameter(roots, described.cut_height)
     band = d + 2 * delta

@@ -43,7 +43,6 @@ def topper_summary(machine: Machine) -> Iterator[tuple[str, str]]:
 
 
 def _knife(cut: Topper) -> str:
-    """How it moves across the row."""
     motion = cut.motion
     if motion.kind == "member":
         return f"moved by {motion.of}"
@@ -55,7 +54,6 @@ def _knife(cut: Topper) -> str:
 
 
 def _field(cut: Topper) -> str:
-    """How many roots are looked at."""
     if cut.field is None:
         return ""
     if cut.field.kind == "random":

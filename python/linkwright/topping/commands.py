@@ -110,7 +110,6 @@ def field(
 
 
 def _axes(wanted: list[str]) -> dict[str, Any]:
-    """Values of all entries that vary."""
     import numpy as np
 
     from linkwright.topping.sweep import ENTRIES
@@ -194,7 +193,6 @@ _RESTS = "the best knife is at rest, which the study cannot find: its knife spee
 
 
 def _map(search: KnifeSearch) -> dict[str, Any]:
-    """The map; a line is none, nor is a plane without any edge that would do."""
     import numpy as np
 
     if min(search.map_length.shape) < 2 or not np.isfinite(search.map_length).any():

@@ -187,7 +187,6 @@ def require_advance(edges: Sequence[Edge], roots: Roots) -> None:
 
 
 def _shared(edges: Sequence[Edge], phase: Floats, diameter: Floats) -> list[tuple[Edge, Indices]]:
-    """Which heads each direction meets."""
     if len(edges) == 1:
         return [(edges[0], np.flatnonzero(diameter > 0))]
     goes_left = np.cos(phase) >= 0

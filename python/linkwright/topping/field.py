@@ -263,7 +263,6 @@ def _named(name: str, interval: Interval) -> dict[str, Any]:
 
 
 def _quantiles(curve: ShareCurve) -> dict[str, Any]:
-    """Lengths for the usual shares, with what holds the true ones."""
     keys = ("quantile_length", "quantile_length_low", "quantile_length_high")
     lengths = (tuple(length.tolist()) for length in curve.lengths(QUANTILES))
     return {"quantile": QUANTILES, **dict(zip(keys, lengths, strict=True))}

@@ -139,7 +139,6 @@ def _left(p: Floats, q: Floats, radius: float, half: float, *, stands: bool) -> 
 
 
 def _levels(p: Floats, radius: float) -> Floats:
-    """Places of the chords, increasing."""
     even = radius * np.sin(np.linspace(-0.5 * np.pi, 0.5 * np.pi, _CHORDS))
     rise = np.diff(p)
     turns = p[1:-1][rise[1:] * rise[:-1] <= 0]
@@ -148,7 +147,6 @@ def _levels(p: Floats, radius: float) -> Floats:
 
 
 def _crossings(p: Floats, q: Floats, levels: Floats, stands: bool) -> list[list[float]]:
-    """Places q at which each level of p is crossed, increasing."""
     if stands:
         return [[] for _ in levels]
     ahead = p[None, :] > levels[:, None]
@@ -159,7 +157,6 @@ def _crossings(p: Floats, q: Floats, levels: Floats, stands: bool) -> list[list[
 
 
 def _chains(parts: Sequence[Part]) -> list[list[Part]]:
-    """Parts of neighbouring chords that touch, each with the next."""
     chains: list[list[Part]] = []
     for part in parts:
         chain = next((chain for chain in chains if _touch(chain[-1], part)), None)

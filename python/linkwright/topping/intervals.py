@@ -149,7 +149,6 @@ class Clusters:
             return p, np.asarray(np.minimum(p * (1 - p) / variance, most))
 
     def _moments(self, sums: Floats, sizes: Floats) -> tuple[Floats, Floats]:
-        """Mean and its variance."""
         total, many = sizes.sum(), self.count
         mean = sums.sum(axis=0) / total
         apart = sums - np.multiply.outer(sizes, mean)
@@ -180,7 +179,6 @@ class ShareCurve:
         return self.clusters.shares(self._counts(length))
 
     def _counts(self, length: Floats) -> Floats:
-        """Heads of each cluster that each of the lengths cuts through."""
         # The first of the lengths that is enough for each head.
         k = len(length)
         first = np.searchsorted(length, self.needed)

@@ -169,7 +169,6 @@ def _one_way(speed: float) -> tuple[Knife, ...]:
 
 
 def _to_and_fro(stroke: float, speed: float) -> Knife:
-    """At constant speed between two ends."""
     quarter, half = np.pi / 2, 0.5 * stroke
     law = MotionLaw.of(
         0.0, (quarter, Piece((0.0, half))), (np.pi, Piece((half, -stroke))), (quarter, Piece((-half, half)))
@@ -207,7 +206,6 @@ def _moved(machine: Machine, member: str) -> Knife:
 
 
 def _require_repeats(motion: Callable[[Floats], tuple[Floats, Floats, Floats]], member: str) -> None:
-    """Refuse a member that does not do the same in each revolution of the crank."""
     once, again = (motion(_PLACES + turn)[0] for turn in (0.0, _TURN))
     missed = float(np.abs(again - once).max())
     if missed > _AGAIN * max(1e-3, float(np.ptp(once))):
@@ -218,7 +216,6 @@ def _require_repeats(motion: Callable[[Floats], tuple[Floats, Floats, Floats]], 
 
 
 def _centred(law: MotionLaw, corners: tuple[float, ...], rate: float) -> Knife:
-    """A law in pieces, counted from the middle of its stroke."""
     least, greatest = law.extremes()
     return Knife(law.scaled(1.0, -0.5 * (least.value + greatest.value)), None, corners, rate)
 

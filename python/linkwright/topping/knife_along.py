@@ -70,7 +70,6 @@ def knife_along(machine: Machine, along: Machine, names: Sequence[str], knife: K
 def _member_law(
     machine: Machine, along: Machine, names: Sequence[str], knife: Knife, member: str
 ) -> MotionLaw:
-    """The law of a member from the middle of its stroke."""
     if member in machine.mechanism.cams:
         cam = along.mechanism.cams[member]
         phase = float(primal(cam.phase))
@@ -106,6 +105,5 @@ def _member_law(
 
 
 def _centred(law: MotionLaw) -> MotionLaw:
-    """A law counted from the middle of its stroke."""
     least, greatest = law.extremes()
     return law.scaled(1.0, -0.5 * (least.value + greatest.value))

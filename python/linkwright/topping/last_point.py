@@ -78,7 +78,6 @@ class _Last:
 
     @property
     def needed(self) -> Any:
-        """Length that the head needs."""
         return 2 * (self.side * self.q + self.chord)
 
 
@@ -176,7 +175,6 @@ def _turning(along: EdgeAlong, edge: Edge, at: float, n: int) -> tuple[Any, str]
 
 
 def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: Any) -> _Last:
-    """The point of a head that is reached last in a phase, at an offset."""
     nth, side, p0 = last
     edge, along = needs.edges[nth], needs.along[nth]
     r = float(primal(along.radius))
@@ -213,7 +211,6 @@ def _corner_time(edge: Edge, along: EdgeAlong, phase: Any, t: Floats) -> Any:
 
 
 def _climb(edge: Edge, head: Heads, side: float, t: Floats) -> tuple[Floats, Floats]:
-    """Slope and bend of s q + c over the time."""
     p = edge.place(t, head.phase, head.offset)[1]
     qt, pt = edge.velocity(t, head.phase)
     bend = edge.knife.at(t, head.phase, 2)

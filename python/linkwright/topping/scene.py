@@ -83,7 +83,6 @@ def topper_scene(machine: Machine, described: Topper, study: TopperStudy) -> Sce
 
 
 def _row(edge: Edge, study: TopperStudy, described: Topper, offset: float) -> list[tuple[float, float]]:
-    """Centres of heads, the worst in the middle, the others to both sides of the row."""
     delta, pitch = described.offset, _pitch(edge, study, described)
     if edge.knife.drift or pitch > _FAR * study.head_diameter:
         return [(0.0, offset)]
@@ -93,7 +92,6 @@ def _row(edge: Edge, study: TopperStudy, described: Topper, offset: float) -> li
 
 
 def _pitch(edge: Edge, study: TopperStudy, described: Topper) -> float:
-    """Distance of heads along the row."""
     d = study.head_diameter
     if not edge.knife.rate:
         return _APART[0] * d

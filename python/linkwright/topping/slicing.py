@@ -93,7 +93,6 @@ def slicing_over_phase(edge: Edge, phases: Floats) -> tuple[Floats, Floats]:
 
 
 def _ratios(edge: Edge) -> tuple[Any, Any]:
-    """Minimum and maximum draw-cut ratio."""
     leans = edge.leans
     reaches = [size(np.tan(lean)) for lean in leans]
     low = 0.0 if primal(leans[0]) * primal(leans[1]) <= 0 else least(*reaches)
@@ -101,7 +100,6 @@ def _ratios(edge: Edge) -> tuple[Any, Any]:
 
 
 def _speeds(edge: Edge) -> tuple[Any, Any]:
-    """Minimum and maximum speed of the edge."""
     low, high = edge.knife.speeds
     sizes = size(low), size(high)
     slowest = 0.0 if low <= 0 <= high else least(*sizes)
@@ -125,7 +123,6 @@ def edge_use(edges: Sequence[Edge], diameter: float, offset: float) -> tuple[Flo
 
 
 def _use(edge: Edge, diameter: float, offset: float) -> tuple[Floats, Floats]:
-    """The same for one direction."""
     if edge.stands:
         return np.array([-0.5, 0.5]) * diameter, np.zeros(2)
     knife, radius = edge.knife, 0.5 * diameter

@@ -254,7 +254,6 @@ def closed_forms(described: Topper, edges: Sequence[Edge]) -> dict[str, Any]:
 
 
 def _knife(edge: Edge, d: Any) -> dict[str, Any]:
-    """How the knife moves."""
     knife = edge.knife
     passing = d / (edge.forward_speed * np.cos(edge.angle))
     return {
@@ -268,7 +267,6 @@ def _knife(edge: Edge, d: Any) -> dict[str, Any]:
 
 
 def _lengths(described: Topper, edge: Edge, d: Any) -> dict[str, Any]:
-    """Travels, times and lengths."""
     alpha, v, v_h = described.edge_angle, described.forward_speed, edge.knife.mean_speed
     band = d + 2 * described.offset
     published = published_lengths(band, alpha, described.edge_length, v, v_h)
@@ -287,7 +285,6 @@ def _lengths(described: Topper, edge: Edge, d: Any) -> dict[str, Any]:
 
 
 def _slices(edges: Sequence[Edge]) -> dict[str, Any]:
-    """How the edge slices."""
     sliced = slicing(edges)
     return {
         "least_advance": least(*(edge.least_advance for edge in edges)),
@@ -300,7 +297,6 @@ def _slices(edges: Sequence[Edge]) -> dict[str, Any]:
 
 
 def _driven(drive: KnifeDrive | None) -> dict[str, Any]:
-    """What it takes to move the knife."""
     return {
         "knife_mass": drive and drive.mass,
         "inertia_force_max": drive and drive.inertia_force_max,

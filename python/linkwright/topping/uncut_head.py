@@ -131,7 +131,6 @@ class _Worst:
         return Heads(self.radius, np.array([self.offset]), np.array([self.phase]))
 
     def _areas(self, phase_d: Floats, offset_d: Floats) -> Floats:
-        """Derivatives of the areas on the right and on the left."""
         heads = self._heads()
         ends = exposed(self.edge, heads, self.half)
         moved = {"offset": offset_d[None], "phase": phase_d[None]}
@@ -184,7 +183,6 @@ def widened(along: EdgeAlong, n: int) -> EdgeAlong:
 
 
 def _share(value: float, d: Floats, disc: float, radius: float, radius_d: Any) -> Tangent:
-    """An area as a share of the disc."""
     return Tangent(value / disc, d / disc - 2 * value / (disc * radius) * radius_d)
 
 

@@ -65,7 +65,6 @@ def worst_head(
 
 
 def _worst(edge: Edge, offset: float, phase: float | None, measure: Measure) -> Worst:
-    """The worst head of one direction."""
     phases, offsets, wide = _grid(edge, offset, phase)
     return _narrowed(_best(edge, phases, offsets, measure, _SAME), wide, offset, measure)
 
@@ -80,7 +79,6 @@ def _grid(edge: Edge, offset: float, phase: float | None) -> tuple[Floats, Float
 
 
 def _narrowed(best: Worst, wide: list[float], offset: float, measure: Measure) -> Worst:
-    """The top about a head of the first look."""
     edge = best.edge
     for _ in range(_ROUNDS // 2 if edge.retreats else _ROUNDS):
         share = np.arange(-_BESIDE, _BESIDE + 1) / _BESIDE
@@ -122,7 +120,6 @@ def heads_as_bad(
 
 
 def _are_apart(one: Worst, other: Worst, wide: list[float]) -> bool:
-    """Whether two heads are not the same."""
     phase = abs((one.phase - other.phase + np.pi) % (2 * np.pi) - np.pi)
     return one.edge is not other.edge or phase > wide[0] or abs(one.offset - other.offset) > wide[1]
 
@@ -168,7 +165,6 @@ def unknown_heads() -> dict[str, Any]:
 
 
 def _needed(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """The head that needs most."""
     phase = described.motion.phase
 
     def needs(edge: Edge, offset: Floats, angle: Floats) -> Floats:
@@ -186,7 +182,6 @@ def _needed(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 
 
 def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
-    """The head of which most is left."""
     area, length = 0.25 * np.pi * d**2, described.edge_length
 
     def left(edge: Edge, offset: Floats, angle: Floats) -> Floats:
@@ -228,7 +223,6 @@ def _by_phase(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
 
 
 def _mean_left(described: Topper, edges: list[Edge], d: float) -> float:
-    """Mean share that is left."""
     shares, phases = mean_heads(described, edges)
     delta, length = shares * described.offset, described.edge_length
     left = [coverage(edge, d, delta, phases, length=length).uncut for edge in edges]

@@ -215,7 +215,6 @@ def best_knife(
 
 
 def _verified(trials: Trials, chosen: Trial, search: KnifeGrid, seed: int | None) -> BestKnife:
-    """The knife over the roots that it was sought with, and over others."""
     topper, roots, length = trials.topper, trials.roots, chosen.length
     at = (chosen.edge_angle, chosen.knife_speed, chosen.forward_speed)
     edges = trials.edges(*at)
@@ -259,7 +258,6 @@ def _holds(own: TopperField, check: TopperField, limits: TopperLimits) -> bool:
 
 
 def _at_bounds(chosen: Trial, search: KnifeGrid) -> tuple[str, ...]:
-    """Keys of the bounds that a knife lies on."""
     ranges = {
         "angle": (chosen.edge_angle, search.low[0], search.high[0]),
         "knife_speed": (chosen.knife_speed, search.low[1], search.high[1]),

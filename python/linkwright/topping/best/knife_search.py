@@ -90,7 +90,6 @@ class KnifeGrid:
         return self._about(own, _ROUNDS - _SKIPPED)
 
     def _about(self, best: Trial, rounds: int) -> Trial:
-        """The best about a knife, closer in each of some rounds."""
         # To the neighbours on the grid, which has at least a dozen steps.
         half = (self.high - self.low) / 12 / 3 ** (_ROUNDS - rounds)
         for _ in range(rounds):

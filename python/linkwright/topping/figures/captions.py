@@ -51,7 +51,6 @@ class _Cut:
 
     @property
     def head(self) -> tuple[float, float]:
-        """Offset and phase of the head that is drawn."""
         return shown_head(self.study)
 
 
@@ -90,7 +89,6 @@ def _view(cut: _Cut) -> CaptionedFigure:
 
 
 def _place(offset: float) -> str:
-    """Where a head stands."""
     if offset == 0:
         return "on the row"
     return f"{mm(abs(offset))} to the {'left' if offset > 0 else 'right'} of the row"

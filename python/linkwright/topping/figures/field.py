@@ -68,7 +68,6 @@ def _start(field: TopperField) -> float:
 
 
 def _edge(axes: Axes, length: float) -> None:
-    """The edge of the file."""
     axes.axvline(1e3 * length, color=RED, linewidth=1.2, linestyle=(0, (5, 3)), label="edge")
 
 
@@ -85,7 +84,6 @@ def field_length_figure(field: TopperField) -> Figure:
 
 
 def _histogram(axes: Axes, values: Floats, total: int) -> None:
-    """Shares of all heads; of equal values one bar."""
     spread = float(np.ptp(values)) if len(values) else 0.0
     if spread > 1e-9:
         axes.hist(values, bins=_BINS, weights=np.full(len(values), 100 / total), color=BLUE, alpha=0.8)
@@ -152,14 +150,12 @@ def sweep_figure(swept: FieldSweep) -> Figure:
 
 
 def _other(axes: Axes, x: Floats, swept: FieldSweep, *, is_cut: bool) -> None:
-    """What a deeper cut loses, or how the edge slices."""
     values = 1e6 * swept.loss_mean if is_cut else swept.slicing_ratio_mean
     axes.plot(x, values, color=ORANGE if is_cut else RED)
     axes.set_ylabel("loss of a root [cm³]" if is_cut else "mean draw-cut ratio [–]")
 
 
 def _banded(axes: Axes, x: Floats, key: str, swept: FieldSweep, look: tuple[str, str]) -> None:
-    """A share with its interval."""
     value, low, high = (100 * getattr(swept, f"{key}{end}") for end in ("", "_low", "_high"))
     axes.fill_between(x, low, high, color=look[0], alpha=0.25, linewidth=0)
     axes.plot(x, value, color=look[0])
@@ -193,7 +189,6 @@ def _scales(swept: FieldSweep) -> list[tuple[str, float]]:
 
 
 def _map(axes: Axes, at: tuple[Floats, Floats], values: Floats, title: str) -> None:
-    """Filled contours with their lines and numbers; first values along x."""
     axes.grid(False)
     axes.set_title(title, loc="left")
     finite = values[np.isfinite(values)]
@@ -210,7 +205,6 @@ def _map(axes: Axes, at: tuple[Floats, Floats], values: Floats, title: str) -> N
 
 
 def _drop_at_rim(axes: Axes, word: Any, at: tuple[Floats, Floats]) -> None:
-    """Take away a number that the rim of the map would cut off."""
     for place, ends in zip(word.get_position(), at, strict=True):
         if min(place - ends[0], ends[-1] - place) < _RIM * (ends[-1] - ends[0]):
             word.set_visible(False)

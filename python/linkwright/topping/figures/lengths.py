@@ -73,7 +73,6 @@ def length_chart_figure(chart: LengthChart) -> Figure:
 
 
 def _way(axes: Axes, chart: LengthChart, lines: Lines, way: str, scale: float) -> None:
-    """One panel."""
     for speed, values, colour in zip(chart.forward_speeds, getattr(lines, way), LINES, strict=False):
         # A line that leaves the panel indefinitely ends there.
         axes.plot(
@@ -183,7 +182,6 @@ def phase_figure(study: TopperStudy, edge_length: float, phase: float | None = N
 
 
 def _share(axes: Axes, degrees: Floats, share: Floats) -> None:
-    """What is left, in percent."""
     axes.fill_between(degrees, 0, share, color=RED, alpha=0.2, linewidth=0)
     axes.plot(degrees, share, color=RED)
     axes.set_ylim(0, 1.1 * share.max())
@@ -191,7 +189,6 @@ def _share(axes: Axes, degrees: Floats, share: Floats) -> None:
 
 
 def _only(axes: Axes, phase: float | None) -> None:
-    """An upright line at the given phase."""
     if phase is not None:
         axes.axvline(np.degrees(phase) % 360, color=INK, linewidth=1.1, linestyle=(0, (1, 2)))
 
@@ -253,7 +250,6 @@ def edge_use_figure(place: Floats, use: Floats, edge_length: float, diameter: fl
 
 
 def _shade(axes: Axes, x: Floats, y: Floats, parts: Sequence[Bools], colour: str, words: str) -> None:
-    """Areas under the curve, with one entry in the legend."""
     for part in parts:
         if part.any() and y[part].any():
             label = None if words in axes.get_legend_handles_labels()[1] else words

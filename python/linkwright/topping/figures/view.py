@@ -59,14 +59,12 @@ def top_view_figure(
 
 
 def _shown(seen: HeadPass) -> slice:
-    """The part of the pass that is drawn."""
     near = np.flatnonzero(np.abs(seen.normal) <= _REACH * 0.5 * seen.diameter)
     # An edge that stands may keep away from the head indefinitely.
     return slice(int(near[0]), int(near[-1]) + 1) if near.size else slice(0, len(seen.time))
 
 
 def _band(axes: Axes, seen: HeadPass, shown: slice) -> None:
-    """All that the edge sweeps, and the way of its middle."""
     axes.add_patch(_swept(_MILLI * seen.ends[:, shown]))
     middle = _MILLI * np.stack([seen.middle_x[shown], seen.middle_y[shown]])
     axes.plot(
@@ -91,7 +89,6 @@ def _swept(ends: Floats) -> PathPatch:
 
 
 def _heads(axes: Axes, seen: HeadPass, greatest_offset: float) -> None:
-    """The head, others at the same place along the row, and the axis of the row."""
     from matplotlib.patches import Circle
 
     radius = 0.5 * _MILLI * seen.diameter
@@ -107,7 +104,6 @@ def _heads(axes: Axes, seen: HeadPass, greatest_offset: float) -> None:
 
 
 def _left(axes: Axes, seen: HeadPass) -> None:
-    """What is left, hatched."""
     from matplotlib.patches import Polygon
 
     for nth, outline in enumerate(seen.outlines):
@@ -118,7 +114,6 @@ def _left(axes: Axes, seen: HeadPass) -> None:
 
 
 def _edges(axes: Axes, seen: HeadPass, shown: slice) -> None:
-    """The edge at some places, the later the darker."""
     ends = _MILLI * seen.ends[:, shown]
     places = np.linspace(0, ends.shape[1] - 1, _PLACES).astype(int)
     for nth, place in enumerate(places):
@@ -132,7 +127,6 @@ def _edges(axes: Axes, seen: HeadPass, shown: slice) -> None:
 
 
 def _frame(axes: Axes, seen: HeadPass, shown: slice, greatest_offset: float) -> None:
-    """Limits with room, and names of the axes."""
     far, room = _FAR * _MILLI * seen.diameter, _ROOM * _MILLI * seen.diameter
     ends = np.clip(_MILLI * seen.ends[:, shown].reshape(-1, 2), -far, far)
     radius = 0.5 * _MILLI * seen.diameter

@@ -127,7 +127,6 @@ class MeasuredField(RootField):
         yield from self._value_faults()
 
     def _length_faults(self) -> Iterator[InitErrorDetails]:
-        """Lists of different length."""
         n = len(self.root_diameter)
         for key in ("cut_height", "offset", "spacing"):
             listed = getattr(self, key)
@@ -135,7 +134,6 @@ class MeasuredField(RootField):
                 yield fault(key, found=f"{len(listed)} values", expected=f"{n} values, one for each root")
 
     def _value_faults(self) -> Iterator[InitErrorDetails]:
-        """Roots that cannot be."""
         for i, diameter in enumerate(self.root_diameter):
             if diameter <= 0:
                 yield fault("root_diameter", i, found=diameter, expected=_POSITIVE)

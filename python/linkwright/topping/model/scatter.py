@@ -147,7 +147,6 @@ class BellScatter(Scatter):
 
     @property
     def _lowest(self) -> float:
-        """Minimum value of the whole distribution."""
         return -math.inf
 
     def values(self, shares: ArrayLike) -> Floats:
@@ -165,7 +164,6 @@ class BellScatter(Scatter):
 
     @property
     def _scores(self) -> tuple[float, float]:
-        """The ends in standard deviations from the middle of the bell."""
         least, greatest = self.ends
         return self._score(least), self._score(greatest)
 
@@ -188,7 +186,6 @@ class BellScatter(Scatter):
             yield fault(key, found=found, expected=expected)
 
     def _constant_faults(self) -> Iterator[InitErrorDetails]:
-        """A mean beyond the ends, where nothing scatters."""
         for key, end, sign in (("min", self.min, 1), ("max", self.max, -1)):
             if end is not None and sign * (end - self.mean) > 0:
                 side = "most" if sign > 0 else "least"
@@ -220,7 +217,6 @@ class LognormalScatter(BellScatter):
 
     @property
     def _bell(self) -> tuple[float, float]:
-        """Mean and deviation of the logarithm."""
         variance = math.log1p((self.deviation / self.mean) ** 2)
         return math.log(self.mean) - 0.5 * variance, math.sqrt(variance)
 
@@ -253,7 +249,6 @@ def _or(value: float | None, other: float) -> float:
 
 
 def _as_table(value: object) -> object:
-    """The table that a bare length stands for."""
     if isinstance(value, str) or is_number(value):
         return {"kind": "constant", "value": _PLAIN.read(value)}
     return value

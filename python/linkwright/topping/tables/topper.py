@@ -55,7 +55,6 @@ def stroke_of(study: TopperStudy) -> Stroke | None:
 
 
 def _lengths(study: TopperStudy, described: Topper) -> Table:
-    """All lengths beside what they mean, and whether the edge has them."""
     own = described.edge_length
     steady = study.length_exact_constant_speed
     listed = [
@@ -75,7 +74,6 @@ def _lengths(study: TopperStudy, described: Topper) -> Table:
 
 
 def _moved(study: TopperStudy, described: Topper) -> Iterator[tuple[str, str, float, str]]:
-    """Exact lengths for the motion of the knife: word, symbol, value, remark."""
     if not study.stroke:
         yield "exact", "L", study.length_exact, "worst offset"
         return
@@ -101,7 +99,6 @@ def shown_head(study: TopperStudy) -> tuple[float, float]:
 
 
 def _head(study: TopperStudy, described: Topper) -> Table:
-    """The head, and what is left of it."""
     volume = f"{number(1e6 * study.cap_volume)} cm³"
     rows: list[Row] = [
         _text_row("head_diameter", mm(study.head_diameter), "in the plane of the cut"),
@@ -132,7 +129,6 @@ def _without_rounding(value: float, study: TopperStudy) -> float:
 
 
 def _left(study: TopperStudy, described: Topper) -> Iterator[Row]:
-    """The head of which most is left, on which side of the edge, and the mean."""
     side = "left" if study.uncut_offset > 0 else "right"
     at = f"head {mm(abs(study.uncut_offset))} to the {side}" if study.uncut_offset else "head on the row"
     moves = f", phase {degrees(study.uncut_phase)}" if study.stroke else ""
@@ -150,14 +146,12 @@ def _left(study: TopperStudy, described: Topper) -> Iterator[Row]:
 
 
 def _mean_over(study: TopperStudy, described: Topper) -> str:
-    """What a mean is taken over."""
     if study.stroke:
         return "over even offsets" + (" and phases" if described.motion.phase is None else "")
     return "over even offsets" + (" and both directions" if study.knife_speed else "")
 
 
 def _way(study: TopperStudy) -> str:
-    """What a mean speed is a mean of."""
     if not study.knife_speed:
         return "at rest"
     return "over the time" if study.stroke else "one direction over the head"
@@ -204,14 +198,12 @@ def _advance(study: TopperStudy) -> Row:
 
 
 def _ratio(study: TopperStudy, name: str, remark: str) -> Row:
-    """A ratio that may have no bound."""
     if getattr(study, name) < _NO_BOUND:
         return row(study, name, remark)
     return _text_row(name, "no bound", "the edge moves along itself")
 
 
 def _text_row(name: str, value: str, remark: str) -> Row:
-    """A row whose value is not a number."""
     mark = shown(TopperStudy, name)
     return mark.word, mark.symbol, value, remark
 
@@ -227,7 +219,6 @@ def _drive(study: TopperStudy) -> Table:
 
 
 def _verdict(study: TopperStudy, described: Topper) -> Table:
-    """The published lengths for the speeds of the paper and the heads of this machine."""
     verdict = length_verdict(
         PAPER, described.edge_angle, study.head_diameter, described.offset, stroke_of(study)
     )
