@@ -41,7 +41,6 @@ def _row(text: str) -> str:
 
 
 def _piece(match: re.Match[str]) -> str:
-    """A fraction, a root, or one symbol."""
     if match[1] == "frac":
         over, under = match[2].split("|")
         return f"<mfrac><mrow>{_row(over)}</mrow><mrow>{_row(under)}</mrow></mfrac>"
@@ -53,7 +52,6 @@ def _piece(match: re.Match[str]) -> str:
 
 
 def _symbol(text: str) -> str:
-    """A symbol with its index and its power."""
     base, _, power = text.partition("^")
     base, _, index = base.partition("_")
     core = f"<{_tag(base)}>{base}</{_tag(base)}>"
@@ -73,7 +71,6 @@ def _tag(text: str) -> str:
 
 
 def _typst_piece(match: re.Match[str]) -> str:
-    """A fraction, a root, or one symbol."""
     if match[1] == "frac":
         over, under = match[2].split("|")
         return f"frac({typst(over)}, {typst(under)})"

@@ -31,7 +31,6 @@ class Term(NamedTuple):
 
 @cache
 def _data() -> dict[str, dict[str, list[str]]]:
-    """The file as it is."""
     return tomllib.loads((files(__package__) / "glossary.toml").read_text(encoding="utf-8"))
 
 
@@ -57,7 +56,6 @@ def matching(word: str) -> tuple[Term, ...]:
     wanted = word.casefold()
 
     def meant(term: Term) -> bool:
-        """Whether the word is one of those that lead to a term."""
         words = (term.term.casefold(), *(name.casefold() for name in term.names))
         return (
             any(wanted in word for word in words)

@@ -54,7 +54,6 @@ _SAID = re.compile(r'\bsay\("([^"]+)"')
 
 
 def _page_words(content: Content) -> dict[str, Any]:
-    """Texts of the page's scripts in its language, its units, and its decimal sign."""
     scripts = (path.read_text(encoding="utf-8") for path in sorted(_FOLDER.glob("*.js")))
     texts = {text: content.language.template(text) for script in scripts for text in _SAID.findall(script)}
     speeds = [scene["speed_unit"][0] for scene in content.scenes.values() if "speed_unit" in scene]
@@ -63,14 +62,12 @@ def _page_words(content: Content) -> dict[str, Any]:
 
 
 def _picture(figure: Any, name: str, title: str) -> Markup:
-    """A figure as markup inside the page."""
     from markupsafe import Markup
 
     return Markup(inline_svg(figure, name, title))
 
 
 def _axes(figure: Any) -> Markup:
-    """Attribute with what the cursor reads in a figure that was drawn."""
     from markupsafe import Markup, escape
 
     known = readout(figure)
@@ -78,7 +75,6 @@ def _axes(figure: Any) -> Markup:
 
 
 def _embedded(scene: dict[str, Any]) -> Markup:
-    """Data for a script element: nothing in it may end that element."""
     from markupsafe import Markup
 
     text = json.dumps(finite(scene), separators=(",", ":"), allow_nan=False)
@@ -109,7 +105,6 @@ def _sections(content: Content) -> list[tuple[str, str, list[tuple[str, str]]]]:
 
 
 def _logo(logo: tuple[str, bytes]) -> str:
-    """A picture as an address that holds it."""
     kind = {"svg": "svg+xml", "jpg": "jpeg"}.get(logo[0], logo[0])
     return f"data:image/{kind};base64,{b64encode(logo[1]).decode()}"
 
@@ -153,7 +148,6 @@ def _as_markup(text: str) -> Markup:
 
 
 def _raw(name: str) -> str:
-    """A file of the templates, as it is."""
     return (_FOLDER / name).read_text(encoding="utf-8")
 
 
@@ -180,6 +174,5 @@ def policy(*, scripts: Iterable[str] = (), styles: Iterable[str] = ()) -> str:
 
 
 def _sources(texts: Iterable[str]) -> str:
-    """Hashes of inline elements."""
     digests = (b64encode(sha256(text.encode()).digest()).decode() for text in texts)
     return " ".join(f"'sha256-{digest}'" for digest in digests) or "'none'"

@@ -51,7 +51,6 @@ def result_html(result: Any, title: str = "") -> str:
 
 
 def _parted(value: float | tuple[float, float], unit: str) -> tuple[str, str]:
-    """A number, or the ends of a range, and the unit."""
     if not isinstance(value, tuple):
         return parted(value, unit)
     (low, _), (high, shown) = (parted(end, unit) for end in value)

@@ -48,7 +48,6 @@ class _Unit(NamedTuple):
     is_energy: bool
 
     def measures(self, other: _Unit) -> bool:
-        """Whether what is in another unit may be shown in this one."""
         return self.dimension == other.dimension and self.is_energy == other.is_energy
 
 
@@ -157,7 +156,6 @@ _PER_LENGTH = {
 
 
 def _pretty(unit: str) -> str:
-    """With raised powers, and degrees as a sign."""
     text = _RAISED.sub(lambda power: _RAISE[power[1]], unit)
     return "°" if text == "deg" else text
 

@@ -46,20 +46,17 @@ def sentences(texts: Iterable[str]) -> list[str]:
 
 
 def _typeset(match: re.Match[str]) -> str:
-    """A number with a true minus sign and a power of ten, as in tables."""
     sign, head, power = match.groups()
     return f"{'−' if sign else ''}{head}{f'·10{str(int(power)).translate(RAISED)}' if power else ''}"
 
 
 def _counted(match: re.Match[str]) -> str:
-    """Crank angles from the zero that is shown."""
     return match[1] + re.sub(
         _ANGLE, lambda angle: degrees(zero_shown().counted(radians(_value(angle[0][:-1])))), match[2]
     )
 
 
 def _in_units(match: re.Match[str]) -> str:
-    """A number in the unit that the reader wants, with as many digits."""
     unit, factor = reader().shown(match[2])
     if factor == 1.0:
         return match[0]
@@ -69,7 +66,6 @@ def _in_units(match: re.Match[str]) -> str:
 
 
 def _place(text: str, value: float, factor: float) -> int:
-    """Power of ten of the last known digit of a value in another unit."""
     head, _, power = text.replace("·10", "e").translate(_LOWERED).partition("e")
     last = 10.0 ** (int(power or 0) - len(head.partition(".")[2])) / abs(factor)
     first = floor(log10(abs(value))) if value else 0

@@ -147,7 +147,6 @@ _HEAD_UNIT = re.compile(r"\{(.*)\}")
 
 
 def _part_column(parts: Sequence[Any], digits: int | None, head: str, cell: Cell) -> tuple[str, list[str]]:
-    """Head and cells of a column."""
     if not cell or callable(cell):
         return head, [cell(part) if callable(cell) else "" for part in parts]
     attribute, _, unit = cell.removesuffix("]").partition(" [")
@@ -179,7 +178,6 @@ def csv_text(heads: Sequence[str], rows: Iterable[Sequence[str | float]]) -> str
 
 
 def _cell(entry: str | float) -> str | float:
-    """A text that is no formula, or a number."""
     if isinstance(entry, str):
         return f"'{entry}" if entry.startswith(_FORMULA) else entry
     return "" if entry != entry else entry

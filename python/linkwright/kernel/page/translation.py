@@ -42,7 +42,6 @@ def in_language(content: Content, to: Language) -> Content:
 
 
 def _part(part: Any, to: Language, named: Language) -> Any:
-    """A part of the machine in a language; names that the file gives stay."""
     entries = [one._replace(word=to.entry(one.word), value=named.entry(one.value)) for one in part.entries]
     name = part.name if part.is_named else ": ".join(map(to.entry, part.name.split(": ")))
     return part._replace(name=name, entries=entries)
@@ -76,5 +75,4 @@ def _entry(name: str, entry: Any, to: Language) -> Any:
 
 
 def _drawn(draw: Callable[[], Any], to: Language) -> Callable[[], Any]:
-    """What draws, with its figure in a language."""
     return lambda: _changed(draw(), to)

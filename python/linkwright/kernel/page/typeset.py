@@ -99,7 +99,6 @@ def _lines(content: Content) -> Iterator[str]:
 
 
 def _head(content: Content) -> Iterator[str]:
-    """Company, title, what the document is, whose numbers they are."""
     yield from _company(content.heading)
     yield f"= {_text(content.title)}"
     if content.about or content.lead:
@@ -121,7 +120,6 @@ def _company(heading: Heading) -> Iterator[str]:
 
 
 def _foot(content: Content) -> str:
-    """What stands at the foot of each page, before its number."""
     heading = content.heading
     known = (
         heading.company,
@@ -133,7 +131,6 @@ def _foot(content: Content) -> str:
 
 
 def _box(title: str, texts: Sequence[str], colour: str) -> str:
-    """What must be read first."""
     listed = "\n".join(f"- {_text(text)}" for text in texts) if len(texts) > 1 else _text(texts[0])
     return f"#notice({colour})[*{_text(title)}*\n\n{listed}]"
 
@@ -184,7 +181,6 @@ def _sheet(figure: Figure) -> str:
 
 
 def _place(captioned: CaptionedFigure) -> str:
-    """Name of the file of a figure: names of a machine may hold any letter."""
     return "figure-" + captioned.name.encode().hex() + ".svg"
 
 
@@ -198,7 +194,6 @@ def _formulas(formulas: Sequence[Formula]) -> str:
 
 
 def _groups(content: Content) -> Iterator[str]:
-    """Data of the machine; what was not given is in italics."""
     words = content.language
     yield f"== {words('Machine data')}"
     cells = []
@@ -220,7 +215,6 @@ def _groups(content: Content) -> Iterator[str]:
 
 
 def _repeat(content: Content) -> Iterator[str]:
-    """How the same numbers are made again."""
     import linkwright
 
     words = content.language
