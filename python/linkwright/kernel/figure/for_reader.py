@@ -78,7 +78,6 @@ class _Places(Locator):
         self.inner, self.factor = inner, factor
 
     def set_axis(self, axis: Any) -> None:
-        """Let the other one see the axis in the unit that is shown."""
         super().set_axis(axis)
         self.inner.set_axis(_UnitAxis(axis, self.factor))  # type: ignore[arg-type]
 
@@ -86,7 +85,6 @@ class _Places(Locator):
         return np.asarray(self.inner()) * self.factor
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
-        """Places between two ends, in the unit of the data."""
         return np.asarray(self.inner.tick_values(vmin / self.factor, vmax / self.factor)) * self.factor
 
 
@@ -97,19 +95,16 @@ class _Marks(Formatter):
         self.inner, self.factor, self.to = inner, factor, to
 
     def set_axis(self, axis: Any) -> None:
-        """Let the other one see the axis in the unit that is shown."""
         super().set_axis(axis)
         self.inner.set_axis(_UnitAxis(axis, self.factor) if self.factor != 1.0 else axis)  # type: ignore[arg-type]
 
     def set_locs(self, locs: Sequence[float]) -> None:
-        """The places of all marks."""
         self.inner.set_locs([place / self.factor for place in locs])
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         return self._said(self.inner(x / self.factor, pos))
 
     def get_offset(self) -> str:
-        """What stands at the end of the axis."""
         return self._said(self.inner.get_offset())
 
     def _said(self, number: str) -> str:
@@ -137,7 +132,6 @@ def from_zero_of_reader(figure: Figure) -> None:
 
 
 def _move(axes: Axes, zero: Zero) -> None:
-    """The curves and the ends of one of the axes."""
     is_polar = axes.name == "polar"
     size = 1.0 if is_polar else 180 / np.pi
     low, high = axes.get_xlim()
@@ -158,7 +152,6 @@ def _move(axes: Axes, zero: Zero) -> None:
 
 
 def _move_line(line: Line2D, zero: Zero, size: float) -> None:
-    """A curve, dots, or a line across."""
     x, y = (np.asarray(values, float) for values in line.get_data(orig=True))
     if np.all(np.diff(x) >= 0) and zero.cycle_of(x / size):
         moved, curves = zero.rolled(x / size, {"": y})

@@ -76,7 +76,6 @@ def _are_near(path: Floats, other: Floats, width: float) -> bool:
 
 
 def _fit(axes: Axes, legend: Legend, figure: Figure) -> None:
-    """Set a legend above axes in as many columns as their width has room for."""
     labels = [text.get_text() for text in legend.get_texts()]
     size = max((float(text.get_fontsize()) for text in legend.get_texts()), default=1.0)
     room = 72 * float(figure.get_size_inches()[0]) * axes.get_position().width / size
