@@ -115,7 +115,6 @@ class Answer:
 
 
 def _plain(value: Any, curves: bool) -> Any:
-    """The same tree with plain numbers in place of results."""
     if isinstance(value, Mapping) and not hasattr(value, "to_dict"):
         return {key: _plain(entry, curves) for key, entry in value.items()}
     if isinstance(value, list):
@@ -124,7 +123,6 @@ def _plain(value: Any, curves: bool) -> Any:
 
 
 def _tables(shown: Any) -> Iterator[Table]:
-    """A table, several, or what makes them, one by one."""
     from linkwright.kernel.page.table import Table
 
     made = shown() if callable(shown) else shown
@@ -136,13 +134,11 @@ def _tables(shown: Any) -> Iterator[Table]:
 
 
 def _called(parts: Any) -> dict[str, Any]:
-    """Parts by name, made where they are functions."""
     made = parts() if callable(parts) else parts
     return {name: part() if callable(part) else part for name, part in made.items()}
 
 
 def _title(name: str) -> str:
-    """Name of a file as a heading."""
     words = name.replace("_", " ")
     return words[:1].upper() + words[1:]
 

@@ -39,7 +39,6 @@ def console(*, error: bool = False) -> Console:
 
 
 def _unread() -> NoReturn:
-    """Nobody reads the output any more: told as for any other output."""
     raise BrokenPipeError
 
 
@@ -120,18 +119,15 @@ def print_tables(
 
 
 def _most(table: Table) -> int:
-    """Rows of a table that are shown."""
     return len(table.rows) if table.is_whole else TABLE_ROWS.most
 
 
 def _print_more(count: int, words: str) -> None:
-    """How much is not shown."""
     if count > 0:
         console().print(f"… and {grouped(count)} more {words}; --json has all")
 
 
 def _drawn(table: Table) -> RenderableType:
-    """A table of words, symbols and numbers."""
     from rich import box
     from rich.table import Table as Drawn
 
@@ -159,7 +155,6 @@ def _drawn(table: Table) -> RenderableType:
 
 
 def _head(table: Table, n: int) -> str:
-    """Head of a column in short lines; a name of a part stays in one."""
     return fill(table.heads[n], _HEAD, break_long_words=False)
 
 

@@ -37,7 +37,6 @@ class _FileContext(click.Context):
 
     @property
     def command_path(self) -> str:
-        """The words before its arguments."""
         return super().command_path.rstrip()
 
 
@@ -169,7 +168,6 @@ def completion_options() -> tuple[click.Option, click.Option]:
 
 
 def _option(name: str, words: str, act: Callable[[str], None]) -> click.Option:
-    """An option that does something for a shell and ends."""
 
     def ask(context: click.Context, option: click.Parameter, shell: str | None) -> None:
         if shell is not None and not context.resilient_parsing:
@@ -181,12 +179,10 @@ def _option(name: str, words: str, act: Callable[[str], None]) -> click.Option:
 
 
 def _show(shell: str) -> None:
-    """Print the script."""
     click.echo(_script(shell))
 
 
 def _install(shell: str) -> None:
-    """Write the script, and say what is needed besides."""
     place, words = _PLACES[shell]
     path = Path.home() / place
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -196,7 +192,6 @@ def _install(shell: str) -> None:
 
 
 def _script(shell: str) -> str:
-    """The script of a shell."""
     from click.shell_completion import get_completion_class
 
     kind = get_completion_class(shell)

@@ -119,7 +119,6 @@ def _units_option() -> click.Option:
 
 
 def _keep_units(context: click.Context, option: click.Parameter, text: str | None) -> None:
-    """Keep the units that are asked for, for when results are shown."""
     if text is None:
         return
     from linkwright.kernel.errors import InputError
@@ -146,13 +145,11 @@ def _digits_option() -> click.Option:
 
 
 def _keep_digits(context: click.Context, option: click.Parameter, digits: int | None) -> None:
-    """Keep the number of digits that is asked for, for when results are shown."""
     if digits is not None:
         context.meta[UNITS] = replace(_asked(context), digits=digits)
 
 
 def _asked(context: click.Context) -> OutUnits:
-    """What is known so far of how results are to be shown."""
     from linkwright.kernel.page.out_units import OutUnits
 
     known: OutUnits = context.meta.get(UNITS) or OutUnits()
@@ -172,7 +169,6 @@ def _marked(make: Callable[..., Any], types: Mapping[str, Any] | None = None) ->
 
 
 def _leaves(make: Callable[..., Any], types: Mapping[str, Any] | None = None) -> Iterator[tuple[Any, ...]]:
-    """Parameters on the command line, those of groups in the place of the group."""
     for mark, hint, parameter in _marked(make, types):
         if isinstance(mark, Group):
             yield from _leaves(*mark)
@@ -183,7 +179,6 @@ def _leaves(make: Callable[..., Any], types: Mapping[str, Any] | None = None) ->
 def _taken(
     make: Callable[..., Any], given: Mapping[str, Any], types: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
-    """What a function or group takes of the values of all options."""
     taken = {}
     for mark, _, parameter in _marked(make, types):
         name = parameter.name
@@ -196,7 +191,6 @@ def _taken(
 
 
 def _param(mark: Option | Value | Argument, hint: Any, parameter: Parameter) -> click.Parameter:
-    """Option or argument of the command line for a parameter."""
     if isinstance(mark, Value):
         from linkwright.kernel.units.kinds import Kind
 
@@ -238,14 +232,12 @@ def _param(mark: Option | Value | Argument, hint: Any, parameter: Parameter) -> 
 
 
 def _kind(hint: Any) -> tuple[Any, bool]:
-    """The type of one value, and whether there are several."""
     if NoneType in get_args(hint):
         hint = next(arg for arg in get_args(hint) if arg is not NoneType)
     return (get_args(hint)[0], True) if get_origin(hint) is list else (hint, False)
 
 
 def _converter(kind: Any, low: int | None) -> Any:
-    """Makes a value of a word."""
     if get_origin(kind) is Literal:
         return click.Choice(get_args(kind))
     if isinstance(kind, type) and issubclass(kind, Enum):
@@ -264,7 +256,6 @@ class _Real(click.types.FloatParamType):
     name = "number"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The number of a word."""
         number = super().convert(value, param, ctx)
         if not math.isfinite(number):
             self.fail(f"found {cut(str(value))}, expected a finite number", param, ctx)
@@ -281,11 +272,9 @@ class _Whole(click.IntRange):
         super().__init__(min=low)
 
     def _describe_range(self) -> str:
-        """For the help; nothing where the number has no limit of its own."""
         return "" if self.min is None else super()._describe_range()
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The number of a word."""
         number = super().convert(value, param, ctx)
         if abs(number) > _WHOLE_MAX:
             self.fail(

@@ -60,7 +60,6 @@ def option_value(option: str, text: str, of: Kind | Quantity) -> float:
 
 
 def _is_number(text: str) -> bool:
-    """Whether a text is a number without a unit."""
     try:
         float(text)
     except ValueError:
