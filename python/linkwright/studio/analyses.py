@@ -118,7 +118,6 @@ def fast(machine: Machine, *, held: bool) -> Answers:
 
 
 def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
-    """Forces along the steady motion, at some of its angles."""
     some = slice(None, None, every)
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
     return forces(
@@ -160,7 +159,6 @@ _CURVES = {"speed", "torque", "time", "reduction", "run_up"}
 
 
 def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
-    """What the fast lane has not shown."""
     known = ("steady_state", "forces")
     yield from ((name, result) for name, result in results.items() if name not in known)
 

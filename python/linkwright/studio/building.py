@@ -105,7 +105,6 @@ def _one(table: str, head: str, entries: Callable[[Site], Iterator[Entries]]) ->
 
 
 def _load(head: str, entries: Callable[[Site], Iterator[Entries]]) -> Callable[[Site], Made]:
-    """Loads."""
 
     def made(site: Site) -> Made:
         yield from ((("loads", site.fresh(head)), load) for load in entries(site))
@@ -195,7 +194,6 @@ def _bodies(site: Site) -> Made:
 
 
 def _drive(key: str, entry: Any) -> Callable[[Site], Made]:
-    """A part of the drive that is not there yet."""
 
     def made(site: Site) -> Made:
         if key not in site.names("drive"):
@@ -504,7 +502,6 @@ class _Drawing:
         self.is_driven = bool(site.topology.names(*DRIVERS))
 
     def link(self, start: End, end: End) -> None:
-        """A crank or a bar."""
         first = start.point or self.places.get((start.x, start.y)) or self._fixed(start)
         known = end.point or self.places.get((end.x, end.y))
         length = self.site.metres(self._round(math.hypot(end.x - start.x, end.y - start.y)), 12)
@@ -522,7 +519,6 @@ class _Drawing:
         self._put("bars", self._name("B"), {"start": first, "end": second, "length": length})
 
     def waiting(self) -> str:
-        """A joint that needs another link; empty for none."""
         return next((name for name, links in self.held.items() if links < 2), "")
 
     def _is_fixed(self, name: str) -> bool:
@@ -553,5 +549,4 @@ class _Drawing:
         self.entries[join(("mechanism", table, name))] = entries
 
     def _round(self, value: float) -> float:
-        """As many digits as a pixel is worth."""
         return round(value / self.step) * self.step

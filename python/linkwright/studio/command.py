@@ -48,7 +48,6 @@ def studio(file: File = None, no_browser: NoBrowser = False, port: Port = 0) -> 
 
 
 def _fragment(file: str) -> str:
-    """What the page should open."""
     from linkwright.kernel.files.library import library
     from linkwright.studio.files import Folder
 

@@ -35,7 +35,6 @@ def controls(raw: Mapping[str, Any]) -> Control:
 def _group(
     place: tuple[str, ...], key: str, about: str, model: type[BaseModel] | None, node: Any, raw: Any
 ) -> Control:
-    """A table with its entries and the tables in it."""
     entries: list[Control] = []
     groups: list[Control] = []
     for name, value in _items(node):
@@ -58,7 +57,6 @@ def _group(
 
 
 def _items(node: Any) -> Iterator[tuple[str, Any]]:
-    """Keys and values of a table, or places and values of a list of tables."""
     if isinstance(node, Mapping):
         yield from node.items()
     else:
@@ -66,20 +64,17 @@ def _items(node: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _is_table(value: Any) -> bool:
-    """Whether a value is a table, or a list of tables."""
     if isinstance(value, list):
         return bool(value) and all(isinstance(entry, Mapping) for entry in value)
     return isinstance(value, Mapping)
 
 
 def _field(model: type[BaseModel] | None, key: str) -> FieldInfo | None:
-    """The declaration of an entry."""
     name = field_names(model).get(key) if model else None
     return model.model_fields[name] if model and name else None
 
 
 def _entry(place: tuple[str, ...], key: str, about: str, annotation: Any, value: Any) -> Control:
-    """The control of one entry."""
     control = {"address": join(place), "key": key, "about": about, "written": value}
     return control | _holds(annotation, value)
 
@@ -113,12 +108,10 @@ def _number(value: Any, mark: Quantity) -> Control:
 
 
 def _bounds(mark: Quantity) -> dict[str, float]:
-    """Bounds of a quantity in the words of JSON Schema, and its largest size."""
     return {**mark.bound.schema, "most": mark.kind.most}
 
 
 def _choices(annotation: Any) -> Iterator[str]:
-    """The words that an entry may have."""
     for branch in (annotation, *get_args(annotation)):
         if get_origin(branch) is Literal:
             yield from (str(choice) for choice in get_args(branch) if isinstance(choice, str))

@@ -162,7 +162,6 @@ def _differenced(machine: Machine, response: str) -> dict[str, Any]:
 
 
 def _named(response: str, word: str, unit: str) -> dict[str, str]:
-    """A response with its words."""
     analysis, _, quantity = response.partition(".")
     symbol = ""
     for name, owner in (("steady_state", SteadyState), ("forces", Forces)):
@@ -201,7 +200,6 @@ class _Reach:
         self.steps = _STEP * wide
 
     def run(self) -> Drag:
-        """Step until the value is there, or nothing leads nearer."""
         reason, value = "", math.nan
         for _ in range(_STEPS):
             rates = slopes_of(self.study, self.at, self.steps)
@@ -254,7 +252,6 @@ class _Reach:
         return next(iter(reasons)) if reasons else f"limit reached: {self._name()} has an extreme here"
 
     def _held(self, slope: Floats) -> str:
-        """What holds the result."""
         moved = [
             name
             for name, rate, width in zip(self.names, slope, self.range, strict=True)

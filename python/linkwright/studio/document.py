@@ -127,7 +127,6 @@ def merged(text: str, joint: str, other: str, path: str = "") -> str:
 
 
 def _naming(node: Any, name: str, place: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """Places of a table that have a name as their value."""
     if isinstance(node, Mapping):
         for key, value in node.items():
             yield from _naming(value, name, (*place, key))
@@ -159,7 +158,6 @@ def _below(node: Any, key: str) -> Any:
 
 
 def _put(document: Any, place: tuple[str, ...], value: Any) -> None:
-    """Write one value, with the comment of the old one."""
     node = document
     for key in place[:-1]:
         node = _below(node, key)
@@ -180,7 +178,6 @@ def _put(document: Any, place: tuple[str, ...], value: Any) -> None:
 
 
 def _remove(document: Any, place: tuple[str, ...]) -> None:
-    """Remove an entry, if it is there."""
     node = document
     for key in place[:-1]:
         if isinstance(node, list) and key.isdecimal() and int(key) < len(node):

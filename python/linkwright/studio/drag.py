@@ -190,7 +190,6 @@ class _Search:
         return placed
 
     def _fixed(self, rows: Floats) -> Floats:
-        """A fixed point is where its entries say."""
         own = self.machine.mechanism.points[self.point]
         fixed = np.tile(np.array([float(own.x), float(own.y)]), (len(rows), 1))
         for n, address in enumerate(self.free):
@@ -204,7 +203,6 @@ class _Search:
         return replace(self.machine, dict(zip(self.free, map(float, row), strict=True)))
 
     def stopped(self, wanted: Floats) -> Drag:
-        """The wanted entries, or those at the limit of the linkage."""
         reason, ranges = self._obstacle(wanted)
         if not reason:
             return Drag(self._entries(wanted), self._out_of_reach(wanted))
@@ -251,12 +249,10 @@ class _Search:
         return "" if moves else str(closure_error(closed, machine)), closed.ranges
 
     def worth(self, entries: Mapping[str, float], pixel: float) -> dict[str, tuple[float, float]]:
-        """What a pixel is worth in each entry."""
         at = np.array([entries[name] for name in self.free])
         slopes = np.hypot(*self._slopes(at, self._placed(at[None])[0]))
         pairs = zip(self.free, slopes, self.before, strict=True)
         return {name: (pixel / float(slope), float(start)) for name, slope, start in pairs if slope > 0}
 
     def _entries(self, row: Floats) -> dict[str, float]:
-        """Entries with the digits that the file will have."""
         return {address: float(short(value)) for address, value in zip(self.free, row, strict=True)}

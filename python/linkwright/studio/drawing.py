@@ -79,7 +79,6 @@ def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None)
 
 
 def _centres(machine: Machine, motion: Kinematics) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Instant centres of links that turn about no fixed point."""
     # ``fixed`` and ``moving``, the centrodes, (n, 2) each, the second along and across the link; ``at``, its
     # start, and ``angle``, its direction.
     still = machine.linkage.fixed_points().keys() | {ORIGIN}
@@ -105,7 +104,6 @@ def _along(scene: dict[str, Any], steady: SteadyState) -> Floats:
 
 
 def _acting(machine: Machine, scene: dict[str, Any], acting: Forces) -> list[dict[str, Any]]:
-    """Forces of pins at their points, over the angles of the scene."""
     points = {name: pair.point for name, pair in structure(machine.linkage).pairs.items()}
     within = np.mod(scene["angles"], cycle_of_angles(acting.crank_angle))
     forces = []

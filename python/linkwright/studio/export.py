@@ -90,7 +90,6 @@ def _report(machine: Machine, asked: Body, code: str) -> Content:
 
 
 def _contents(asked: Body) -> Callable[[Machine, str], Content]:
-    """How the content of a machine's report is found."""
     if asked.get("of") == "torsion":
 
         def torsion(machine: Machine, command: str) -> Content:

@@ -84,7 +84,6 @@ class Folder:
                 yield {"place": "folder", "name": name, "title": title}
 
     def _files(self) -> Iterator[Path]:
-        """TOML files from the top down, hidden folders and links left out."""
         for n, (at, folders, names) in enumerate(os.walk(self.root)):
             deep = len(Path(at).relative_to(self.root).parts)
             folders[:] = sorted(

@@ -155,7 +155,6 @@ class Search(Request):
 
     @model_validator(mode="after")
     def _steps(self) -> Self:
-        """Entries of a sweep have steps."""
         if self.kind == "sweep" and any(entry.steps is None for entry in self.entries):
             raise ValueError("expected steps of every entry")
         return self

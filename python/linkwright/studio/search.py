@@ -47,7 +47,6 @@ def search(machine: Machine, asked: Body, tell: Tell) -> Body:
 
 
 def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
-    """The study that the page describes."""
     entries = {
         entry["address"]: {"range": (entry["low"], entry["high"])}
         | ({"steps": entry["steps"]} if "steps" in entry else {})
@@ -57,7 +56,6 @@ def _plan(machine: Machine, asked: Body, **more: Any) -> StudyPlan:
 
 
 def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
-    """A grid over one entry or two."""
     entries, most = asked["entries"], _VALUES if len(asked["entries"]) == 1 else _SIDE
     if len(entries) > 2 or any(not 2 <= int(entry["steps"]) <= most for entry in entries):
         raise InputError(f"steps: expected 2 to {most} of each of at most two entries")
@@ -89,7 +87,6 @@ def _sweep(machine: Machine, asked: Body, tell: Tell) -> Body:
 
 
 def _optimise(machine: Machine, asked: Body, tell: Tell) -> Body:
-    """The best machine within the limits of the entries."""
     direction, machines = str(asked.get("direction")), min(int(asked.get("machines", 2000)), _MACHINES)
     study = _plan(machine, asked, goals={"y": direction})
     addresses = {f"v{n}": entry["address"] for n, entry in enumerate(asked["entries"])}

@@ -149,7 +149,6 @@ def _with_headers(send: Send) -> Send:
 
 
 async def _refuse(send: Send, status: int, *, is_socket: bool) -> None:
-    """End a request without an answer."""
     if is_socket:
         # Before it is accepted: the server answers 403 to the handshake.
         await send({"type": "websocket.close", "code": _POLICY})
@@ -229,7 +228,6 @@ class Studio:
         self.server().run(sockets=[self.socket])
 
     async def _texts(self, request: Request) -> Response:
-        """Texts of the page in a language."""
         if not _same(request.headers.get(_KEY_HEADER, ""), self.key):
             return Response(status_code=403)
         try:
@@ -239,7 +237,6 @@ class Studio:
             return Response(status_code=404)
 
     async def _tab(self, page: WebSocket) -> None:
-        """One tab."""
         await page.accept()
         if not await self._enters(page):
             await _end(page, _NO_KEY)
@@ -287,7 +284,6 @@ _FIRST, _PORTS = 49152, 16384
 
 
 def _bound_for(root: Path) -> socket.socket:
-    """A socket at the port of a folder, or at a free one where that is taken."""
     # What a browser keeps belongs to a port: a studio that starts again after a crash finds it there.
     digest = hashlib.sha256(str(root).encode("utf-8", "surrogateescape")).digest()
     try:
@@ -297,7 +293,6 @@ def _bound_for(root: Path) -> socket.socket:
 
 
 def _bound(port: int) -> socket.socket:
-    """A socket of this computer alone."""
     own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     # Windows would by SO_REUSEADDR let another program take the port over, or a second studio share it.
     exclusive = getattr(socket, "SO_EXCLUSIVEADDRUSE", None)

@@ -148,23 +148,19 @@ class Session:
             task.close()
 
     async def _refuse(self, number: int, error: LinkwrightError) -> None:
-        """Say why a request is not answered."""
         await self.send(self._packed(number, {"of": "refused", "words": str(error)}))
 
     def _speak(self, asked: Speak) -> None:
-        """Answer in a language, and in units, from now on."""
         spoken(asked.code)
         with in_units(asked.units):
             self.language, self.units = asked.code, asked.units
 
     def _packed(self, number: int, body: Body) -> bytes:
-        """A message in the language of the tab."""
         return packed(number, in_words(body, self.language))
 
     # -- the newest machine ----------------------------------------------------------------------------------
 
     async def _compute(self) -> None:
-        """Answer the newest request to compute."""
         while True:
             await self.changed.wait()
             self.changed.clear()
@@ -181,7 +177,6 @@ class Session:
                 self.quiet.set()
 
     def _computed(self, number: int, asked: Compute) -> tuple[bytes, tuple[int, str, list[str]] | None]:
-        """The answer to one request to compute, and what slow analyses are due."""
         begun = time.perf_counter()
         held, entries = asked.held, dict(asked.set)
         if asked.text is not None:
@@ -214,7 +209,6 @@ class Session:
         return self._packed(number, answer), due
 
     def _machine(self, entries: dict[str, Any]) -> Machine:
-        """The machine of the text with other entries."""
         # Lengths, places and masses of a sound text are checked by their own bounds alone, and set; whatever
         # else may contradict other entries, and the whole is read.
         path = base(self.folder, self.place, self.name)
@@ -241,7 +235,6 @@ class Session:
         return {"reason": dragged.reason, "limit": dragged.limit}
 
     def _merged(self, both: Merge) -> Body:
-        """The text with two joints made one, or why they cannot be."""
         try:
             self.text = merged(self.text, both.joint, both.into, base(self.folder, self.place, self.name))
         except LinkwrightError as error:
@@ -249,7 +242,6 @@ class Session:
         return {"text": self.text}
 
     def _added(self, asked: Add) -> Body:
-        """The text with an element more, or what it needs."""
         path = base(self.folder, self.place, self.name)
         try:
             self.text = added(self.text, asked.kind, asked.size, asked.picked, path)
@@ -330,7 +322,6 @@ class Session:
             await self.send(message if message is not None else stopped)
 
     async def _stop(self) -> None:
-        """End what runs beside, or is about to."""
         due, self.stopped = self.due, True
         if self.running:
             await self.worker.end()
@@ -362,7 +353,6 @@ class Session:
     # -- exports -------------------------------------------------------------------------------------------
 
     async def _export(self) -> None:
-        """Make the files that were asked for, in their order."""
         while True:
             number, asked = await self.exports.get()
             path = base(self.folder, self.place, self.name)
@@ -388,7 +378,6 @@ class Session:
     # -- files -----------------------------------------------------------------------------------------------
 
     async def _answer(self) -> None:
-        """Answer requests for files, in their order."""
         while True:
             number, asked = await self.others.get()
             try:
@@ -402,7 +391,6 @@ class Session:
             await self.send(message)
 
     def _asked(self, asked: Bare | SlopesOf | File | Save) -> Body:
-        """The answer to a request for files."""
         match asked:
             case SlopesOf():
                 return {"of": "slopes", **slopes(self._machine({}), asked.response)}
@@ -448,7 +436,6 @@ def _internal(number: int, error: Exception) -> bytes:
 
 
 def _problems(error: LinkwrightError) -> list[Body]:
-    """What is wrong with a file, each with its place."""
     listed = error.problems if isinstance(error, MachineError) else [Problem(found=str(error))]
     names = ("key", "found", "expected", "remedy", "line")
     return [{name: getattr(problem, name) for name in names} for problem in listed[:100]]

@@ -44,7 +44,6 @@ def shown(name: str, result: Result) -> dict[str, Any]:
 
 
 def _declared_of(result: Result) -> tuple[DeclaredQuantity, ...]:
-    """What the class of a result declares."""
     owner: type = type(result)
     return _declared(owner)
 
@@ -75,7 +74,6 @@ def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[
 def _scales(
     result: Result, declared: list[DeclaredQuantity], known: dict[DeclaredQuantity, float]
 ) -> dict[str, float]:
-    """Peak absolute value of each unit among scalars and curves of a result."""
     scales: dict[str, float] = {}
     for quantity in declared:
         curve = _list_of(result, quantity.name) if quantity.kind == "curve" else None
@@ -96,7 +94,6 @@ _ALONE = ("curvature_radius",)
 
 
 def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
-    """Curves over one abscissa in one unit share a plot."""
     known = {quantity.name: quantity for quantity in declared if quantity.kind == "curve"}
     groups: dict[tuple[str, str, str], list[DeclaredQuantity]] = {}
     for quantity in known.values():
@@ -126,7 +123,6 @@ def _common(drawn: list[tuple[DeclaredQuantity, Floats]]) -> str:
 
 
 def _list_of(result: Result, name: str) -> Floats | None:
-    """A curve as it is drawn: gaps where it has no value."""
     values = getattr(result, name, None)
     is_list = isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "fiu"
     return np.asarray(values, dtype=float) if is_list else None
@@ -183,7 +179,6 @@ def _parts(result: Result, quantity: DeclaredQuantity) -> tuple[str, ...]:
 
 
 def _of_columns(name: str, result: Result) -> Iterator[dict[str, Any]]:
-    """Columns of a result's parts, those of one part and one unit in one plot."""
     columns = result.columns()
     first = next((quantity for quantity in _declared_of(result) if quantity.kind == "curve"), None)
     x = _list_of(result, first.name) if first else None
@@ -218,7 +213,6 @@ _FORCES = {"x": "force in {}", "y": "force in {}", "moment": "moment in {}"}
 
 
 def _title(name: str, column: str, unit: str) -> str:
-    """Title of the plot that a column of a result's parts stands in."""
     part, _, last = column.rpartition("_")
     if column.startswith("loads."):
         return f"load {column.removeprefix('loads.')}"

@@ -123,7 +123,6 @@ def _parts(drawn: Scheme, laid: Layout, free: FreeVibration, modes: list[int]) -
 
 
 def _box(laid: Layout) -> list[float]:
-    """Minimum and maximum x, and the number of rows."""
     xs = [x for x, _ in laid.discs.values()] + [x for span in laid.spans for x in (span.start, span.stop)]
     rows = [row for _, row in laid.discs.values()]
     return [min(xs), max(xs), 1 + max(rows)]

@@ -122,7 +122,6 @@ def _widget_class() -> Any:
 
         @property
         def machine(self) -> Machine:
-            """The machine that is drawn."""
             return self._machine
 
         @machine.setter
@@ -134,7 +133,6 @@ def _widget_class() -> Any:
 
 
 def _scene(machine: Machine) -> bytes:
-    """The drawing as the page gets it."""
     answers = fast(machine, held=False)
     if answers.scene is None:
         reasons = "; ".join(answers.findings) or "nothing of it moves as a linkage"
@@ -143,7 +141,6 @@ def _scene(machine: Machine) -> bytes:
 
 
 def _still(machine: Machine) -> str:
-    """A pose as PNG in letters."""
     from linkwright.app.curves import bytes_of
 
     return b64encode(bytes_of(machine.plot(), ".png")).decode()
@@ -159,6 +156,5 @@ def module() -> str:
 
 @cache
 def _looks() -> dict[str, dict[str, str]]:
-    """Colours of the page in its two looks, as its style sheet has them."""
     sheet = (_STATIC / "studio.css").read_text(encoding="utf-8")
     return {look[1] or "light": dict(_COLOUR.findall(look[2])) for look in _LOOK.finditer(sheet)}

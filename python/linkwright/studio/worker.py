@@ -65,7 +65,6 @@ def _found(text: str, path: str, lane: str) -> Any:
 
 
 def _answer_jobs() -> None:
-    """Answer each line of standard input."""
     from linkwright.kernel.errors import LinkwrightError
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import failed, said
