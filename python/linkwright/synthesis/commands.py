@@ -175,7 +175,6 @@ def _proportions(texts: list[str]) -> dict[str, float]:
 
 
 def _hand_over(what: str, result: Result, to: Output) -> None:
-    """Write the machine and print the result."""
     from linkwright.synthesis.line_kinds import KINDS
 
     machine = result.machine  # type: ignore[attr-defined]

@@ -204,7 +204,6 @@ class _Family:
         return np.where(one_circuit & turns & (crank < coupler), mu, np.nan)
 
     def result(self, t: float, time_ratio: float, frame: float) -> CrankRocker:
-        """The linkage in its wanted size, with its frame along x."""
         crank, coupler, outer, inner, pivot = (place[0] for place in self.places(np.array([t])))
         scale = frame / abs(pivot)
         outer, inner = outer / pivot * frame, inner / pivot * frame

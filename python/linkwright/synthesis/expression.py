@@ -79,7 +79,6 @@ def _values(tree: ast.expr, x: Floats, text: str) -> Floats:
 
 
 def _check(node: ast.expr) -> None:
-    """Refuse anything that is not arithmetic."""
     match node:
         case ast.Constant(value=bool()):
             pass
@@ -172,7 +171,6 @@ class Scale:
 
 
 def _points(task: FunctionTask, ends: tuple[float, ...]) -> Floats:
-    """Arguments at which the function shall be met."""
     if task.x is not None:
         return np.asarray(task.x)
     if task.spacing == "even":

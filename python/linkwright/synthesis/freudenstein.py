@@ -175,7 +175,6 @@ def _positive(K: Floats, starts: Floats, free: Bools) -> tuple[Floats, Floats]:
 
 
 def _distinct(fits: list[Fit]) -> list[Fit]:
-    """Solutions that differ in their start angles, or in K."""
     kept: list[Fit] = []
     for fit in fits:
         same = next((k for k, other in enumerate(kept) if _alike(fit, other)), None)

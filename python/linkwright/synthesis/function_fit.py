@@ -132,7 +132,6 @@ def _of_equation(task: FunctionTask, scale: Scale, model: FunctionModel) -> Rows
 
 
 def _fit(scale: Scale, rows: Rows, i: int, found_by: int) -> Fit:
-    """A row as a solution of Freudenstein's equation."""
     r, c, b = np.exp(rows.x[i, :3])
     r, b = (-angles if turned else angles for angles, turned in zip((r, b), rows.turned[i], strict=True))
     K = np.array([1 / r, 1 / b, (1 + r * r + b * b - c * c) / (2 * r * b)])

@@ -149,7 +149,6 @@ def function_generator(task: FunctionTask) -> FunctionGenerator:
 
 
 def _no_solution(task: FunctionTask, scale: Scale, n_starts: int, *, exact: bool) -> str:
-    """That no start led anywhere, and what to change."""
     n = len(scale.points)
     if exact:
         return (

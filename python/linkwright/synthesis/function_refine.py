@@ -231,7 +231,6 @@ class _Limits:
         return cls(shift, np.full((len(shift), 1), _WEIGHT), np.full(len(shift), np.inf))
 
     def take(self, which: Indices) -> _Limits:
-        """Those of some linkages."""
         return _Limits(self.shift[which], self.weight[which], self.left[which])
 
     def adapt(self, which: Indices, excess: Floats) -> Floats:

@@ -35,7 +35,6 @@ class LineKind:
 
 
 def _bar_tables(bar: FourBar, point: complex) -> Tables:
-    """The mechanism of a four-bar with its coupler point."""
     return bar.machine("line", points={"P": point}).mechanism.model_dump(exclude_unset=True)
 
 

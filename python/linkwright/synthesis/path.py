@@ -177,7 +177,6 @@ class _Search:
         self._total = sum(steps for _, steps, _ in self._stages)
 
     def run(self) -> None:
-        """Refine all, then the leading ones, from stage to stage."""
         for weight, steps, share in self._stages:
             merit = self.errors() ** 2 + self.model.violation(self.rows) ** 2
             leading = np.sort(np.argsort(merit, kind="stable")[: max(1, round(share * len(merit)))])
@@ -236,7 +235,6 @@ def _transmission(model: PathModel, rows: Linkages) -> Floats:
 
 
 def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
-    """The machine of a row, analysed again."""
     task = model.task
     bar, place, angles = model.linkage(row)
     machine = bar.machine(task.name or "Path generator", points={"P": place}, source=SOURCE)
@@ -272,7 +270,6 @@ def _result(model: PathModel, row: Linkages, effort: _Effort) -> PathGenerator:
 
 
 def _none(task: PathTask, least: float, evaluated: int) -> str:
-    """That nothing keeps the constraints, and by how much the best fails."""
     return (
         f"none of {evaluated} linkages satisfies all constraints ({task.linkage}, transmission angle "
         f"at least {np.degrees(task.transmission_angle_min):.4g}°, lengths within {task.length_ratio_max:g} "

@@ -192,7 +192,6 @@ class PathModel:
         return x, y
 
     def _given_pivots(self) -> tuple[complex, complex] | None:
-        """s and t of given pivots, over the size of the path."""
         crank, rocker = self.task.crank_pivot, self.task.rocker_pivot
         if crank is None or rocker is None:
             return None

@@ -87,7 +87,6 @@ def sequence(count: int, dimensions: int, seed: int) -> Floats:
 
 
 def _trials(model: PathModel, shares: Floats, number: Indices) -> Linkages:
-    """Linkages of the shares, each in its best pose."""
     side = np.where(number % 2 == 0, 1.0, -1.0)
     is_double = _doubles(model.task.linkage, number)
     crank = _CRANK + (1 - 2 * _CRANK) * shares[:, 0]
@@ -110,7 +109,6 @@ def _trials(model: PathModel, shares: Floats, number: Indices) -> Linkages:
 
 
 def _doubles(linkage: str, number: Indices) -> Bools:
-    """Which trials are double cranks."""
     if linkage == "any":
         return np.asarray(number // 4 % 2 == 1)
     return np.full(len(number), linkage == "double-crank")
@@ -157,7 +155,6 @@ def _about(model: PathModel, A: Complexes, e: Complexes) -> tuple[Complexes, Com
 
 
 def _best(model: PathModel, trials: Linkages) -> Linkages:
-    """The best of each group of trials."""
     off = (np.abs(model.places(trials) - model.target) ** 2).mean(axis=1)
     broken = np.maximum(model.excess(trials.p, trials.is_double), 0.0)
     judged = (off + _BROKEN * (broken**2).sum(axis=1)).reshape(-1, TRIALS)
@@ -239,7 +236,6 @@ def _cost(model: PathModel, rows: Linkages, weights: Floats, shift: Floats) -> F
 
 
 def _stepped(model: PathModel, rows: Linkages, weights: Floats, shift: Floats, damping: Floats) -> Linkages:
-    """The linkages after a damped step."""
     places, J, slope = model.linearised(rows)
     off = places - model.target
     broken, by_p = model.penalties(rows.p, rows.is_double, shift)

@@ -143,7 +143,6 @@ def _pin_about(task: PoseTask, pivot: FixedPivot, key: str) -> MovingPoint:
 
 
 def _circumcentre(places: Complexes) -> complex:
-    """Centre of the circle through three places."""
     u, v = places[1] - places[0], places[2] - places[0]
     return complex(places[0] + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2 * cross(u, v)))
 
@@ -178,7 +177,6 @@ def centre(places: Complexes, point: MovingPoint, key: str) -> complex:
 
 
 def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
-    """The four-bar for the poses."""
     assert task.rocker_point is not None
     joints = body_places(task, task.rocker_point)
     rocker_pivot = centre(joints, task.rocker_point, "rocker_point")
@@ -215,7 +213,6 @@ def _rocker_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> Pose
 
 
 def _slider_guide(task: PoseTask, pins: Complexes, crank_pivot: complex) -> PoseGuide:
-    """The slider-crank for the poses."""
     guide = guide_slider(task, pins, crank_pivot)
     angles = _travelled(task, guide.gap, pins, crank_pivot, "a slider-crank")
     origin = (body_origin(task) - pins[0]) / np.exp(1j * np.angle(guide.slider - pins[0]))

@@ -176,14 +176,12 @@ def _hull(x: Floats, y: Floats) -> Complexes:
 
 
 def _kind(kind: str) -> LineKind:
-    """The kind of a name."""
     if kind not in KINDS:
         raise InputError(f'kind "{kind}": no such linkage; {suggestion(kind, KINDS)}')
     return KINDS[kind]
 
 
 def _checked(kind: LineKind, proportions: Mapping[str, float]) -> dict[str, float]:
-    """Proportions that the kind has, each positive."""
     for name, value in proportions.items():
         if name not in kind.proportions:
             raise InputError(f"{kind.title} has no length {name}; {suggestion(name, kind.proportions)}")
@@ -192,7 +190,6 @@ def _checked(kind: LineKind, proportions: Mapping[str, float]) -> dict[str, floa
 
 
 def _impossible(kind: LineKind, chosen: Mapping[str, float]) -> str:
-    """That the proportions make no linkage."""
     given = ", ".join(f"{name} {value:g}" for name, value in chosen.items())
     usual = ", ".join(f"{name} {value:g}" for name, value in kind.proportions.items())
     return f"{kind.title} does not close with {given}; its usual proportions are {usual}"
@@ -225,7 +222,6 @@ def _extent(x: Floats, y: Floats) -> tuple[float, float, float]:
 
 
 def _scaled(tables: Tables, factor: float) -> Tables:
-    """A mechanism with all lengths multiplied."""
     return {
         key: _scaled(value, factor)
         if isinstance(value, dict)
@@ -242,7 +238,6 @@ def _measured(
     tables: Tables,
     factor: float,
 ) -> StraightLine:
-    """The linkage with what its line is like."""
     from linkwright.linkages.closure import closure
 
     x, y, speed, angles = _line(machine, kind, chosen, span)
@@ -270,7 +265,6 @@ def _measured(
 
 
 def _longest(tables: Tables) -> float:
-    """The longest link, taken to the points that it carries."""
     lengths = [0.0]
     for value in tables.values():
         for element in value.values():

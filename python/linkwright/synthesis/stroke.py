@@ -110,7 +110,6 @@ def slider_crank(stroke: float, time_ratio: float = 1.0, *, rod: float | None = 
 
 
 def _verified(made: StrokeCrank) -> StrokeCrank:
-    """The slider-crank, if its machine has the dead centres that were asked for."""
     element = element_of(made.machine, "B")
     require_met("a stroke", made.stroke, element.stroke, "m")
     require_met("a time ratio", *slow_over_quick(made.time_ratio, element.time_ratio))
@@ -129,7 +128,6 @@ def _slide_transmission(t: Floats, delta: float) -> Floats:
 
 
 def _stroke_crank(stroke: float, time_ratio: float, delta: float, t: float, mu: float) -> StrokeCrank:
-    """The slider-crank in its wanted size, with its guide along x."""
     crank, rod, outer, inner = (0.5 * stroke * joint[0] for joint in joints(np.array([t]), delta))
     along = (outer - inner) / abs(outer - inner)
     outer, inner = outer / along, inner / along
@@ -152,7 +150,6 @@ def _stroke_crank(stroke: float, time_ratio: float, delta: float, t: float, mu: 
 
 
 def _no_slider_crank(stroke: float, time_ratio: float, rod: float | None, delta: float) -> str:
-    """What rods, or time ratios, are possible."""
     least, most = stroke / 2, stroke / 2 / np.sin(abs(delta) / 2) if delta else np.inf
     what = f"no slider-crank has a stroke of {stroke:.4g} m, a time ratio of {time_ratio:.4g}"
     limits = f"lie between {least:.4g} m and {most:.4g} m" if delta else f"be longer than {least:.4g} m"

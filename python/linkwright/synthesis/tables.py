@@ -36,7 +36,6 @@ def linkage_table(result: Result, entries: dict[str, Any]) -> Table:
 
 
 def _words(value: Any) -> str:
-    """What is no quantity: a text, a list, a switch, a count."""
     if isinstance(value, tuple | list):
         return ", ".join(map(str, value))
     if isinstance(value, bool):

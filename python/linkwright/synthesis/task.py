@@ -39,13 +39,11 @@ class Task(WholeDescription):
 
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """The task, or entries that do not go together."""
         task = handler(data)
         raise_faults(cls.__name__, task._faults())
         return task
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        """Entries that do not go together."""
         yield from ()
 
 
@@ -121,7 +119,6 @@ class PoseTask(Task):
             yield from self._turn_faults(key, needed=n == 2 and key in turning)
 
     def _holder_faults(self, name: str, poses: int) -> Iterator[InitErrorDetails]:
-        """A link of which neither end is given, or both, or a pivot that two poses leave undetermined."""
         point, pivot = f"{name}_point", f"{name}_pivot"
         given = [key for key in (point, pivot) if getattr(self, key) is not None]
         if not given:
@@ -134,7 +131,6 @@ class PoseTask(Task):
             yield fault(pivot, found="a table", expected="three poses: two leave the pin free", remedy=remedy)
 
     def _turn_faults(self, key: str, *, needed: bool) -> Iterator[InitErrorDetails]:
-        """An angle of rotation that is missing, or has no meaning."""
         point: MovingPoint | None = getattr(self, key)
         if point is None:
             return
@@ -205,7 +201,6 @@ class FunctionTask(Task):
             yield from same_length(("y",), len(y), len(self.x), "x")
 
     def _count_faults(self) -> Iterator[InitErrorDetails]:
-        """Fewer points than unknowns."""
         n = self.points if self.x is None else len(self.x)
         if n < self.unknowns:
             key = "points" if self.x is None else "x"
@@ -280,7 +275,6 @@ class PathTask(PathPoints, Task):
                 )
 
     def _pivot_faults(self) -> Iterator[InitErrorDetails]:
-        """Fixed pivots of which one is missing, or that stand beside a region, or coincide."""
         crank, rocker = self.crank_pivot, self.rocker_pivot
         if crank is None and rocker is None:
             return

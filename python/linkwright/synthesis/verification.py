@@ -147,7 +147,6 @@ def travel(
 
 
 def _unrolled(angles: Floats, sign: float) -> Floats:
-    """The angles counted on in one direction, each step less than a revolution."""
     steps = np.mod(sign * np.diff(angles), 2 * np.pi)
     return np.asarray(angles[0] + sign * np.concatenate([[0.0], np.cumsum(steps)]))
 
