@@ -149,19 +149,16 @@ _FitJudgement = tuple[str, str, str, str]
 
 
 def _taken(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
-    """A value that the computation takes as printed, or that is not judged."""
     return "", "", "taken from the paper", "none"
 
 
 def _number(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
-    """A printed number."""
     cell, unit = cell_of(claim, values), claim["unit"]
     shown = "–" if cell.computed is None else f"{cell.computed:.{claim.get('digits', 6)}g} {unit}"
     return f"{cell.published:.10g} {unit}", shown, cell.verdict, cell.kind
 
 
 def _agreement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
-    """A printed formula against another way of computing the same."""
     difference = named(values, claim["difference"])
     kind = tolerance(claim["tolerance"]).kind(difference)
     because = filled(claim["because"], values)
@@ -170,7 +167,6 @@ def _agreement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudge
 
 
 def _deviation(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
-    """A printed formula over the exact value."""
     allowed = tolerance(claim["tolerance"])
     words, kind = holding(named(values, claim["deviation"]), allowed)
     because = filled(claim.get("because", ""), values)
@@ -187,7 +183,6 @@ def holding(deviation: float, allowed: Tolerance) -> tuple[str, str]:
 
 
 def _statement(claim: Mapping[str, Any], values: Mapping[str, Any]) -> _FitJudgement:
-    """A printed statement; its verdict has its own words."""
     holds, in_part = (key in claim and named(values, claim[key]) for key in ("holds", "in_part"))
     kind = "reproduced" if holds else "near" if in_part else "far"
     return "", "", "reproduced" if holds else "not reproduced", kind

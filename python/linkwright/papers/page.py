@@ -78,7 +78,6 @@ def shown(value: Any, spec: str) -> str:
 
 
 def _several(values: list[Any], spec: str, join: str) -> str:
-    """A range or an enumeration; its unit stands behind the last."""
     if not values:
         return "none"
     form, _, unit = spec.partition(" ")
@@ -140,7 +139,6 @@ def page(paper: Paper, figures: Mapping[str, Figure]) -> str:
 
 
 def _drawing(figure: Figure, name: str) -> str:
-    """A figure as markup, with names inside that no other of the page has."""
     from markupsafe import Markup
 
     return Markup(with_own_names(svg(figure), name))

@@ -110,7 +110,6 @@ class Paper:
 
 
 def _tables(data: Mapping[str, Any], values: Mapping[str, Any]) -> Iterator[Table]:
-    """One table, or one for each item that it is made of."""
     for item in named(values, data["of"]) if "of" in data else (values,):
         columns, notes = data["columns"], named(item, data["notes"]) if "notes" in data else []
         yield Table(

@@ -168,7 +168,6 @@ def length_verdict(
 def _demand(
     claim: Claim, way: str, edge_angle: float, diameter: float, offset: float, stroke: Stroke | None
 ) -> Demand:
-    """One way."""
     band = diameter + 2 * offset
     share = 2 * offset / band if band > 0 else 0.0
     least, greatest = lengths_over(claim, way, edge_angle, diameter, offset, stroke).tolist()
@@ -226,7 +225,6 @@ def _length(
     offset: ArrayLike,
     stroke: Stroke | None,
 ) -> Floats:
-    """Length at a ratio v_h/v, which is all that it depends on."""
     d, delta = np.asarray(diameter, dtype=float), np.asarray(offset, dtype=float)
     if way == "published":
         return np.asarray(length_published(d + 2 * delta, edge_angle, ratio))

@@ -166,7 +166,6 @@ class Drive:
         }
 
     def _because(self, way: str, quantity: str) -> str:
-        """Why a value differs, if it does: the first reason of the file of data that suits."""
         row = self.published
         here = {"way": way, "quantity": quantity, "carts": row.carts}
         known = {"phase": row.phase, "ratio": self.ratio, "motor_printed": row.motor_printed}
@@ -232,7 +231,6 @@ class Drive:
 
 
 def _measures(motion: SteadyState | StepMotion) -> dict[str, float]:
-    """The columns of the table that a steady motion has."""
     names = [name for name in printed_values(1)["quantities"] if name not in ("turns", "speed_mean")]
     return {name: getattr(motion, name) for name in names} | {"speed_mean": motion.speed_mean_extremes}
 

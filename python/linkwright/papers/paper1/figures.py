@@ -112,7 +112,6 @@ def _dense(drive: Drive) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _steady(speed: Axes, acceleration: Axes, drive: Drive) -> None:
-    """One revolution of steady motion in three ways, with the published extremes."""
     row, steady = drive.published.values, drive.steady
     n = round(2 * np.pi / drive.scheme.step)
     degrees = np.degrees(steady.crank_angle)
@@ -143,7 +142,6 @@ def _steady(speed: Axes, acceleration: Axes, drive: Drive) -> None:
 
 @styled
 def _evenness(paper: Paper1) -> Figure:
-    """The coefficients k_p of the four drives side by side, in all ways."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.1, 3.0), layout="constrained")

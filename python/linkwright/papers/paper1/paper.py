@@ -73,7 +73,6 @@ class Paper1(Paper):
         }
 
     def _of_two(self, two: Drive) -> dict[str, Any]:
-        """Two carts: their load, and the step of the scheme."""
         row, machine, mean = two.published.values, two.machine, self.published["claim"][0]["value"]
         assert machine.drive is not None
         assert isinstance(machine.drive.motor, InductionMotor)
@@ -133,7 +132,6 @@ class Paper1(Paper):
         }
 
     def _of_rankings(self, four: Drive) -> dict[str, Any]:
-        """Which drive is the most even one, and what motors do to that."""
         published, *computed = self.rankings.values()
         carts = four.published.carts
         by_power = {drive.published.carts: drive.steady.motion_coefficient for drive in self.drives}

@@ -108,7 +108,6 @@ def alternatives(formulas: Formulas) -> tuple[Alternative, ...]:
 
 
 def _sections(law: dict[str, Any], formulas: Formulas) -> list[dict[str, Any]]:
-    """Sections of both strokes."""
     strokes = (formulas.stroke, -formulas.stroke)
     if "law" in law:
         return [{"angle": np.pi, "lift": lift, "law": law["law"]} for lift in strokes]
@@ -162,7 +161,6 @@ def resistance(machine: Machine) -> float:
 
 
 def _of_slide(slide: SlideMotion, omega: float) -> dict[str, Any]:
-    """Peaks of a crank drive, at its angles; it has nothing of a cam."""
     assert slide.d3 is not None
     peaks = [float(np.abs(row).max()) * omega**n for n, row in enumerate((slide.d1, slide.d2, slide.d3), 1)]
     names = ("velocity_max", "acceleration_max", "jerk_max")

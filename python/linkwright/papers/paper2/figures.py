@@ -91,7 +91,6 @@ def _motion(paper: Paper2) -> Figure:
 
 
 def _steady_sections(axes: Axes, paper: Paper2) -> None:
-    """A light ground where the speed is constant."""
     formulas = paper.formulas
     begin = formulas.times["start"]
     end = begin + formulas.times["steady"]
@@ -153,7 +152,6 @@ def _cam(paper: Paper2) -> Figure:
 
 @styled
 def _shape(paper: Paper2) -> Figure:
-    """Pressure angle, and curvature with the roller that just fits."""
     profile = paper.profile
     figure, (steep, bent) = panels(2, height=4.6)
     degrees = np.degrees(profile.angle)
@@ -183,7 +181,6 @@ def _shape(paper: Paper2) -> Figure:
 
 @styled
 def _start(paper: Paper2) -> Figure:
-    """Velocity, acceleration and jerk of the start section and of the minima."""
     figure, every = panels(1, height=2.9, columns=3, shared=False)
     u = np.linspace(0, 1, 201)
     for start, colour, name in (
@@ -206,7 +203,6 @@ def _start(paper: Paper2) -> Figure:
 
 @styled
 def _alternatives(paper: Paper2) -> Figure:
-    """Velocity, acceleration and torque of some drives over one stroke."""
     figure, every = panels(3, height=6.6)
     for alternative in paper.alternatives:
         if alternative.short not in _SHOWN:

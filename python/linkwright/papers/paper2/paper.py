@@ -44,7 +44,6 @@ class Paper2(Paper):
         return {"checks": checked, **self._of_formulas(checked), **self._of_starts(), **self._of_drives()}
 
     def _of_formulas(self, checked: dict[str, Any]) -> dict[str, Any]:
-        """Numbers of the formulas and of the profile, and whether all formulas agree."""
         formulas, profile, printed = self.formulas, self.profile, self.starts["printed"]
         differences = [*checked["motion"], *checked["chain"].values()]
         differences += [checked[name] for name in ("mirror", "joint", "radius", "radius_joint", "diameter")]
@@ -65,7 +64,6 @@ class Paper2(Paper):
         }
 
     def _of_starts(self) -> dict[str, Any]:
-        """The start section beside the minima."""
         printed, fixed, free, turn = self.starts.values()
         share = self.formulas.times["start"] / self.formulas.time
         same = tolerance("rounding").reproduced
@@ -82,7 +80,6 @@ class Paper2(Paper):
         }
 
     def _of_drives(self) -> dict[str, Any]:
-        """Drives side by side, and the cart in steady motion."""
         laws = {alternative.short: alternative for alternative in self.alternatives}
         cam, crank = laws["as printed"], laws["crank"]
         free, smooth = laws["free at the reversal"], laws["continuous jerk"]
@@ -122,7 +119,6 @@ class Paper2(Paper):
 
 
 def _fraction(value: float) -> str:
-    """A ratio of small numbers as it is written."""
     return str(Fraction(value).limit_denominator(100))
 
 

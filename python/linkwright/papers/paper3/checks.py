@@ -56,7 +56,6 @@ def weak_checks(trial: TrialEngine, cylinder: int, factor: float, discs: tuple[s
 
 
 def _measured(vibration: ForcedVibration, disc: str, below: float) -> MeasuredSpeed:
-    """Speed of a disc by its orders below one."""
     orders = vibration.orders[vibration.orders < below]
     theta = vibration.amplitudes[: len(orders), vibration.discs.index(disc), 0]
     return MeasuredSpeed(disc, orders, 1j * orders * vibration.speeds[0] * theta, None)

@@ -212,7 +212,6 @@ def swing_checks(rod: Rod, printed: dict[str, Any], bore_radius: float) -> dict[
 
 
 def _swings(mass: float, edge: float, inertia: float) -> float:
-    """Single swings a minute of a body that hangs a distance below an edge."""
     return 60 / math.pi * math.sqrt(mass * _GRAVITY * edge / (inertia + mass * edge**2))
 
 
@@ -269,13 +268,11 @@ def _speed_difference(crank_radius: float, length: float) -> float:
 
 
 def _without_piston(trial: TrialEngine) -> float:
-    """Exact mean inertia of a throw whose articulated rod moves no piston."""
     master, articulated = trial.gears
     return mean_inertia(trial.engine.radius, (master, replace(articulated, piston_mass=0.0)), trial.own).mean
 
 
 def _inertia_shifts(trial: TrialEngine, printed: dict[str, Any]) -> Iterator[Shift]:
-    """The disc of a throw by the formulas."""
     e, own = trial.engine, trial.own
     R, rod, light, m_3 = e.radius, e.rod, trial.articulated.mass, e.piston_mass
     literal = published_throw_inertia(R, trial.gears, own)

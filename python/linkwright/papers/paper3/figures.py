@@ -54,14 +54,12 @@ def figures(paper: Paper3) -> dict[str, Figure]:
 
 
 def _shaft_axis(axes: Axes, discs: tuple[str, ...]) -> None:
-    """Let x be the place along the shaft."""
     axes.set_xticks(range(len(discs)), [name.replace("_", " ") for name in discs])
     axes.set_xlim(-0.4, len(discs) - 0.5)
 
 
 @styled
 def _modes(paper: Paper3) -> Figure:
-    """Shapes of the modes that are looked at, along the shaft."""
     free, discs = paper.trial.free, paper.uneven.discs
     places = [free.discs.index(name) for name in discs]
     figure, (axes,) = panels(1, height=2.9)
@@ -77,7 +75,6 @@ def _modes(paper: Paper3) -> Figure:
 
 @styled
 def _disc(paper: Paper3) -> Figure:
-    """Inertia of a throw over its revolution, and the discs that stand for it."""
     trial = paper.trial
     phi = np.linspace(0, 2 * np.pi, 721)
     figure, (axes,) = panels(1, height=2.9)
@@ -95,7 +92,6 @@ def _disc(paper: Paper3) -> Figure:
 
 @styled
 def _formulas(paper: Paper3) -> Figure:
-    """Speeds at which the firing meets the first mode of the crankshaft, formula by formula."""
     trial, shifts = paper.trial, paper.shifts
     names = ["exact, (17) with k by Castigliano", *(shift.name for shift in shifts)]
     exact = trial.critical(float(trial.frequencies[1]))
@@ -116,7 +112,6 @@ def _formulas(paper: Paper3) -> Figure:
 
 @styled
 def _amplitude(paper: Paper3) -> Figure:
-    """Vibration along the shaft at the speed of service."""
     uneven = paper.uneven
     figure, (axes,) = panels(1, height=2.9)
     axes.plot(np.degrees(uneven.swing), "o-", color=INK, markersize=4, label="all orders in phase")
@@ -150,19 +145,16 @@ def _unevenness(paper: Paper3) -> Figure:
 
 
 def _weakness(paper: Paper3) -> str:
-    """A weak cylinder in words."""
     return f"one cylinder at {100 * paper.published['chosen']['weak']:.0f} %"
 
 
 def _cylinder_axis(axes: Axes, numbers: Sequence[str]) -> None:
-    """Let x be cylinders."""
     axes.set_xticks(range(len(numbers)), numbers)
     axes.set_xlabel("cylinder")
 
 
 @styled
 def _cylinders(paper: Paper3) -> Figure:
-    """N of each cylinder over the mean of all, sound engine."""
     uneven = paper.uneven
     along = uneven.sound
     figure, (axes,) = panels(1, height=2.9)

@@ -99,7 +99,6 @@ class Paper3(Paper):
         }
 
     def _exact_train(self) -> dict[str, Any]:
-        """The exact train as a row of the table."""
         trial = self.trial
         return {
             "name": "exact mean of J(φ), (17) with k by Castigliano",
@@ -125,7 +124,6 @@ class Paper3(Paper):
         }
 
     def _of_weakness(self) -> dict[str, Any]:
-        """How well the weak cylinder is found."""
         weak, factor = self.weak, self.published["chosen"]["weak"]
         at = weak.cylinder - 1
         within = float(abs(weak.elastic[:2, at] - factor).max())
@@ -176,13 +174,11 @@ class Paper3(Paper):
 
 
 def _shift_dict(shift: Shift) -> dict[str, Any]:
-    """One formula, ready for JSON."""
     arrays = {"frequencies": shift.frequencies.tolist(), "changes": shift.changes.tolist()}
     return vars(shift) | arrays
 
 
 def _train(shift: Shift) -> dict[str, Any]:
-    """One formula as a row of the table."""
     pairs = zip(shift.frequencies.tolist(), shift.changes.tolist(), strict=True)
     texts = [f"{shown(frequency, '.1f')} ({share(change)})" for frequency, change in pairs]
     throw = f"{shift.what} {share(shift.deviation)}"

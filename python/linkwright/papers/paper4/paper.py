@@ -74,7 +74,6 @@ def _extremes(given: dict[str, float], k_1: float, top: float) -> tuple[float, f
 
 
 def _newton(gaps: Callable[[Floats], Floats], x: Floats) -> Floats:
-    """Root of smooth equations near the start, the Jacobian by central differences."""
     step = 1e-6
     for _ in range(_STEPS):
         columns = [(gaps(x + at) - gaps(x - at)) / (2 * step) for at in step * np.eye(len(x))]
@@ -86,7 +85,6 @@ def _newton(gaps: Callable[[Floats], Floats], x: Floats) -> Floats:
 
 
 def _meets(first: Floats, second: Floats, a: float, b: float) -> tuple[Floats, Floats]:
-    """Where circles of radii a about the first and b about the second point meet."""
     between = second - first
     apart = float(np.hypot(*between))
     along = (a**2 - b**2 + apart**2) / (2 * apart)
@@ -97,7 +95,6 @@ def _meets(first: Floats, second: Floats, a: float, b: float) -> tuple[Floats, F
 
 
 def _place(unit: Unit) -> Place:
-    """What a place of the crankshaft does to the unit."""
     K = float(np.hypot(unit.x, unit.y))
     cosines = [
         (unit.L**2 + unit.k**2 - reach**2) / (2 * unit.L * unit.k) for reach in (K - unit.r, K + unit.r)
@@ -227,7 +224,6 @@ def paper4() -> Paper4:
 
 
 def _printed(data: dict[str, Any], unit: Unit) -> LeverFormula:
-    """Link and lever of the intermittent regime."""
     return LeverFormula(unit, data["intermittent"]["l_4"], data["intermittent"]["l_5"])
 
 

@@ -77,7 +77,6 @@ def _figure3(paper: Paper5) -> Figure:
 
 
 def _contours(axes: Axes, surface: Surface, lengths: Floats, colour: str, paper: Paper5) -> None:
-    """Lines of equal length in mm; what lies in the range of the result is shaded."""
     D, v_h, L = _MILLI * surface.root_diameters, surface.knife_speeds, _MILLI * lengths
     low, high = (_MILLI * length for length in paper.verdict.claim.lengths)
     if L.max() > low:
@@ -95,7 +94,6 @@ def _contours(axes: Axes, surface: Surface, lengths: Floats, colour: str, paper:
 
 @styled
 def _step(paper: Paper5) -> Figure:
-    """The factor, and all lengths over the angle at the maximum v_h/v."""
     figure, (left, right) = panels(1, height=3.0, columns=2)
     degrees = np.linspace(0.0, 60.0, 241)
     alpha = np.radians(degrees)
@@ -174,14 +172,12 @@ def _heads(paper: Paper5) -> Figure:
 
 
 def _line(colour: str, words: str, **how: Any) -> Line2D:
-    """A line for a legend."""
     from matplotlib.lines import Line2D
 
     return Line2D([], [], color=colour, label=words, **how)
 
 
 def _patch(colour: str, words: str) -> Patch:
-    """A shade for a legend."""
     from matplotlib.patches import Patch
 
     return Patch(color=colour, alpha=0.35, linewidth=0, label=words)

@@ -206,7 +206,6 @@ class Paper5(Paper):
         }
 
     def _of_result(self) -> dict[str, Any]:
-        """Bands and offsets for which the result holds, in every way."""
         judged = self.verdict
         angles = [angle.edge_angle for angle in judged.angles]
         bands = [{demand.way: _band(demand) for demand in verdict.demands} for verdict in judged.angles]
@@ -259,7 +258,6 @@ def _band(demand: Demand) -> tuple[float, ...]:
 
 
 def _demand(demand: Demand) -> dict[str, Any]:
-    """One way of computing the length, for the roots chosen."""
     return {
         "length": demand.length_greatest,
         "band": _band(demand),
@@ -269,7 +267,6 @@ def _demand(demand: Demand) -> dict[str, Any]:
 
 
 def _angles(ends: tuple[float, float] | None) -> str:
-    """A range of angles in words."""
     return "at no angle" if ends is None else "for α = " + "…".join(shown(end, ".1f °") for end in ends)
 
 
