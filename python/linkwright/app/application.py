@@ -162,13 +162,11 @@ def application() -> Commands:
 
 
 def _group(name: str, group: Group) -> Commands:
-    """A group of commands, with a command for what is none of them."""
     default = partial(_loaded, None, Place("", group.default)) if group.default else None
     return Commands(name, group.help, _entries(group.commands), default)
 
 
 def _entries(places: Mapping[str, Place]) -> dict[str, Entry]:
-    """Commands at places, each imported when it is asked for."""
     return {name: Entry(place.about, partial(_loaded, name, place)) for name, place in places.items()}
 
 
@@ -183,7 +181,6 @@ def _loaded(word: str | None, place: Place) -> click.Command:
 
 
 def _version(context: click.Context, option: click.Parameter, wanted: bool) -> None:
-    """Print the version and exit."""
     if wanted:
         from linkwright import __version__
 

@@ -100,7 +100,6 @@ def curves_of(study: Study) -> dict[str, Curve]:
 
 
 def _of(analysis: str, result: Result) -> Iterator[Curve]:
-    """The curves of one result that run over another one."""
     curves = dict(result.curves())
     units = {name: result.unit_of(name) for name in curves}
     for head, curve in result.columns().items():
@@ -160,7 +159,6 @@ def chosen(study: Study, names: Sequence[str], along: str | None = None) -> list
 
 
 def _name(asked: str, known: dict[str, Curve]) -> str:
-    """The full name of a curve."""
     if asked in known:
         return asked
     parts = [_OTHER_WORDS.get(part, part) for part in asked.split(".")]
@@ -182,7 +180,6 @@ def _name(asked: str, known: dict[str, Curve]) -> str:
 
 
 def _fits(parts: Sequence[str], name: Sequence[str]) -> bool:
-    """Whether a name has these parts in their order, the last one last."""
     rest = iter(name)
     return parts[-1] == name[-1] and all(part in rest for part in parts)
 
@@ -297,13 +294,11 @@ def _exact(study: Study, curve: Curve) -> tuple[float, float, float, float] | No
 
 
 def _declared(result: Result | None, name: str) -> tuple[float, float, float, float] | None:
-    """The attributes of a result that tell the extremes of one of its curves."""
     names = (f"{name}_min", f"{name}_min_angle", f"{name}_max", f"{name}_max_angle")
     return _four([getattr(result, name, None) for name in names])
 
 
 def _four(numbers: Sequence[float | None]) -> tuple[float, float, float, float] | None:
-    """Four numbers, if there are as many."""
     known = [float(number) for number in numbers if number is not None]
     return (known[0], known[1], known[2], known[3]) if len(known) == 4 else None
 
@@ -342,7 +337,6 @@ def curves_figure(curves: Sequence[Curve], zero: str = "") -> Figure:
 
 
 def _under(axes: Axes, curves: Sequence[Curve], zero: str) -> None:
-    """What is along x."""
     first = curves[0]
     unit, factor = _shown(first.over_unit)
     word = first.over_words

@@ -58,7 +58,6 @@ def quantities(of: Any) -> tuple[DeclaredQuantity, ...]:
 
 
 def _parts(study: Any) -> Mapping[str, Result]:
-    """The results of a study by their names."""
     from linkwright.app.study import Study
 
     if isinstance(study, Study):

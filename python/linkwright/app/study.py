@@ -60,7 +60,6 @@ class Study(Results):
         return super().__getattr__(_now(name))
 
     def _without(self, name: str) -> None:
-        """Nothing, of an analysis; other names are wrong."""
         if name not in _NAMES:
             raise AttributeError(f"a study has no {name}; it has {', '.join(self)}")
 
@@ -120,7 +119,6 @@ class Study(Results):
         return plotted_figure(self, *names, over=over)
 
     def _repr_html_(self) -> str:
-        """Failed checks, warnings and all results, as a notebook shows them."""
         from linkwright.kernel.page.notebook import study_html
 
         return study_html(self, self)
@@ -152,7 +150,6 @@ class Study(Results):
 
 
 def _now(name: str) -> str:
-    """The name of a result today; a former one is warned of."""
     if name not in _FORMERLY:
         return name
     warn(f"study.{name} is now study.{_FORMERLY[name]}", DeprecationWarning, stacklevel=3)

@@ -50,13 +50,11 @@ def summary(machine: Machine) -> str:
 
 
 def _parts(machine: Machine) -> Table:
-    """The same as a table."""
     rows: list[Row] = [(word, "", text) for word, text in _rows(machine)]
     return Table("parts", "Parts of the machine", ("part", "", "what"), rows, is_whole=True)
 
 
 def _rows(machine: Machine) -> list[tuple[str, str]]:
-    """Words and texts of the parts that a machine has."""
     from linkwright.app.subjects import ANALYSES
 
     summaries = [each.summary for each in ANALYSES if each.summary is not None and each.applies(machine)]
@@ -64,7 +62,6 @@ def _rows(machine: Machine) -> list[tuple[str, str]]:
 
 
 def _checks(looked_at: Sequence[str]) -> Table:
-    """What was looked at of each part."""
     rows: list[Row] = []
     for text in looked_at:
         part, _, words = text.partition(": ")

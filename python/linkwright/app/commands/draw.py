@@ -68,7 +68,6 @@ def draw(
 
 
 def _scene(machine: Machine, at: float | None) -> tuple[Scene, float]:
-    """All that is drawn, and where in the motion the pose is."""
     import numpy as np
 
     from linkwright.app.report.scene import moving_scene
@@ -97,7 +96,6 @@ def _scene(machine: Machine, at: float | None) -> tuple[Scene, float]:
 
 
 def _data(scene: Scene, place: float, seconds: float, ending: str) -> str | bytes:
-    """The file."""
     from linkwright.app.curves import bytes_of
     from linkwright.app.report.moving import dxf, gif, mp4
     from linkwright.app.report.sketch import sketch_figure

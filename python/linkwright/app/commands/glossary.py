@@ -39,12 +39,10 @@ def glossary(words: Words = None, *, to: Annotated[Output, to_screen()]) -> None
 
 
 def _entry(term: Term) -> dict[str, object]:
-    """A term for programs."""
     return {name: value for name, value in term._asdict().items() if name not in ("key", "retired")}
 
 
 def _words(term: Term) -> str:
-    """A term as a paragraph."""
     unit = f" [{term.unit}]" if term.unit else ""
     keys = f" Key: {', '.join(term.names)}." if term.names else ""
     source = term.source.replace("*", "")

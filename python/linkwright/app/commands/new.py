@@ -52,7 +52,6 @@ def new(
 
 
 def _rows(known: dict[str, str]) -> list[str]:
-    """A line for each template."""
     words = known | {
         _UNIT: "Beam pumping unit of the catalogue: --designation, --hole; --list names the units"
     }
@@ -60,7 +59,6 @@ def _rows(known: dict[str, str]) -> list[str]:
 
 
 def _units() -> list[str]:
-    """A line for each unit of the catalogue: designation, and strokes of its holes."""
     from linkwright.pumping.model.unit_catalogue import pumping_units
 
     return [

@@ -57,7 +57,6 @@ def papers(number: Number = None, *, to: To) -> None:
 
 
 def _claims(paper: Paper) -> Table:
-    """A row for each printed value: what is computed, and how near that is."""
     rows: list[Row] = [(row.name, "", row.printed, row.computed, row.verdict) for row in paper.rows]
     return Table(
         "claims", "Printed and computed", ("claim", "", "printed", "computed", "verdict"), rows, True
@@ -65,7 +64,6 @@ def _claims(paper: Paper) -> Table:
 
 
 def _numbers(table: PaperTable) -> Table:
-    """A further table of a paper."""
     heads = (table.heads[0], "", *table.heads[1:])
     rows = [(row[0].text, "", *(cell.text for cell in row[1:])) for row in table.rows]
     return Table("numbers", table.title, heads, rows, True)

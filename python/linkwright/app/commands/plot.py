@@ -106,7 +106,6 @@ def plot(
 
 
 def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
-    """The names of all curves."""
     from linkwright.kernel.page.table import Table
 
     rows: list[Row] = [(curve.name, curve.unit or "–", curve.over) for curve in curves.values()]
@@ -122,7 +121,6 @@ def _list_of(study: Study, curves: dict[str, Curve]) -> Answer:
 
 
 def _curve_data(study: Study, curves: Sequence[Curve], zero: float) -> dict[str, Any]:
-    """The curves in SI."""
     from linkwright.app.curves import extremes
 
     return {
@@ -171,7 +169,6 @@ def _write(
 
 
 def _csv(curves: Sequence[Curve]) -> str:
-    """What they run over, and each of them; curves on other points have what they run over beside them."""
     import numpy as np
 
     from linkwright.kernel.page.out_units import reader
@@ -207,14 +204,12 @@ def _known(values: Any, scale: float = 0.0) -> Any:
 
 
 def _long(values: Any, length: int) -> Any:
-    """With empty places at its end."""
     import numpy as np
 
     return np.concatenate([values, np.full(length - len(values), np.nan)])
 
 
 def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
-    """Minimum and maximum of each curve, and where."""
     from linkwright.app.curves import CRANK_ANGLE, extremes
     from linkwright.kernel.page.table import Table
 
@@ -235,7 +230,6 @@ def _extremes(study: Study, curves: Sequence[Curve], zero: float) -> Table:
 
 
 def _values(curves: Sequence[Curve]) -> Table:
-    """The curves at some points of the first of them."""
     import numpy as np
 
     from linkwright.kernel.page.table import Table
@@ -269,5 +263,4 @@ def _shown(value: float, si: str, scale: float = 0.0) -> str:
 
 
 def _usual(si: str) -> str:
-    """Angles are shown in degrees."""
     return "deg" if si == "rad" else ""

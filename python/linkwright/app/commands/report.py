@@ -89,7 +89,6 @@ def report(
 
 
 def _sections(text: str | None) -> list[str] | None:
-    """Names of sections."""
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.page.content import SECTIONS
 
@@ -103,7 +102,6 @@ def _sections(text: str | None) -> list[str] | None:
 
 
 def _content(words: list[str], command: str) -> Content:
-    """What the report of a command says."""
     from linkwright.app.application import application
     from linkwright.app.report.answered import answered
 
@@ -122,12 +120,10 @@ def _content(words: list[str], command: str) -> Content:
 
 
 def _varied(words: list[str], variant: Variant) -> list[str]:
-    """The command with the entries of a variant."""
     return [*words, *(word for entry in variant.entries for word in ("--set", entry))]
 
 
 def _write(content: Content, places: list[Path], *, force: bool) -> None:
-    """Write the page and the PDF, or both."""
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.files.output import write_file
     from linkwright.kernel.page.html import html

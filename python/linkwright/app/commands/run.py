@@ -67,7 +67,6 @@ def run(
 
 
 def _files(study: Study) -> dict[str, str]:
-    """The curves and the report, by name."""
     from linkwright.app.report.page import report_html
     from linkwright.kernel.command.console import progress
     from linkwright.kernel.files.output import file_names

@@ -32,7 +32,6 @@ def machine_schema() -> dict[str, Any]:
 
 
 def _tidy(node: Any) -> Any:
-    """Leave out what a TOML file cannot hold (null) and titles that repeat their key."""
     if isinstance(node, list):
         return [_tidy(entry) for entry in node if entry != {"type": "null"}]
     if not isinstance(node, dict):

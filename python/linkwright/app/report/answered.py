@@ -81,7 +81,6 @@ def _tables(content: Content) -> list[Table]:
 
 
 def _compared_tables(base: Sequence[Table], others: Mapping[str, Sequence[Table]]) -> Iterator[Table]:
-    """Rows of which the first number is another one in a variant."""
     for table in base:
         same = {
             name: {_key(row): row for own in tables if own.name == table.name for row in own.rows}

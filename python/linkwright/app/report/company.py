@@ -44,7 +44,6 @@ _LOADED = re.compile(r"@import|\\|url\(\s*['\"]?(?!\s*['\"]?#)", re.IGNORECASE)
 
 
 def _as_text(value: object) -> object:
-    """A date as TOML has it, as text."""
     return value.isoformat() if isinstance(value, datetime.date) else value
 
 
@@ -99,7 +98,6 @@ def read_heading(path: str | os.PathLike[str]) -> Heading:
 
 
 def _picture(name: str, document: Path) -> tuple[str, bytes]:
-    """Ending and bytes of a logo, which lies in the folder of its company file."""
     path = _named(name, document)
     ending = path.suffix.lower().removeprefix(".")
     if ending not in _KINDS:
@@ -115,7 +113,6 @@ def _picture(name: str, document: Path) -> tuple[str, bytes]:
 
 
 def _named(name: str, document: Path) -> Path:
-    """The file of a logo; the error for one elsewhere names the company file."""
     try:
         return named_file(name, document.parent, "logo", document="company file")
     except MachineFileError as error:
@@ -148,7 +145,6 @@ def _faults(element: ElementTree.Element) -> Iterator[str]:
 
 
 def _attribute_faults(key: str, value: str) -> Iterator[str]:
-    """What of an attribute a report does not take."""
     if key.startswith("on"):
         yield f"a script ({key})"
     elif (
@@ -158,5 +154,4 @@ def _attribute_faults(key: str, value: str) -> Iterator[str]:
 
 
 def _local(name: str) -> str:
-    """A name without its vocabulary."""
     return name.rpartition("}")[2]

@@ -82,7 +82,6 @@ def _encode(encoder: str, frames: Iterator[Bytes], place: Path) -> None:
 
 
 def _write(pipe: Any, data: bytes) -> None:
-    """Write all of it: a pipe without a buffer may take less at once."""
     left = memoryview(data)
     while left:
         left = left[pipe.write(left) :]
@@ -149,7 +148,6 @@ class _Drawing:
         self.size = 0.008 * _MM * max(right - left, top - bottom)
 
     def draw(self) -> None:
-        """Draw all of them; loads, blocks and other signs are left to the reader."""
         for part in self.pose.scene["parts"]:
             kind = getattr(self, f"_{part['kind']}", None)
             if kind is not None:
@@ -187,7 +185,6 @@ class _Drawing:
             self._line(self.pose.carried(part, outline), "CAMS", close=True)
 
     def _arc(self, part: Scene) -> None:
-        """The arc that a cable runs off, and what holds its ends."""
         low, high = part["span"]
         ends = [[part["radius"] * np.cos(angle), part["radius"] * np.sin(angle)] for angle in (low, high)]
         centre, start, end = _MM * self.pose.carried(part, [[0, 0], *ends])
@@ -204,7 +201,6 @@ class _Drawing:
         self._line(self.pose.carried(part, ends), "LINKS")
 
     def _rod(self, part: Scene) -> None:
-        """What holds a roller or a face."""
         if part["rod"]:
             self._line(self.pose.carried(part, [part["place"], part["rod"]]), "LINKS")
 
@@ -220,7 +216,6 @@ class _Drawing:
         self._joint(part["name"])
 
     def _joint(self, name: str) -> None:
-        """A point where it is exactly, a circle about it to be seen, and its name."""
         centre = (_MM * self.pose.at(name)).tolist()
         self.space.add_point(centre, dxfattribs={"layer": "JOINTS"})
         self.space.add_circle(centre, self.size, dxfattribs={"layer": "JOINTS"})

@@ -128,7 +128,6 @@ def machine_sections(machine: Machine, steady: SteadyState | None = None) -> dic
 
 
 def _sketch(machine: Machine, steady: SteadyState | None) -> Callable[[], Figure]:
-    """Draws the mechanism at one instant."""
 
     def drawn() -> Figure:
         from linkwright.app.report.sketch import sketch_figure

@@ -116,7 +116,6 @@ def _cam_headings(machine: Machine, angles: Floats) -> dict[str, Floats]:
 
 
 def _cam_reach(machine: Machine) -> Iterable[tuple[str, float]]:
-    """Centre and maximum radius of each cam."""
     if not machine.mechanism.cams:
         return ()
     from linkwright.cam.scene import reach
@@ -189,7 +188,6 @@ def _box(machine: Machine, drawn: dict[str, Floats], listed: list[Scene], motion
 
 
 def _times(machine: Machine, steady: SteadyState | None, angles: Floats) -> tuple[Floats, Floats]:
-    """Time and speed at each angle."""
     if steady is not None:
         # The last angle of a revolution is not the first of the next, which would be back at its time zero.
         cycle = 2 * np.pi * steady.turns

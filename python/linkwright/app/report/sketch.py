@@ -87,7 +87,6 @@ class _Painter:
         self.depth = 0
 
     def draw(self, part: Scene, depth: int) -> None:
-        """Draw one part."""
         self.depth = depth
         kind: Callable[[Scene], None] = getattr(self, f"_{part['kind']}")
         kind(part)
@@ -106,7 +105,6 @@ class _Painter:
         self.line(np.vstack([points, points[:1]]), edge, width)
 
     def hatch(self, middle: Floats, along: Floats, length: float) -> None:
-        """The short strokes of what does not move."""
         normal = np.array([along[1], -along[0]])
         for s in np.arange(-length / 2, length / 2 + 0.1 * self.unit, 8 * self.unit):
             foot = middle + s * along
@@ -129,7 +127,6 @@ class _Painter:
         self.words(foot + np.array([16, -18]) * u, part["name"])
 
     def words(self, place: Floats, text: str, **more: Any) -> None:
-        """A name beside a part."""
         from matplotlib.patheffects import withStroke
 
         x, y = place.tolist()
@@ -166,7 +163,6 @@ class _Painter:
         self.line(mark, _colour(part), 0.9, linestyle=(0, (5, 4)))
 
     def _rod(self, part: Scene) -> None:
-        """The rod that holds what touches a cam."""
         if part["rod"]:
             self.line(self.carried(part, [part["place"], part["rod"]]), _colour(part), 3.5)
 
