@@ -155,7 +155,6 @@ class StrokeLoad:
         return resisting * self._passed(resisting)
 
     def _passed(self, resisting: Floats) -> Floats:
-        """What becomes of a torque on its way through the structure."""
         assert self.unit.load is not None
         efficiency = self.unit.load.efficiency
         passed: Floats = np.where(resisting > 0, 1 / efficiency, efficiency)
@@ -248,7 +247,6 @@ class Strokes:
         return up, down
 
     def _corners(self, start: float, end: float) -> Floats:
-        """Crank angles of a stroke at which the table of the load has a corner."""
         if self.load.angle is not None:
             corners = start + (np.array(self.load.angle) - start) % (2 * np.pi)
             return corners[(corners > start) & (corners < end)]
@@ -287,7 +285,6 @@ def stroke_load(unit: PumpingUnit, load: PolishedRodLoad, motion: Floats, angles
 
 
 def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floats) -> Floats:
-    """Load of the polished rod at crank angles, from its table."""
     if load.angle is not None:
         assert load.force is not None
         by_angle: Floats = on_lines(angles, load.angle, load.force, period=2 * np.pi)
@@ -301,7 +298,6 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
 
 
 def _equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:
-    """The counterbalance with which both strokes have equal peaks among samples."""
 
     def excess(size: float) -> float:
         net = turn.net(size)

@@ -237,7 +237,6 @@ def rod_rotator(machine: Machine, *, n: int = 360) -> RodRotatorMotion:
 
 
 def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> Iterator[str]:
-    """What the lever does not do although the regime asks for it, by its motion."""
     of = f"a lever of {known.lever:.6g} m with a link of {known.link:.6g} m"
     if rotator.regime == "continuous":
         if not turns:
@@ -256,7 +255,6 @@ def _missed(rotator: RodRotator, known: Lengths, turns: float, swing: float) -> 
 
 
 def _change_points(known: Lengths, rod: PolishedRod, at_ends: Floats) -> tuple[float, ...]:
-    """Crank angles at the ends of the stroke where link and lever are in line."""
     in_line = (abs(known.link - known.lever), known.link + known.lever)
     is_change = [abs(end - other) <= 1e-12 * end for end, other in zip(at_ends, in_line, strict=True)]
     return tuple(sorted(angle for angle, yes in zip((rod.top, rod.bottom), is_change, strict=True) if yes))
@@ -305,7 +303,6 @@ def worm_torque(rotator: Any) -> Any:
 
 
 def _at_speed(rotator: RodRotator, takes: Floats, curves: LeverMotion, speed: float | None) -> dict[str, Any]:
-    """Speeds and accelerations at constant speed of the crank."""
     names = ("lever_speed", "lever_acceleration", "string_speed", "string_acceleration")
     if speed is None:
         return {"speed": None} | dict.fromkeys(names)
@@ -324,7 +321,6 @@ def _forces(
     takes: Callable[[LeverMotion], Floats],
     curves: LeverMotion,
 ) -> dict[str, Any]:
-    """Torque at the worm and force in the link."""
     if rotator.string_torque is None or rotator.worm_ratio is None:
         return {"worm_torque": None, "link_force": None, "link_force_max": None}
     torque = worm_torque(rotator)

@@ -31,7 +31,6 @@ def _polished_rod(unit: PumpingUnitMotion) -> Table:
 
 
 def _torque_factors(unit: PumpingUnitMotion) -> Table:
-    """As API tabulates them."""
     n = len(unit.torque_factors)
     rows: list[Row] = [
         (f"{360 * k / n:g}°", "", number(unit.rod_positions[k]), measured(unit.torque_factors[k], "m"))

@@ -191,7 +191,6 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
 
 
 def _acceleration(rod: PolishedRod, speed: float | None, sign: int) -> float | None:
-    """Maximum or minimum acceleration at a speed."""
     if speed is None:
         return None
     return turn_extreme(lambda at: rod.motion(at)[2], sign)[0] * speed**2
@@ -244,7 +243,6 @@ def end_angles(unit: PumpingUnit) -> tuple[Any, Any]:
 
 
 def _end_angle(unit: PumpingUnit, psi: Any, sign: int) -> Any:
-    """Crank angle with crank and pitman in line."""
     x, y = unit.saddle
     arm = unit.arm_angle(psi)
     ex, ey = x + unit.C * np.cos(arm), y + unit.C * np.sin(arm)

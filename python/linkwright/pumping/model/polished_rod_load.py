@@ -71,7 +71,6 @@ class PolishedRodLoad(Description):
 
     @model_validator(mode="after")
     def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
         raise_faults("PolishedRodLoad", self._faults())
         return self
 
@@ -92,7 +91,6 @@ class PolishedRodLoad(Description):
 
 
 def _range_faults(load: PolishedRodLoad) -> Iterator[InitErrorDetails]:
-    """Positions outside the stroke; angles of more than a revolution."""
     if load.position and not (load.position[0] >= 0 and load.position[-1] <= 1):
         yield fault("position", found="positions outside the stroke", expected="positions from 0 to 1")
     if load.angle and load.angle[-1] - load.angle[0] > 2 * np.pi * (1 + 1e-9):

@@ -90,7 +90,6 @@ class RodRotator(Description):
 
     @model_validator(mode="after")
     def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
         raise_faults("RodRotator", self._faults())
         return self
 

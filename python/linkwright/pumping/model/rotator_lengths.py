@@ -151,7 +151,6 @@ def _swing(stroke: LeverStroke, rotator: RodRotator, varies: bool) -> Any:
 
 
 def _no_room(m: float, M: float) -> AssemblyError:
-    """A pin that does not come nearer to the hanger while the beam rises."""
     return AssemblyError(
         f"no link and lever fit the rotator: its pin is {M:.4g} m from the hanger at the bottom of the "
         f"stroke, {m:.4g} m at the top, and must come nearer all the way up; choose a "
@@ -161,7 +160,6 @@ def _no_room(m: float, M: float) -> AssemblyError:
 
 
 def _unattainable(rotator: RodRotator, wanted: float, stroke: LeverStroke, spread: Any) -> AssemblyError:
-    """A swing that no lever has: between which two they are."""
     M, m = float(stroke.bottom[0, 0]), float(stroke.top[0, 0])
     low, high = _range(spread)
     turned = _range(LeverStroke(stroke.distance, -stroke.lean).first_look()[1])

@@ -95,7 +95,6 @@ class PumpingUnit(Description):
 
     @model_validator(mode="after")
     def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
         raise_faults("PumpingUnit", self._faults())
         return self
 

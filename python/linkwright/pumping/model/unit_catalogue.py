@@ -99,7 +99,6 @@ def catalogue_unit(designation: str) -> CatalogueUnit:
 
 @cache
 def _units() -> dict[str, CatalogueUnit]:
-    """The catalogue by designation."""
     import json
     import pkgutil
 
@@ -109,7 +108,6 @@ def _units() -> dict[str, CatalogueUnit]:
 
 
 def _unit(row: dict[str, Any]) -> CatalogueUnit:
-    """One row in SI."""
     return CatalogueUnit(
         designation=row["designation"],
         **{name: row[name] * INCH for name in _LETTERS},
@@ -163,7 +161,6 @@ counterbalance = "optimal"               # or the maximum moment of cranks and c
 
 
 def _dimensions(unit: CatalogueUnit, hole: int) -> str:
-    """The letters in inches, as the catalogue prints them."""
     values = {name: getattr(unit, name) for name in _WORDS}
     lines = [_line(name, value, _WORDS[name]) for name, value in values.items()]
     others = ", ".join(f"{radius / INCH:.6g}" for radius in unit.holes)
@@ -176,6 +173,5 @@ def _line(name: str, value: float, words: str) -> str:
 
 
 def _loads(unit: CatalogueUnit, *shares: float) -> str:
-    """Loads as shares of the rating of the structure."""
     texts = (f'"{share * unit.rating.load / 1e3:.1f} kN"' for share in shares)
     return f"[{', '.join(texts)}]"
