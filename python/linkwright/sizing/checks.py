@@ -129,7 +129,6 @@ class Check(Record):
         return f"{title}{self._factor().lstrip(':')}" if self._factor() else f"{title} fails"
 
     def _factor(self) -> str:
-        """By how much a check fails."""
         share = self.utilisation
         if self.passed is not False or share is None:
             return ""
@@ -196,7 +195,6 @@ def _servo_rating(
 
 
 def _speed_check(speed: float, wanted: float, suits: bool, note: str) -> Check:
-    """The speed against the nearer end of the band about the design speed."""
     fast = speed > wanted
     limit = wanted * (1 + SPEED_BAND if fast else 1 - SPEED_BAND)
     return Check("speed", speed, limit, "rad/s", suits, at_most=fast, note=note)
@@ -251,7 +249,6 @@ def _torque_limits(steady: SteadyState, rated: float | None, most: float | None)
 
 
 def _servo_checks(machine: Machine, known: CatalogueMotor) -> MotorChecks:
-    """A servo motor: torques at the speed that its controller keeps, and the inertia that it controls."""
     assert machine.drive is not None
     try:
         steady = steady_state(machine, n=_ANGLES)
@@ -267,7 +264,6 @@ def _servo_checks(machine: Machine, known: CatalogueMotor) -> MotorChecks:
 
 
 def _inertia_ratio(machine: Machine, own: float) -> Check:
-    """Mean inertia that the rotor drives, referred to its shaft, over its own."""
     assert machine.drive is not None
     if not own > 0:
         return Check(
@@ -296,7 +292,6 @@ def _start_doubt(motor: InductionMotor | DcMotor) -> str:
 
 
 def _start_checks(machine: Machine, doubt: str, torque: float | None = None) -> tuple[Check, Check]:
-    """Torque of the drive at standstill, or by a motor torque, against the load at the start and at worst."""
     compiled = over_known_cycle(compile_machine(machine))
     if torque is None:
         drive = float(compiled.motor_torques(0.0).crank[0])
@@ -329,7 +324,6 @@ def _unsure(passed: bool, doubt: str) -> tuple[bool | None, str]:
 
 
 def _run_up_check(machine: Machine, steady: SteadyState, doubt: str) -> tuple[RunUp | None, Check]:
-    """Whether the machine reaches its steady motion."""
     try:
         up = run_up(machine, steady=steady)
     except FindingError as error:

@@ -186,7 +186,6 @@ def size(
 
 
 def _untried(plan: StudyPlan) -> str:
-    """What a study of motors leaves open where none of them serves; nothing without motors."""
     motor = plan.study.variables.get("motor")
     if motor is None or not motor.values:
         return ""
@@ -272,7 +271,6 @@ def _tracked(types: Sequence[CatalogueMotor]) -> Iterator[CatalogueMotor]:
 
 
 def _file_text(machine: Machine, chosen: Candidate) -> str:
-    """The machine file, with a remark where a number is an estimate."""
     import tomlkit
 
     from linkwright.machine.write import dumps
@@ -285,7 +283,6 @@ def _file_text(machine: Machine, chosen: Candidate) -> str:
 
 
 def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | None) -> Answer:
-    """Motor and flywheel, or why no motor suffices."""
     from linkwright.sizing.warnings import lost, unjudged
 
     results = {
@@ -309,7 +306,6 @@ def _answer(machine: Machine, motor: MotorChoice, flywheel: FlywheelChoice | Non
 
 
 def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
-    """The flywheel for the motor of the file."""
     from linkwright.sizing.warnings import lost, unjudged
 
     machine = flywheel.machine
@@ -326,7 +322,6 @@ def _answer_of_flywheel(flywheel: FlywheelChoice) -> Answer:
 
 
 def _table_of_flywheel(flywheel: FlywheelChoice) -> list[Table]:
-    """The flywheel, and the machine with it and without."""
     from linkwright.kernel.page.table import Table, rows_of
 
     names = (
@@ -342,7 +337,6 @@ def _table_of_flywheel(flywheel: FlywheelChoice) -> list[Table]:
 
 
 def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
-    """What is needed and what was chosen."""
     from linkwright.kernel.page.numbers import quantity
 
     need = motor.required
@@ -363,7 +357,6 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
 
 
 def _deciding(motor: MotorChoice) -> list[str]:
-    """Which check makes the motor as large as it is, and which ones do not decide and are not passed."""
     from linkwright.kernel.page.numbers import quantity
 
     lines = []
@@ -381,7 +374,6 @@ def _deciding(motor: MotorChoice) -> list[str]:
 
 
 def _tables_of_choice(motor: MotorChoice) -> list[Table]:
-    """The checks of the motors, and the motors considered."""
     from linkwright.kernel.page.numbers import measured, quantity
     from linkwright.kernel.page.table import Table
 
@@ -405,7 +397,6 @@ def _tables_of_choice(motor: MotorChoice) -> list[Table]:
 
 
 def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
-    """A row for each check."""
     from linkwright.kernel.page.numbers import measured
     from linkwright.kernel.page.table import Table
 
@@ -427,7 +418,6 @@ def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
 
 
 def _shown(motor: MotorChoice) -> list[Candidate]:
-    """Motors from half the required power to a little beyond the one that is chosen."""
     ranked = sorted(_suited(motor), key=lambda candidate: candidate.known.power_rated)
     enough = [candidate for candidate in ranked if candidate.known.power_rated >= 0.5 * motor.required.power]
     enough = enough if len(enough) > _BEYOND else ranked[-_BEYOND - 1 :]
@@ -439,7 +429,6 @@ def _shown(motor: MotorChoice) -> list[Candidate]:
 
 
 def _suited(motor: MotorChoice) -> list[Candidate]:
-    """Motors whose speed suits the ratio; all, if there is none."""
     return [candidate for candidate in motor.candidates if candidate.checks[0].passed] or list(
         motor.candidates
     )
@@ -456,7 +445,6 @@ def _verdict(candidate: Candidate, motor: MotorChoice) -> str:
 
 
 def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
-    """What flywheel, what it gives, what the classical estimate would have been."""
     from linkwright.kernel.page.numbers import quantity
 
     if flywheel.kept:
@@ -505,7 +493,6 @@ def motors(
 
 
 def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMotor]:
-    """The motors that are asked for, by power."""
     from linkwright.drive.model.catalogue import motors
     from linkwright.kernel.description.base import suggestion
     from linkwright.kernel.errors import InputError
@@ -529,7 +516,6 @@ def _chosen(poles: int | None, power_min: str, series: str) -> list[CatalogueMot
 
 
 def _none_of(poles: int | None, power_min: str, series: str, known: Sequence[CatalogueMotor]) -> str:
-    """Which option leaves no motor, and what the catalogue has in its place."""
     like = [motor for motor in known if series in ("", motor.series)]
     numbers = sorted({motor.poles for motor in like})
     if poles is not None and poles not in numbers:
@@ -542,7 +528,6 @@ def _none_of(poles: int | None, power_min: str, series: str, known: Sequence[Cat
 
 
 def _entries(motor: CatalogueMotor) -> dict[str, Any]:
-    """All that is known of a motor, in SI, and its inertia if the source gives none."""
     from linkwright.sizing.motor_change import rotor_inertia
 
     inertia, estimated = rotor_inertia(motor)
@@ -574,7 +559,6 @@ def _tables(motors: list[CatalogueMotor]) -> list[Table]:
 
 
 def _row(motor: CatalogueMotor) -> Row:
-    """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
     from linkwright.kernel.page.numbers import measured, number, quantity
 
     entries = _entries(motor)

@@ -327,7 +327,6 @@ def _run_up(machine: Machine, steady: SteadyState | None = None) -> tuple[RunUp 
 
 
 def _costs(inertia: float, after: RunUp | str, before: RunUp | str) -> list[str]:
-    """What the flywheel does to the run-up, in a sentence; a text is the reason why there is none."""
     if not isinstance(after, RunUp):
         machine = f"with the flywheel of {inertia:.4g} kg m² the machine" if inertia else "the machine"
         return [f"{machine} does not run up: {after}"] if after else []

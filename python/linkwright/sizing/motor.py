@@ -170,7 +170,6 @@ class MotorChoice(Record):
         return least.failed[0], least
 
     def _shortfall(self) -> str:
-        """What the best of the candidates that fail lacks."""
         need = self.required.power * self.reserve
         suited = [candidate for candidate in self.candidates if candidate.checks[0].passed]
         if not suited:
@@ -341,7 +340,6 @@ def _rank(candidate: Candidate) -> tuple[bool, float, bool, str]:
 
 
 def _least_torques(known: CatalogueMotor) -> Iterator[str]:
-    """Torques of breakdown and start that the catalogue does not give."""
     if known.breakdown_is_minimum:
         yield f"the breakdown torque of {known.type}, {known.breakdown:.4g} N m, is {LEAST_BREAKDOWN}"
     if known.start_is_minimum:
@@ -420,7 +418,6 @@ class _Judge:
         return self._with_flywheel(machine, known)
 
     def _with_flywheel(self, machine: Machine, known: CatalogueMotor) -> _Fit:
-        """The machine with the flywheel that is sized for it, in place of its own."""
         assert self.unevenness is not None
         try:
             flywheel, _ = flywheel_inertia(with_flywheel(machine, 0.0), self.unevenness)
@@ -431,18 +428,15 @@ class _Judge:
         return _Fit(fitted, motion_checks(fitted, known), flywheel)
 
     def _failed(self, done: MotorChecks) -> list[str]:
-        """Decisive checks of the motion that are not made or not passed."""
         passed = {check.name for check in done.checks if check.passed}
         return [name for name in DECISIVE[self.by][2:] if name not in passed]
 
     def doubts(self, chosen: Candidate | None) -> list[str]:
-        """What the choice rests on without being known."""
         if chosen is None:
             return []
         return [*_least_torques(chosen.known), *self._rotor(chosen)]
 
     def _rotor(self, chosen: Candidate) -> list[str]:
-        """Whether the choice rests on an estimated inertia."""
         if not chosen.inertia_estimated:
             return []
         words = f"the inertia of the rotor of {chosen.type}, {chosen.inertia:.3g} kg m², is {ESTIMATE}"
@@ -453,7 +447,6 @@ class _Judge:
         return [f"{words}; with half or twice this value the motor also passes"]
 
     def _lost(self, chosen: Candidate, factor: float) -> list[str]:
-        """Decisive checks that fail with another inertia."""
         inertia = chosen.inertia * factor
         checks = self._analysed(chosen.known, inertia, chosen.ratio, True).done.checks
         return [check.name for check in checks if check.name in chosen.decisive and not check.passed]

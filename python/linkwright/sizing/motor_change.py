@@ -34,7 +34,6 @@ def with_motor(
 
 
 def _motor_table(known: CatalogueMotor, ratio: float, speed: float | None) -> dict[str, Any]:
-    """A type as the table of a machine file; a servo motor keeps the design speed of the crank."""
     if known in motors():
         return {"kind": "induction", "catalogue": known.type}
     if known.kind == "servo":
@@ -71,7 +70,6 @@ def with_flywheel(machine: Machine, inertia: float, *, note: str = "") -> Machin
 
 
 def _tables(machine: Machine) -> dict[str, Any]:
-    """The machine as the tables of a file."""
     return machine.model_dump(by_alias=True, exclude_unset=True)
 
 
