@@ -49,7 +49,6 @@ EXCESS, DRIVER, LOAD = range(3)
 
 
 def _nothing() -> Floats:
-    """A curve that nobody knows."""
     return np.empty(0)
 
 
@@ -285,7 +284,6 @@ def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
 
 
 def _of_curves(described: TurningMoment, n: int) -> TurningMomentDiagram:
-    """From torques over the angle."""
     cycle = described.cycle
     curves = fitted_curves(described)
     driver, load = curves.mean()[[DRIVER, LOAD]]
@@ -413,7 +411,6 @@ def rim_of(described: TurningMoment, effect: _FlywheelEffect) -> RimSize:
 
 
 def _areas(curves: TurnCurve, energy: TurnCurve, cycle: float) -> tuple[dict[str, float | None], ...]:
-    """Areas between the crossings of driver and load, once round."""
     at = curves.crossings(EXCESS)
     first, last = (float(curves.at(np.array([phi]))[EXCESS, 0]) for phi in (0.0, cycle * (1 - 1e-12)))
     if first * last < 0:

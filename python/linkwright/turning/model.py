@@ -76,7 +76,6 @@ class ShaftTorque(CheckedDescription):
 
     @staticmethod
     def _own(phi: Floats, start: float, cycle: float) -> Floats:
-        """Angle of one cylinder within its own cycle."""
         return phi if start == 0 else np.mod(phi - start, cycle)
 
     @abstractmethod

@@ -68,7 +68,6 @@ def turning_tables(diagram: TurningMomentDiagram) -> Iterator[Table]:
 
 
 def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str] = ()) -> list[Row]:
-    """The rows of a table; of an extreme, with the angle where it is."""
     # A constant torque has its extremes everywhere.
     is_constant = diagram.torque_driver_max == diagram.torque_driver_min
     beside = {"torque_driver_max": "", "torque_driver_min": ""} if is_constant else {}
@@ -76,7 +75,6 @@ def _rows(diagram: TurningMomentDiagram, table: str, *, without: Collection[str]
 
 
 def _areas(diagram: TurningMomentDiagram) -> Table:
-    """Energies between the crossings, and the excess after each."""
     rows: list[Row] = []
     # What is left after the last area is rounding.
     scale = max(abs(area["energy"] or 0.0) for area in diagram.areas)
