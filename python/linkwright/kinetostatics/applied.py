@@ -40,7 +40,6 @@ def formula_wrenches(scene: Scene, load: loads.FormulaLoad) -> Wrenches:
 
 
 def _names(scene: Scene, load: loads.FormulaLoad) -> dict[str, Any]:
-    """Variables and constants of a formula (docs/loads.md)."""
     motion = scene.motion
     names: dict[str, Any] = {
         **NUMBERS,
@@ -113,7 +112,6 @@ def together(scene: Scene, sources: Iterable[AppliedLoad]) -> AppliedLoad:
 
 
 def _sense(rate: Floats, size: float, scene: Scene) -> Floats:
-    """Sign of a speed; zero where it stands."""
     sign: Floats = np.where(np.abs(rate) > _STANDS * size, np.sign(rate), 0.0) * np.sign(scene.motion.speed)
     return sign
 

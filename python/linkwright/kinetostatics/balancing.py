@@ -102,7 +102,6 @@ def _without(noise: float, value: float) -> float:
 
 
 def _rms(result: Forces, name: str) -> float:
-    """Root mean square over time, of shaking forces the share of inertia."""
     values = getattr(result if name in _WHOLE else result.contributions["inertia"], name)
     if values is None:
         return 0.0
@@ -164,7 +163,6 @@ def balance(
     weights = np.sqrt(_time_weights(scene.motion))[:, None]
 
     def divided(force: Floats, couple: Floats) -> Floats:
-        """The shaking force in each plane, weighted over time."""
         return np.concatenate([(weights * part).ravel() for part in _in_planes(force, couple, planes)])
 
     units = [(force, couple_of(force, z)) for link, z in places for force in _unit_forces(scene, link)]
@@ -178,7 +176,6 @@ def balance(
 
 
 def _checked_planes(planes: Sequence[float]) -> Sequence[float]:
-    """One plane, or two that are apart."""
     if len(planes) not in (1, 2) or len(set(planes)) < len(planes) or not np.isfinite(planes).all():
         found = ", ".join(f"{plane:.6g} m" for plane in planes) or "none"
         raise InputError(f"planes: found {found}, expected one plane, or two that are apart")
@@ -197,7 +194,6 @@ def _in_planes(force: Floats, couple: Floats, planes: Sequence[float]) -> list[F
 
 
 def _check_links(scene: Scene, links: Sequence[str]) -> None:
-    """Links must turn about fixed points."""
     members = scene.structure.members
     able = [n for n, member in members.items() if member.link == n and scene.carrier(member.point) == FRAME]
     wrong = [link for link in links if link not in able]
@@ -286,7 +282,6 @@ def has_speed(machine: Machine) -> bool:
 
 
 def _free_name(link: str, bodies: Mapping[str, Body]) -> str:
-    """Name of a counterweight's body that no other has."""
     name = f"counterweight_{link.replace('.', '_')}"
     while name in bodies:
         name += "_2"
@@ -396,7 +391,6 @@ def four_bar_moments(machine: Machine, rocker: str) -> dict[str, complex]:
 
 
 def _first_moments(scene: Scene) -> list[tuple[str, float, Floats]]:
-    """Member, mass, and place of each mass along and across its member."""
     first_moments = []
     for mass in masses(scene):
         arm = mass.centre[0] - scene.reference(mass.member)[0]

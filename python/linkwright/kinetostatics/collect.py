@@ -118,7 +118,6 @@ class Collector:
         return {m.name: self._on_second(m, span, self.total)[:, :2] for m, span in self._pairs()}
 
     def _pairs(self) -> list[tuple[PairModel, slice]]:
-        """Models that are no drives."""
         spans = zip(self.models, self.spans, strict=True)
         return [(model, span) for model, span in spans if model.kind not in _DRIVES]
 
@@ -145,12 +144,10 @@ class Collector:
         return viscous
 
     def _dry(self, span: slice, x: Floats) -> Floats:
-        """Extra force of a pair that goes with its unknowns."""
         dry: Floats = (self.solution.slopes[:, span] * x[:, span]).sum(axis=-1)
         return dry
 
     def _pair(self, model: PairModel, span: slice, total: Floats) -> PairForce:
-        """The force of one pair."""
         pair = self.scene.structure.pairs[model.name]
         at = self._on_second(model, span, total)
         arm = self.scene.point(pair.point) - self.scene.reference(pair.second)
@@ -162,7 +159,6 @@ class Collector:
         return PairForce(pair.name, pair.kind, pair.first, pair.second, at[:, :2], moment, friction, normal)
 
     def _load_forces(self) -> dict[str, Floats]:
-        """Force of each load on a slide, along its guide."""
         forces = {}
         for name, load in self.scene.machine.loads.items():
             pair = self.scene.structure.pairs.get(f"{getattr(load, 'on', None)}.guide")
@@ -172,7 +168,6 @@ class Collector:
         return forces
 
     def _load_torques(self) -> dict[str, Floats]:
-        """Torque of each load on a link or on the crankshaft."""
         torques = {}
         for name, load in self.scene.machine.loads.items():
             source, on = self.sources[f"loads.{name}"], getattr(load, "on", None)
@@ -197,7 +192,6 @@ class Collector:
         return torque, frame
 
     def _share(self, k: int) -> Contribution:
-        """The share of a source."""
         (name, source), x = list(self.columns.items())[k], self.solution.x[:, :, k]
         torque, frame = self._borne([source], x)
         reactions = {}
@@ -208,7 +202,6 @@ class Collector:
         return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
 
     def _powers(self, torque: Floats, total: Floats) -> dict[str, Floats]:
-        """Power of drive, loads and friction, and change of kinetic energy."""
         speed = self.scene.motion.speed
         others = dict(self.sources)
         inertia, friction = others.pop("inertia"), others.pop("friction", None)
@@ -224,12 +217,10 @@ class Collector:
         }
 
     def _power(self, source: AppliedLoad) -> Floats:
-        """Work of a source in a radian of the crank."""
         power: Floats = source.wrenches.power() - source.resisting
         return power
 
     def _slack(self, pairs: dict[str, PairForce]) -> list[str]:
-        """Cables that would have to push."""
         slack = []
         for pair in pairs.values():
             normal: Floats = primal(pair.normal)
@@ -263,12 +254,10 @@ class Collector:
 
 
 def _pushes(source: AppliedLoad) -> bool:
-    """Whether a load has forces, not couples alone."""
     return any(primal(wrench)[:, :2].any() for wrench in source.wrenches.on.values())
 
 
 def _where(solution: Solution, phi: Floats) -> list[str]:
-    """Sentences about angles without an answer."""
     where = []
     if solution.singular.any():
         where.append(
@@ -285,6 +274,5 @@ def _where(solution: Solution, phi: Floats) -> list[str]:
 
 
 def _angles(phi: Floats) -> str:
-    """Crank angles in degrees; of many the first and the last."""
     shown = [f"{degree:.4g}°" for degree in np.degrees(phi)]
     return ", ".join(shown) if len(shown) <= 4 else f"{shown[0]} to {shown[-1]} ({len(shown)} angles)"

@@ -156,7 +156,6 @@ def forces(
 
 
 def _nothing_to_carry(machine: Machine) -> list[str]:
-    """Why all forces are zero, if nothing makes any."""
     if machine.bodies or machine.loads:
         return []
     words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."
@@ -166,7 +165,6 @@ def _nothing_to_carry(machine: Machine) -> list[str]:
 
 
 def _head(speeds: dict[str, dict[str, Any]]) -> str:
-    """At what speed, and which case, where there are several."""
     words = {name: speed_words(speed) for name, speed in speeds.items()}
     return "\n".join(
         [f"{name}: {said}" for name, said in words.items()] if len(words) > 1 else words.values()
@@ -174,7 +172,6 @@ def _head(speeds: dict[str, dict[str, Any]]) -> str:
 
 
 def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
-    """Orders of the shaking force and couple of a whole cycle, if bodies have places along the crankshaft."""
     from math import pi
 
     from linkwright.kinetostatics.couple import has_axial
@@ -194,7 +191,6 @@ def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
 
 
 def _tables(cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Table]:
-    """The cases beside each other, or all about the one."""
     from linkwright.kinetostatics.tables import (
         cases_table,
         contribution_table,
@@ -213,7 +209,6 @@ def _tables(cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Tabl
 
 
 def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
-    """A finding with its case, where there are several."""
     return finding if len(cases) == 1 else f"{name}: {finding}"
 
 
@@ -232,7 +227,6 @@ def _range(span: str | None, speed: float | None) -> list[float] | None:
 def _cases(
     file: MachineFile, machine: Machine, cases: list[str], frictions: list[str], options: dict[str, Any]
 ) -> dict[str, Forces]:
-    """Forces by case, of the machine as it is where there are none."""
     from linkwright.kinetostatics.forces import forces as compute
 
     options["friction"] = _frictions(machine, frictions)
@@ -243,7 +237,6 @@ def _cases(
 
 
 def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
-    """Friction by pair."""
     from linkwright.linkages.model.structure import structure
 
     if not texts:
@@ -262,7 +255,6 @@ def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
 
 
 def _friction(entries: str, *, is_pin: bool) -> Friction:
-    """Friction from its entries."""
     from linkwright.kernel.units.kinds import DAMPING, LENGTH, RATIO, TORSIONAL_DAMPING
     from linkwright.kinetostatics.friction import Friction
 
@@ -285,7 +277,6 @@ def _results(
     orders: ShakingOrders | None,
     curves: bool,
 ) -> dict[str, dict[str, Any]]:
-    """The results of each case, its speed and what each pair bears."""
     from linkwright.kinetostatics.envelope import envelope
 
     results = {}
@@ -302,7 +293,6 @@ def _results(
 
 
 def _figures(cases: dict[str, Forces]) -> Iterator[CaptionedFigure]:
-    """Figures with their captions, none where no pair bears a force; a title says which case of several."""
     from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kinetostatics.figures import captioned_forces, cases_figure
 
@@ -315,7 +305,6 @@ def _figures(cases: dict[str, Forces]) -> Iterator[CaptionedFigure]:
 
 
 def _numbered(cases: dict[str, Forces]) -> list[tuple[str, Forces]]:
-    """End of the names of files of each case; empty where there is one."""
     return [("" if len(cases) == 1 else f"_{n}", result) for n, result in enumerate(cases.values(), start=1)]
 
 
@@ -405,7 +394,6 @@ def balance(
 
 
 def _by_place(balanced: Balance) -> dict[str, dict[str, Any]]:
-    """Counterweights by link, in two planes by link and place along the crankshaft."""
     has_planes = len({weight.axial for weight in balanced.counterweights}) > 1
     return {
         f"{weight.link} at {weight.axial:.6g} m" if has_planes else weight.link: {

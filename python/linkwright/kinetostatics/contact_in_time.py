@@ -115,7 +115,6 @@ def contact_losses(machine: Machine, motion: Transient) -> tuple[ContactLoss, ..
 
 
 def _losses(machine: Machine, motion: Transient, watched: list[tuple[str, str]]) -> Iterator[ContactLoss]:
-    """Of each contact that is lost, where first and with what force."""
     time = (motion.time[:-1, None] + np.diff(motion.time)[:, None] * _PLACES).ravel()
     held = partial(_held, machine, motion, watched)
     parts = np.array_split(time, -(-motion.steps // _STEPS))
@@ -143,7 +142,6 @@ def _of_one(held: Callable[[Floats], Floats], i: int, time: float) -> float:
 
 
 def _first(held: Callable[[float], float], time: Floats, force: Floats, lost: int) -> float:
-    """The time at which a force first passes zero, with the index of the first at which it has."""
     if lost == 0 or not force[lost - 1] > 0:
         return float(time[lost])
     return zero_of(held, float(time[lost - 1]), float(time[lost]))

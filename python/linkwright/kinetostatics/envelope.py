@@ -68,7 +68,6 @@ def envelope(result: Forces) -> list[Extent]:
 
 
 def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
-    """Name, unit and values of what there is."""
     for name in ("torque_drive", "shaking_force", "shaking_moment", "shaking_couple"):
         values = getattr(result, name)
         if values is None:
@@ -83,7 +82,6 @@ def _quantities(result: Forces) -> Iterator[tuple[str, str, Floats]]:
 
 
 def _of_pair(name: str, pair: PairForce) -> Iterator[tuple[str, str, Floats]]:
-    """The force of a pair, and the moment of a guide."""
     if pair.kind == "mesh" and not pair.force.any():
         yield name, "N m", pair.normal
     elif pair.kind in ("guide", "slot", "cable"):

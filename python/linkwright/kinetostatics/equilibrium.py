@@ -214,7 +214,6 @@ def require_room(structure: Structure, n: int) -> None:
 
 
 def _require_room(n: int, equations: int, unknowns: int) -> None:
-    """Raise if the matrices of all angles are too large."""
     if n * equations * unknowns > FORCES.most:
         raise FindingError(
             f"forces: found {grouped(n)} crank angles, {equations} equations and {unknowns} unknowns, "

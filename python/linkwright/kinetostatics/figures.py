@@ -63,7 +63,6 @@ def hodograph_figure(forces: Forces) -> Figure:
 
 
 def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: str) -> None:
-    """The path of a vector's end, with a mark where the crank angle is zero."""
     axes.plot(force[:, 0], force[:, 1], color=colour, label=label)
     zero = zero_shown()
     start = int(np.argmin([abs(zero.counted(float(angle))) for angle in forces.crank_angle]))
@@ -116,7 +115,6 @@ def cases_figure(cases: Mapping[str, Forces]) -> Figure:
 
 
 def _largest(forces: Forces) -> list[str]:
-    """Names of the pins, and of teeth, with the largest forces."""
     sizes = {name: size for name, size in forces.reaction_max.items() if np.isfinite(size) and size > 0}
     return sorted(sizes, key=lambda name: -sizes[name])[:_MOST]
 
@@ -127,7 +125,6 @@ def has_reactions(forces: Forces) -> bool:
 
 
 def _given(forces: Forces) -> str:
-    """What the drive gives, in a sentence."""
     most = quantity(forces.torque_drive_max, "N m")
     if forces.shaft:
         return f"The peak {forces.shaft}, is {most}."
@@ -135,7 +132,6 @@ def _given(forces: Forces) -> str:
 
 
 def _words(forces: Forces) -> dict[str, tuple[str, str]]:
-    """Name of a figure of forces → its title and caption; none where no pair bears a force."""
     if not has_reactions(forces):
         return {}
     pins = forces.reaction_max

@@ -153,7 +153,6 @@ def solved(
 
 
 def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:
-    """Inertia, viscous friction, and the loads."""
     motion, drive = scene.motion, scene.machine.drive or Drive()
     at_shaft = drive_inertia(drive) * motion.acceleration
     sources = {"inertia": AppliedLoad(inertia_forces(scene), at_shaft)}

@@ -59,7 +59,6 @@ def checked(friction: Mapping[str, Friction], pairs: Mapping[str, Pair]) -> dict
 
 
 def _problem(name: str, friction: Friction, pairs: Mapping[str, Pair]) -> Problem | None:
-    """What is wrong with the friction of one pair."""
     able = [key for key, pair in pairs.items() if pair.kind in ("pin", "guide", "slot")]
     key = f"friction.{name}"
     if name not in able:

@@ -118,7 +118,6 @@ def over_turns(steady: SteadyState, turns: int) -> Motion:
 
 
 def _require_full_turn(machine: Machine) -> None:
-    """Raise AssemblyError if the crank does not rotate fully, with the angles that it has."""
     closed = closure(machine)
     if closed.turns_fully:
         return
@@ -140,7 +139,6 @@ def _require_full_turn(machine: Machine) -> None:
 
 
 def _at_speed(speed: float, acceleration: float, angles: ArrayLike) -> Motion:
-    """The same speed and acceleration at every angle."""
     phi = crank_angles(np.atleast_1d(array("crank angles", angles)))
     if not phi.size:
         raise ShapeError("crank angles: found an empty list, expected at least one")

@@ -131,7 +131,6 @@ def _model(scene: Scene, pair: Pair, friction: Friction, spread: float) -> PairM
 
 
 def _moving(scene: Scene, rate: Floats, size: float) -> tuple[Floats, Floats]:
-    """Rate in time, and its sign."""
     sense = np.where(np.abs(rate) > _STANDS * size, np.sign(rate), 0.0) * np.sign(scene.motion.speed)
     return rate * scene.motion.speed, sense
 
@@ -211,7 +210,6 @@ def _cam_contact(scene: Scene, drive: Drive) -> PairModel:
 
 
 def _sliding(scene: Scene, model: PairModel, push: Push) -> PairModel:
-    """The model of a cam's contact with the friction of a push."""
     model.extra = push.along
     model.rate, model.sense = _moving(scene, push.slip, scene.size)
     return model
@@ -241,7 +239,6 @@ def _without_friction(scene: Scene, name: str, kind: str, second: str, *unknowns
 
 
 def _mesh(scene: Scene, pair: Pair, spread: float) -> PairModel:
-    """Teeth at the pitch point, or a relation of torques."""
     gear = scene.mechanism.gears[pair.element]
     ratio = _ratio(gear)
     if gear.kind in ("external", "internal") and ratio != 1.0:
@@ -263,7 +260,6 @@ def _mesh(scene: Scene, pair: Pair, spread: float) -> PairModel:
 
 
 def _ratio(gear: Gear) -> float:
-    """Speed of a gear over that of the other, both relative to the carrier."""
     ratio = gear.size_other / gear.size
     return -ratio if gear.kind in ("external", "crossed_belt") else ratio
 
@@ -295,7 +291,6 @@ def _is_rolling(scene: Scene, pair: Pair, place: Floats, along: Floats) -> bool:
 
 
 def _teeth(scene: Scene, pair: Pair, pitch: Floats, along: Floats, apart: Floats, spread: float) -> PairModel:
-    """Teeth that press along their path, and apart from each other."""
     press = Wrenches(scene).between(pair.first, pair.second, along, pitch)
     without_friction = _without_friction(scene, pair.name, pair.kind, pair.second, press)
     without_friction.extra = Wrenches(scene).between(pair.first, pair.second, apart, pitch)

@@ -27,7 +27,6 @@ def made_forces(known: Results, findings: Findings) -> Forces | None:
 
 
 def _forces(machine: Machine, steady: SteadyState) -> Forces:
-    """Forces at some angles; the analysis of cams finds followers that leave."""
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
     borne = forces(machine, Motion(*(curve[::_EVERY] for curve in curves)))
     return replace(borne, findings=tuple(text for text in borne.findings if not text.startswith(LEAVES)))

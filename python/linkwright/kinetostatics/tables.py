@@ -65,7 +65,6 @@ def _row(extent: Extent, forces: Forces, scale: float) -> Row:
 
 
 def _scales(extents: Iterable[Extent]) -> dict[str, float]:
-    """Unit → peak absolute value of all forces, or moments, of a machine."""
     scales: dict[str, float] = {}
     for extent in extents:
         scales[extent.unit] = max(scales.get(extent.unit, 0.0), abs(extent.peak))
@@ -73,7 +72,6 @@ def _scales(extents: Iterable[Extent]) -> dict[str, float]:
 
 
 def _words(name: str, forces: Forces) -> tuple[str, str]:
-    """Words for a quantity, and its symbol or the name of the pair."""
     if name == "torque_drive" and forces.shaft:
         return forces.shaft, shown(Forces, name).symbol
     if name.endswith(" drive") and name.removesuffix(" drive") in forces.drives:
@@ -163,7 +161,6 @@ def _components(force: Floats, scale: float) -> Row:
 
 
 def _pose_shares(forces: Forces, case: str) -> Table:
-    """Share of each source in the driving torque and in the shaking force."""
     shares = contribution_table(forces)
     title = "Contributions" + (f", {case}" if case else "")
     return shares._replace(title=title, heads=("source", "", "of M_d", "of the shaking force"))

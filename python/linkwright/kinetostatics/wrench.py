@@ -39,7 +39,6 @@ class Wrenches:
         self.on: dict[str, Floats] = {}
 
     def _to(self, member: str) -> Floats:
-        """What is summed on a member."""
         if member not in self.on:
             self.on[member] = self.scene.zeros(self.scene.n, 3)
         return self.on[member]

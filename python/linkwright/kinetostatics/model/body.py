@@ -65,7 +65,6 @@ class Body(CheckedDescription):
             )
 
     def _uniform_faults(self) -> Iterator[InitErrorDetails]:
-        """Entries that a uniform rod has no room for."""
         for name in ("mass", "inertia", "along", "across"):
             if name in self.model_fields_set and getattr(self, name) is not None:
                 expected = f"either mass_per_length or {name}"
@@ -95,7 +94,6 @@ def body_faults(topology: Topology, bodies: object) -> Iterator[InitErrorDetails
 
 
 def _on_nothing(topology: Topology, carrier: str, place: tuple[str, ...]) -> InitErrorDetails:
-    """The fault of a body whose carrier does not exist or does not move."""
     if carrier in topology.fixed_points:
         remedy = f'"{carrier}" is a fixed point: a mass at rest has no effect'
         return fault(*place, found=carrier, expected="the name of a link or a moving point", remedy=remedy)
@@ -105,7 +103,6 @@ def _on_nothing(topology: Topology, carrier: str, place: tuple[str, ...]) -> Ini
 
 
 def _point_faults(name: str, carrier: str, body: object, topology: Topology) -> Iterator[InitErrorDetails]:
-    """Entries of a body on a point that belong to a link."""
     links = [link for link, element in topology.links.items() if element == carrier]
     remedy = f'"{carrier}" is a point' + (f'; the link is "{links[0]}"' if links else "")
     for key in ("mass_per_length", "inertia", "along", "across"):

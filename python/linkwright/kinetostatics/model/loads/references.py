@@ -74,7 +74,6 @@ def load_faults(topology: Topology, loads: object) -> Iterator[InitErrorDetails]
 
 
 def _cycle_faults(loads: object) -> Iterator[InitErrorDetails]:
-    """Loads that repeat together only after many revolutions."""
     turns = [(name, getattr(look(loads, name), "turns", 1)) for name in keys(loads)]
     together = math.lcm(*(count for _, count in turns))
     if together > TURNS_MAX:
@@ -86,7 +85,6 @@ def _cycle_faults(loads: object) -> Iterator[InitErrorDetails]:
 
 
 def _between_faults(topology: Topology, name: str, kind: str, between: object) -> Iterator[InitErrorDetails]:
-    """Loads between points that do not exist, or are the same, or both at rest."""
     ends = [end for end in between if isinstance(end, str)] if isinstance(between, list | tuple) else []
     known = topology.candidates("point")
     here = ("loads", name, kind, "between")
@@ -101,7 +99,6 @@ def _between_faults(topology: Topology, name: str, kind: str, between: object) -
 
 
 def _slide_faults(topology: Topology, name: str, kind: str, on: str) -> Iterator[InitErrorDetails]:
-    """A force along a guide on something that has none."""
     guided = guided_points(topology)
     if on not in guided:
         remedy = topology.instead(on) or suggestion(on, guided)
@@ -119,7 +116,6 @@ def guided_points(topology: Topology) -> list[str]:
 def _carrier_faults(
     topology: Topology, name: str, load: object, kind: str, on: str
 ) -> Iterator[InitErrorDetails]:
-    """A load on nothing, or with an entry that does not belong to its carrier."""
     wants = [(key, want) for (of, key), want in _ENTRY_WANTS.items() if of == kind]
     known = list(dict.fromkeys(candidate for _, want in wants for candidate in topology.candidates(want)))
     if wants and on not in known:
@@ -139,7 +135,6 @@ def _carrier_faults(
 def _link_faults(
     topology: Topology, name: str, load: object, kind: str, on: str
 ) -> Iterator[InitErrorDetails]:
-    """A further link that does not exist, or is the one that the load acts on."""
     for key in _LINKS:
         link = look(load, key)
         if not isinstance(link, str):
@@ -151,7 +146,6 @@ def _link_faults(
 
 
 def _formula_faults(topology: Topology, name: str, load: object, on: str) -> Iterator[InitErrorDetails]:
-    """A force without direction, and variables that the carrier of a formula does not have."""
     key = "torque" if look(load, "torque") is not None else "force"
     along, direction = look(load, "along"), look(load, "direction")
     is_slide = on in guided_points(topology) and along is None and direction is None

@@ -112,7 +112,6 @@ class OverCrankAngle(Load):
         return (self.angle[:-1], values[:-1]) if closes else (self.angle, values)
 
     def _table_faults(self, key: str, unit: str) -> Iterator[InitErrorDetails]:
-        """What is wrong with the table of a quantity."""
         yield from curve_faults(self, "angle", (key,))
         yield from cycle_faults(self.cycle)
         values: tuple[float, ...] = getattr(self, key)
