@@ -127,7 +127,6 @@ class SteadyStates(Record, evenness.Evenness[Floats]):
         return batch_plotted(self, names or ("unevenness",))
 
     def _repr_html_(self) -> str:
-        """The range of each quantity, as a notebook shows it."""
         from linkwright.kernel.page.notebook import batch_html
 
         return batch_html(self)
@@ -202,7 +201,6 @@ def steady_states(
 
 
 def _solved_rows(compiled: CompiledMachine, accuracy: float) -> dict[str, Any]:
-    """Steady motion of every row over its own cycle, by name of the attribute."""
     turns, swept = row_turns(compiled), 0
     status = np.full(len(turns), int(Status.TWO_TURNS), dtype=np.uint8)
     fast = np.zeros(len(turns), dtype=np.uint8)
@@ -220,7 +218,6 @@ def _solved_rows(compiled: CompiledMachine, accuracy: float) -> dict[str, Any]:
 
 
 def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
-    """The values as arrays of one length, each possible at its address."""
     arrays = {
         address: np.atleast_1d(array(address, value, finite=False)) for address, value in entries.items()
     }
@@ -252,5 +249,4 @@ def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
 
 
 def _tables(machine: Machine) -> dict[str, object]:
-    """The machine as the tables of a file."""
     return machine.model_dump(by_alias=True, exclude_unset=True)

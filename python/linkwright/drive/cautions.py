@@ -69,7 +69,6 @@ def unjudged_limits(machine: Machine) -> Iterator[str]:
 
 
 def _without_rotor(drive: Drive) -> Iterator[str]:
-    """A motor without the inertia of its rotor."""
     motor = drive.motor
     assert motor is not None
     if isinstance(motor, InductionMotor) and motor.inertia_is_estimated:
@@ -217,7 +216,6 @@ def _others(steady: SteadyState) -> Iterator[str]:
 
 
 def _start_limits(steady: SteadyState) -> Iterator[str]:
-    """Starts that do not settle, or of which that is not known."""
     has_range = any(other.multiplier == 1.0 and other.period < steady.period for other in steady.others)
     for limit in steady.start_limits:
         starts = f"speeds {limit.side} {limit.speed:.4g} rad/s at φ = 0°"
@@ -264,7 +262,6 @@ def _percent_above(value: float, limit: float) -> str:
 
 
 def _breakdown(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """How near the motion comes to the top of the motor's characteristic."""
     motor = drive.motor
     if not isinstance(motor, InductionMotor):
         return
@@ -287,7 +284,6 @@ def _breakdown(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 
 def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """The part of the revolution in which the load drives the motor."""
     least, most = steady.torque_motor_min, steady.torque_motor_max
     if least >= -_SMALL * max(abs(most), abs(least)):
         return
@@ -313,7 +309,6 @@ def _beyond(drive: Drive, steady: SteadyState) -> str:
 
 
 def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """The part of the revolution in which a self-locking gearbox holds the load."""
     least = float(steady.torque_drive.min())
     if not drive.gearbox.locks or least >= -_SMALL * float(np.abs(steady.torque_drive).max()):
         return

@@ -73,7 +73,6 @@ def characteristic(
 
 
 def _points(motor: Motor) -> dict[str, float | None]:
-    """The points of a characteristic that have a name."""
     named: dict[str, float | None] = {
         "speed_no_load": None,
         "speed_breakdown": None,

@@ -110,7 +110,6 @@ def transient(
     extremes, events = motion_extremes(motion), motion_events(machine, motion)
 
     def even(intervals: int) -> Motion:
-        """The motion of everything at even times."""
         return motion_along(machine, *course(motion, intervals))
 
     results = {

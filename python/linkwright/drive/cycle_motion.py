@@ -230,7 +230,6 @@ def _inside(compiled: CompiledMachine, ends: Floats) -> Floats | None:
 
 
 def _with_ends(inside: Extremes, ends: Floats, values: Floats) -> Extremes:
-    """Extremes of a curve with its values at both ends of the range."""
     assert inside.minimum is not None
     assert inside.maximum is not None
     span = max(inside.maximum, *values) - min(inside.minimum, *values)
@@ -288,7 +287,6 @@ def _coupler_points(machine: Machine) -> tuple[str, ...]:
 
 
 def _followers(machine: Machine) -> tuple[str, ...]:
-    """Driven links that do not turn with the crankshaft."""
     cranks = machine.linkage.cranks.items()
     return tuple(name for name, crank in cranks if crank.follows() is not None or crank.law is not None)
 
@@ -335,7 +333,6 @@ class _Search:
         return np.array([curves[name] for name in self.names]).reshape(len(self.names), len(phi))
 
     def extremes(self, looked: Floats, limit: tuple[float, float] | None) -> dict[str, Extremes]:
-        """Those of all columns that move, by name."""
         values = self.values(looked)
         span = np.ptp(values, axis=1)
         known = [_CONSTANT_RATE if name.endswith(".acceleration") else _CONSTANT for name in self.names]
@@ -416,7 +413,6 @@ class _Search:
 
 
 def _candidates(signed: Floats, span: Floats) -> tuple[Indices, Indices]:
-    """Row and column of the samples beside which the maximum of a row may be."""
     before = np.concatenate([np.full((len(signed), 1), -np.inf), signed[:, :-1]], axis=1)
     after = np.concatenate([signed[:, 1:], np.full((len(signed), 1), -np.inf)], axis=1)
     is_local = (signed >= before) & (signed > after)

@@ -40,7 +40,6 @@ def in_time(machine: Machine, speed: float, turns: int) -> str:
 
 
 def _ended(motion: Transient) -> str:
-    """What the machine does that does not turn on."""
     if motion.end not in (End.STALL, End.REVERSAL):
         return _ADVICE
     how = "comes to rest" if motion.end == End.STALL else "turns back"

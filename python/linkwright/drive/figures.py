@@ -167,7 +167,6 @@ def attempt_figure(motion: Transient) -> Figure:
 
 
 def _fine(motion: Transient, turns: float) -> tuple[Floats, ...]:
-    """Time, turns and speed at even times, through the solver's own interpolant."""
     travelled = (motion.crank_angle - motion.crank_angle[0]) / (2 * np.pi)
     end = float(np.interp(turns, travelled, motion.time))
     n = int(np.clip(_POINTS * turns, 200, 4000))
@@ -231,7 +230,6 @@ def _curves(axes: Axes, characteristic: Characteristic) -> None:
 
 
 def _points(axes: Axes, characteristic: Characteristic) -> None:
-    """Rated point and breakdown point."""
     speed, torque = characteristic.speed_rated, characteristic.torque_rated
     if speed is not None and torque is not None:
         axes.plot(speed, torque, "o", color=INK, markersize=5, label="rated point")
@@ -243,7 +241,6 @@ def _points(axes: Axes, characteristic: Characteristic) -> None:
 def _detail(
     axes: Axes, characteristic: Characteristic, steady: SteadyState, span: tuple[float, float]
 ) -> None:
-    """The working range, large: the points that a revolution goes through."""
     _curves(axes, characteristic)
     _points(axes, characteristic)
     speed = steady.speed * characteristic.ratio
@@ -265,7 +262,6 @@ def _detail(
 
 
 def _load_in(limits: tuple[float, float], characteristic: Characteristic) -> np.ndarray:
-    """The mean load between two speeds."""
     return np.interp(limits, characteristic.speed, characteristic.torque_load)
 
 
@@ -276,7 +272,6 @@ def _motor_words(axes: Axes) -> None:
 
 
 def _motor_legend(figure: Figure, full: Axes, last: Axes) -> None:
-    """One legend for both panels, above them."""
     if full is last:
         legend_above(full)
         return
@@ -298,7 +293,6 @@ def drive_figures(study: Results) -> Iterator[CaptionedFigure]:
 
 
 def _cycle_words(steady: SteadyState) -> str:
-    """What steady motion repeats after."""
     return "one revolution" if steady.turns == 1 else f"{steady.turns} revolutions"
 
 

@@ -80,7 +80,6 @@ def cycle_figure(
 
 
 def _panel(panel: Axes, motion: CycleMotion, curves: Sequence[str], names: Sequence[str]) -> None:
-    """One quantity of all outputs."""
     known = motion.curves()
     phi = np.degrees(motion.crank_angle)
     drawn = []
@@ -100,7 +99,6 @@ def _panel(panel: Axes, motion: CycleMotion, curves: Sequence[str], names: Seque
 
 
 def _mark(panel: Axes, extremes: Extremes | None, size: float, colour: str) -> None:
-    """Dots at the extremes."""
     if extremes is None:
         return
     low, high = (extremes.minimum_angle, extremes.minimum), (extremes.maximum_angle, extremes.maximum)
@@ -110,7 +108,6 @@ def _mark(panel: Axes, extremes: Extremes | None, size: float, colour: str) -> N
 
 
 def _words(motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple[str, str, str]]) -> str:
-    """The peak of every rate, and where."""
     ending, word, _ = quantities[-2]
     parts = []
     for name in names:

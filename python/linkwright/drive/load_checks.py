@@ -114,7 +114,6 @@ def _torques(compiled: CompiledMachine, phi: Floats) -> Floats:
 
 
 def _no_value(name: str, load: Load, phi: float) -> str:
-    """What a load without value may lack."""
     where = f"at crank angle {np.degrees(phi):.1f}°"
     if isinstance(load, GasSpring):
         return (
@@ -129,7 +128,6 @@ def _no_value(name: str, load: Load, phi: float) -> str:
 
 
 def _require_half_turns(name: str, load: TorsionalSpring, compiled: CompiledMachine, phi: Floats) -> None:
-    """Raise if the links of a torsional spring turn by more than half a revolution from its free angle."""
     turned = _angle(compiled, load.on, phi) - load.free_angle
     if load.against is not None:
         turned = turned - _angle(compiled, load.against, phi)

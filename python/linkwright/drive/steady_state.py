@@ -315,7 +315,6 @@ def steady_state(
 
 
 def _require_within_cycle(machine: Machine, angles: Floats) -> None:
-    """Refuse crank angles that the curves of a cycle do not have."""
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     cycle = 2 * np.pi * over_whole_cycle(compiled).turns
@@ -377,7 +376,6 @@ def _last_solved(machine: Machine) -> tuple[float, SteadyMotion] | None:
 
 
 def _from_core(motion: SteadyMotion, phi: Floats, compiled: CompiledMachine) -> SteadyState:
-    """What the core found, with the power of the motor."""
     ratio = compiled.gear_factors[0]
     others = [(other.speed_min, other.speed_max, other.period, other.multiplier) for other in motion.others]
     return SteadyState(
@@ -486,7 +484,6 @@ def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats)
 def _failure(
     motion: NoSteadyMotion, machine: Machine, compiled: CompiledMachine, accuracy: float
 ) -> Exception:
-    """The error for a machine without steady motion, with the numbers of the core."""
     angle, speed, reached = motion.crank_angle, motion.speed, motion.accuracy
     if motion.status == Status.DOES_NOT_CLOSE:
         return SteadyStateError(NO_INERTIA)
@@ -533,7 +530,6 @@ def _failure(
 
 
 def _neutral(compiled: CompiledMachine, slowest: float, fastest: float) -> str:
-    """That a whole range of motions repeats."""
     load, viscous = mean_over_turn(compiled)
     omega = np.array([slowest if np.isinf(fastest) else 0.5 * (slowest + fastest)])
     drive = float(compiled.motor_torques(omega).crank[0])
@@ -551,7 +547,6 @@ def _neutral(compiled: CompiledMachine, slowest: float, fastest: float) -> str:
 
 
 def _runs_away(compiled: CompiledMachine, speed: float) -> str:
-    """That the machine gains speed without end."""
     load, viscous = mean_over_turn(compiled)
     omega = np.array([speed])
     drive = float(compiled.motor_torques(omega).crank[0])
@@ -564,7 +559,6 @@ def _runs_away(compiled: CompiledMachine, speed: float) -> str:
 
 
 def _what_lacks(compiled: CompiledMachine) -> str:
-    """Why the machine comes to rest: the drive against the mean load."""
     load, viscous = mean_over_turn(compiled)
     omega = np.linspace(0.0, 1.5 * compiled.speed_guess, _SPEEDS + 1)[1:]
     drive = compiled.motor_torques(omega).crank

@@ -129,7 +129,6 @@ def made_motion(known: Results, findings: Findings) -> Callable[[], CycleMotion]
 
 
 def _motion(known: Results) -> CycleMotion:
-    """What is made of the linkage and the steady motion by then."""
     return cycle_motion_of(known.machine, known.linkage, known.steady_state, known.accuracy)
 
 
@@ -153,7 +152,6 @@ def check_drive(machine: Machine, findings: Findings) -> Iterator[str]:
 
 
 def _require_drive(machine: Machine, compiled: CompiledMachine) -> None:
-    """Raise unless the motor drives, the revolution repeats, and the machine moves from its start."""
     over_whole_cycle(compiled)
     require_same_turns(machine)
     if _keeps_speed(machine):

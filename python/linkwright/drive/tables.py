@@ -21,7 +21,6 @@ def drive_tables(study: Results) -> Iterator[Table]:
 
 
 def _rows(result: Reduction | SteadyState, table: str, *, without: Collection[str] = ()) -> list[Row]:
-    """The rows of a table; of an extreme, with the crank angle where it is."""
     cycle = cycle_of_angles(result.crank_angle)
     return rows_in(result, table, at=lambda angle: crank_angle(angle, "at φ = ", cycle), without=without)
 
@@ -92,7 +91,6 @@ def _measure_columns(study: Results) -> Iterator[tuple[str, Sequence[float | Non
 
 
 def _drive(study: Results) -> Table | None:
-    """Work, power and torque of the drive, beside what the motor is rated for."""
     steady, drive = study.steady_state, study.machine.drive
     if steady is None or drive is None or drive.motor is None:
         return None
@@ -130,7 +128,6 @@ def _run_down(study: Results) -> Table | None:
 
 
 def _step_method(study: Results) -> Table | None:
-    """The step method beside the exact solution."""
     stepped, steady = study.step_method, study.steady_state
     if stepped is None:
         return None

@@ -137,7 +137,6 @@ def _angle(angle: float, zero: Zero) -> str:
 
 
 def _column(curve: Floats, si: str) -> list[str]:
-    """A curve as cells of a table."""
     most = float(np.abs(curve).max())
     return [_value(float(value), si, most) for value in curve]
 

@@ -60,7 +60,6 @@ def outputs(motion: CycleMotion, linkage: Linkage) -> Iterator[tuple[str, tuple[
 
 
 def _row(motion: CycleMotion, name: str, ending: str, word: str, symbol: str) -> Iterator[Row]:
-    """One quantity with its extremes; none of what is at rest or turns on."""
     extremes = motion.extremes.get(name + ending)
     if extremes is None or (ending == ".angle" and extremes.maximum is None):
         return
@@ -83,7 +82,6 @@ def angle_words(motion: CycleMotion, angle: float | None) -> str:
 
 
 def _scale(extremes: Extremes) -> float:
-    """Peak absolute value."""
     return max(
         (abs(extreme) for extreme in (extremes.minimum, extremes.maximum) if extreme is not None), default=0.0
     )

@@ -153,7 +153,6 @@ def _induction(motor: InductionMotor) -> Iterator[str]:
 
 
 def _methods(study: Results) -> Iterator[str]:
-    """How the numbers were found."""
     steady = study.steady_state
     if steady is not None and steady.method == "collocation":
         difference = number(max(steady.accuracy, _FINEST), 1)

@@ -124,7 +124,6 @@ class CatalogueMotor:
 
     @property
     def _design_n(self) -> tuple[float, float] | None:
-        """Minimum torques at standstill and pull-up over the rated one."""
         power = self.power_rated / 1e3
         if self.kind != "induction" or self.poles != 4 or power <= _DESIGN_N_ABOVE:
             return None
@@ -259,12 +258,10 @@ def _row(type: str) -> dict[str, Any]:
 
 @cache
 def _by_type() -> dict[str, CatalogueMotor]:
-    """The catalogue by type."""
     return {type: _motor(row) for type, row in _rows().items()}
 
 
 def _motor(row: dict[str, Any]) -> CatalogueMotor:
-    """One row in SI, with the rated point completed."""
     known = _given(row)
     known.setdefault("torque_rated", known.get("power_rated", 0.0) / known["speed_rated"])
     known.setdefault("power_rated", known["torque_rated"] * known["speed_rated"])

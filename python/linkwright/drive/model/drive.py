@@ -34,7 +34,6 @@ _REVERSE = '"same", a number greater than 0, or 0 for a self-locking gearbox'
 
 
 def _reverse(value: object) -> object:
-    """The torque factor of the gearbox when the load drives the motor."""
     if value is None or value == "same" or (is_number(value) and 0 <= float(value) < float("inf")):
         return value
     raise wrong(show(value), _REVERSE)

@@ -56,7 +56,6 @@ class Motor(Description):
     @model_validator(mode="before")
     @classmethod
     def _kind_of_catalogue(cls, data: Any) -> Any:
-        """Refuse a type of the catalogue for a motor of another kind."""
         if "catalogue" in keys(data) and "catalogue" not in cls.model_fields:
             remedy = 'leave it out, or give a type of your own with file = "motors.csv"'
             expected = "nothing: the types of the catalogue are induction motors"
@@ -80,7 +79,6 @@ class Motor(Description):
         return copy
 
     def _fill(self) -> None:
-        """Set the entries that follow from the given ones."""
         given = {name: getattr(self, name) for name in self.model_fields_set}
         for name, value in self._completed({k: v for k, v in given.items() if v is not None}).items():
             # The model is frozen for its users; these entries are part of making it.
@@ -92,7 +90,6 @@ class Motor(Description):
         return with_rated_point(given)
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        """What contradicts itself."""
         if self.power_rated is None or self.torque_rated is None or self.speed_rated is None:
             return
         power = self.torque_rated * self.speed_rated
@@ -136,7 +133,6 @@ def _coincide(first: Any, second: Any) -> bool:
 
 
 def _known_type(type: str) -> str:
-    """The name of a type in the catalogue, or the fault."""
     from linkwright.drive.model import catalogue
 
     return catalogue.checked_name(type)
@@ -241,7 +237,6 @@ class InductionMotor(Motor):
             )
 
     def _missing(self) -> Iterator[InitErrorDetails]:
-        """Entries without which there is no characteristic."""
         by_catalogue = f', which the catalogue does not give for "{self.catalogue}"' if self.catalogue else ""
         if self.speed_synchronous is None:
             yield fault("speed_synchronous", expected=f"the synchronous speed{by_catalogue}")
@@ -272,7 +267,6 @@ class InductionMotor(Motor):
             yield fault("resistance_ratio", found=f"{self.resistance_ratio:.6g}", expected=limit)
 
     def _no_formula(self) -> InitErrorDetails:
-        """The fault of a rated point that no breakdown speed goes with."""
         return fault(
             "speed_breakdown",
             expected="a rated point with less torque than the breakdown torque, and a small slip",
@@ -280,7 +274,6 @@ class InductionMotor(Motor):
         )
 
     def _start_faults(self) -> Iterator[InitErrorDetails]:
-        """Torques between standstill and breakdown that make no characteristic."""
         start, pull, peak = self.torque_start, self.torque_pull_up, self.torque_breakdown
         if start is not None and peak is not None and start > peak:
             yield fault(
@@ -294,7 +287,6 @@ class InductionMotor(Motor):
         yield from self._pull_up_faults()
 
     def _pull_up_faults(self) -> Iterator[InitErrorDetails]:
-        """A pull-up point that is incomplete, or not the lowest between standstill and breakdown."""
         for name in ("torque_pull_up", "speed_pull_up", "torque_start"):
             if getattr(self, name) is None:
                 remedy = "the pull-up point needs its torque, its speed and the starting torque"
@@ -326,7 +318,6 @@ def with_breakdown_speed(given: Values) -> Values:
 
 
 def _knee_faults(knee: float, rated: float | None, top: float) -> Iterator[InitErrorDetails]:
-    """A given breakdown speed that is not below the rated and the synchronous speed."""
     if knee >= top:
         yield _less("speed_breakdown", knee, "the synchronous speed", top)
     elif rated is not None and knee >= rated:
@@ -334,7 +325,6 @@ def _knee_faults(knee: float, rated: float | None, top: float) -> Iterator[InitE
 
 
 def _less(key: str, value: float, word: str, limit: float) -> InitErrorDetails:
-    """The fault of a value that is not below its limit."""
     unit = "N m" if key.startswith("torque") else "rad/s"
     return fault(key, found=f"{value:.6g} {unit}", expected=f"less than {word}, {limit:.6g} {unit}")
 

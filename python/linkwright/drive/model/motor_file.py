@@ -146,12 +146,10 @@ class _Rows:
         raise MachineFileError([problem])
 
     def entries(self, type: str) -> dict[str, float]:
-        """The numbers of a type in SI."""
         line, cells = self.types[type]
         return _entries(self.path, line, self.heads, cells)
 
     def kind(self, type: str, row: Mapping[str, float]) -> str:
-        """The kind that a type says, or that its numbers tell."""
         line, cells = self.types[type]
         given = cells.get("kind", "")
         if given and given not in KINDS:
@@ -161,7 +159,6 @@ class _Rows:
         return given or ("dc" if "speed_no_load" in row else "servo" if "torque_max" in row else "induction")
 
     def motor(self, type: str) -> CatalogueMotor:
-        """A type with all that sizing needs of its kind."""
         line, cells = self.types[type]
         row = with_rated_point(self.entries(type))
         kind = self.kind(type, row)
@@ -192,7 +189,6 @@ _NEEDED = {
 
 
 def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
-    """Name and unit of each column."""
     matches = [_HEAD.fullmatch(cell) for cell in row]
     heads = [(match[1], match[2] or "") for match in matches if match is not None]
     names = [name for name, _ in heads]
@@ -209,7 +205,6 @@ def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
 
 
 def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[str, str]) -> dict[str, float]:
-    """The numbers of a row in SI; an empty cell is none."""
     quantities = {**_ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))}
     entries: dict[str, float] = {}
     for name, unit in heads:
