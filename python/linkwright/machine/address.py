@@ -98,7 +98,6 @@ def kind(machine: Machine, address: str) -> Kind | None:
 
 @cache
 def _kind_of(model: type[Description], key: str) -> Kind | None:
-    """The quantity of an entry of a description."""
     mark = mark_of(annotation_at(model, (key,)))
     return mark.kind if mark else None
 
@@ -189,7 +188,6 @@ def known_place(machine: Machine, address: str) -> tuple[str, ...]:
 
 
 def _known_places(machine: Machine) -> dict[str, tuple[str, ...]]:
-    """Addresses of a machine whose keys are known."""
     global _asked
     asked = _asked
     # Read once: another thread may ask for another machine.
@@ -217,7 +215,6 @@ def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
 
 
 def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
-    """A new value that has the form of what belongs there."""
     if isinstance(value, Description):
         return value
     address, annotation = join(place), annotation_at(Machine, place, machine)
@@ -311,7 +308,6 @@ def _rebuilt(node: Any, tree: dict[str, Any] | _Leaf) -> Any:
 
 
 def _numbers(node: object, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], float]]:
-    """All numbers below a node."""
     if is_number(node):
         yield place, node
     for key in keys(node):

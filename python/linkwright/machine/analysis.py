@@ -170,7 +170,6 @@ class Results(Mapping[str, Result]):
         return sorted({*super().__dir__(), *(name for name in self._results if name.isidentifier())})
 
     def _without(self, name: str) -> Any:
-        """What the attribute of a result that is not there is."""
         return None
 
     def close(self, findings: Findings) -> None:

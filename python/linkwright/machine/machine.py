@@ -141,7 +141,6 @@ class Machine(WholeDescription):
         return plotted_figure(self, *names, over=over)
 
     def _repr_html_(self) -> str:
-        """The parts with their entries, as a notebook shows them."""
         from linkwright.kernel.page.notebook import table_html
         from linkwright.machine.table import machine_parts
 
@@ -181,7 +180,6 @@ class Machine(WholeDescription):
 
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """The machine; wrong values and wrong names are reported together."""
         if isinstance(data, Mapping) and data.get("drawing") is not None:
             from linkwright.linkages.model.drawing import with_drawing
 
@@ -198,7 +196,6 @@ class Machine(WholeDescription):
 
 
 def _reference_faults(machine: object) -> list[InitErrorDetails]:
-    """Nothing that moves, names that clash, bodies and loads that refer to nothing."""
     mechanism, unit = look(machine, "mechanism"), look(machine, "pumping_unit")
     train, topper = look(machine, "train"), look(machine, "topper")
     faults = list(_faults_of_train(machine, train))
@@ -240,5 +237,4 @@ def _faults_of_topper(machine: object, slides: Sequence[str]) -> Iterator[InitEr
 
 
 def _is_left_out(machine: object) -> bool:
-    """Whether a machine that was read has no mechanism of its own."""
     return isinstance(machine, BaseModel) and "mechanism" not in machine.model_fields_set

@@ -82,7 +82,6 @@ def apply(tables: dict[str, Any], change: Override, model: type[BaseModel] = Mac
 
 
 def _of(address: str, value: Any, text: str = "") -> Override:
-    """An override with a sound address."""
     try:
         split(address)
     except InputError as error:
@@ -91,7 +90,6 @@ def _of(address: str, value: Any, text: str = "") -> Override:
 
 
 def _value(text: str) -> Any:
-    """The value as TOML, or the text itself."""
     if deep_line(f"value = {text}") is not None:
         return text
     try:
@@ -110,7 +108,6 @@ def _below(node: Any, key: str, change: Override, place: tuple[str, ...]) -> Any
 
 
 def _put(node: Any, key: str, change: Override, place: tuple[str, ...]) -> None:
-    """Write the value into its table or its list."""
     if isinstance(node, list):
         _entry(node, key, change, place)
         node[int(key)] = change.value
@@ -119,7 +116,6 @@ def _put(node: Any, key: str, change: Override, place: tuple[str, ...]) -> None:
 
 
 def _entry(node: list[Any], key: str, change: Override, place: tuple[str, ...]) -> Any:
-    """The entry of a list."""
     if key.isdecimal() and int(key) < len(node):
         return node[int(key)]
     expected = f"a place in the list, 0 to {len(node) - 1}"

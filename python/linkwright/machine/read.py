@@ -74,13 +74,11 @@ def text_of_machine(path: Path) -> str:
 
 
 def _of_library(path: Path) -> Path:
-    """The file of a machine of the library that is named; the path itself if a file is meant."""
     is_known = _is_bare_name(path) and path.name in library()
     return library_path(path.name) if is_known and not path.exists() else path
 
 
 def _is_bare_name(path: Path) -> bool:
-    """Whether a path is a name alone, as a machine of the library has."""
     return not path.suffix and len(path.parts) == 1
 
 
@@ -173,7 +171,6 @@ def loads_as(
 
 
 def _text(path: Path, expected: str) -> str:
-    """The text of a file, or the problem with it."""
     try:
         text = text_of(path, FILE_BYTES)
     except TextError as error:
@@ -192,7 +189,6 @@ def _unreadable(
 
 
 def _similar(path: Path) -> str:
-    """A file beside a missing one with a similar name; for a bare name, a machine of the library too."""
     from linkwright.kernel.description.base import close_match
 
     try:
@@ -223,7 +219,6 @@ def tables_of(text: str, path: str) -> dict[str, Any]:
 
 
 def _syntax(message: str, text: str, path: str) -> Problem:
-    """A fault in the TOML, with its line."""
     match = _LINE_IN_MESSAGE.search(message)
     words = _LINE_IN_MESSAGE.sub("", message)
     line = int(match[1]) if match and match[1] else text.rstrip().count("\n") + 1
@@ -235,7 +230,6 @@ def _syntax(message: str, text: str, path: str) -> Problem:
 
 
 def _check_format(tables: dict[str, Any], path: str, text: str) -> None:
-    """Refuse another version of the format before anything else is said about it."""
     version = tables.get("format", FORMAT)
     if isinstance(version, int) and not isinstance(version, bool) and version == FORMAT:
         return
@@ -280,7 +274,6 @@ def _placed(
     path: str,
     places: Places,
 ) -> Problem:
-    """One problem with its place."""
     key = split(problem.key) if problem.key else ()
     change = next((column for place, column in places if _touches(place, key, lines)), None)
     if change is not None:
@@ -289,5 +282,4 @@ def _placed(
 
 
 def _touches(place: tuple[str, ...], key: tuple[str, ...], lines: dict[tuple[str, ...], int]) -> bool:
-    """Whether an override brought in the entry of a problem, a part of it, or its table."""
     return key[: len(place)] == place or (place[: len(key)] == key and key not in lines)

@@ -58,7 +58,6 @@ def is_bare(text: str) -> bool:
 
 
 def _divided(text: str) -> tuple[str, str, str] | None:
-    """Size, tolerance and its unit of a text with a size and limits about it."""
     sized = _sized(text.replace("−", "-"))
     if sized is None or not _MEASURE.fullmatch(sized[0]):
         return None
@@ -115,7 +114,6 @@ def _parts(key: str, text: str, limits: str) -> tuple[tuple[str, str], str]:
 
 
 def _is_share(unit: str) -> bool:
-    """Whether a unit is a share of the size, such as "%"."""
     known = factor_of(unit) if unit else None
     return known is not None and known[1] == Dimension()
 
@@ -139,7 +137,6 @@ def _measure(key: str, given: str, text: str, unit: str, kind: Kind) -> float:
 
 
 def _require_size(key: str, value: float, text: str, size: str, unit: str, kind: Kind) -> None:
-    """Refuse a tolerance of another size than the machine has, and give that in the unit of the text."""
     given = _measure(key, text, size, unit, kind)
     if abs(given - value) > 1e-9 * abs(value):
         parts = _MEASURE.fullmatch(size)

@@ -61,13 +61,11 @@ def part_names(machine: Machine) -> set[str]:
 
 
 def _diagram(machine: Machine) -> Iterator[Part]:
-    """A turning-moment diagram, its driver and its load."""
     if machine.turning_moment is not None:
         yield from _nested("Turning moment", machine, ("turning_moment",))
 
 
 def _topper(machine: Machine) -> Iterator[Part]:
-    """A topper, then the motion of its knife, its field, and limits of the best knife if there are some."""
     cut = machine.topper
     if cut is None:
         return
@@ -94,7 +92,6 @@ def _drive(machine: Machine) -> Iterator[Part]:
 
 
 def _train(machine: Machine) -> Iterator[Part]:
-    """A train: its engine, then its tables, then its run and manoeuvre."""
     train = machine.train
     if train is None:
         return
@@ -109,7 +106,6 @@ def _train(machine: Machine) -> Iterator[Part]:
 
 
 def _nested(group: str, machine: Machine, place: Place) -> Iterator[Part]:
-    """A part, then those inside it, as far as they have entries."""
     part = _part(group, machine, place)
     if part.entries:
         yield part
@@ -122,7 +118,6 @@ def _nested(group: str, machine: Machine, place: Place) -> Iterator[Part]:
 
 
 def _unit(machine: Machine) -> Iterator[Part]:
-    """A pumping unit, its load, and its rotator."""
     for name in ("pumping_unit", "rod_rotator"):
         if getattr(machine, name) is not None:
             yield _part("Pumping unit", machine, (name,))
@@ -144,13 +139,11 @@ def _tables(machine: Machine) -> Iterator[Part]:
 
 
 def _run_up(machine: Machine) -> Iterator[Part]:
-    """The options of the run-up, if the file has any."""
     if machine.run_up.model_fields_set:
         yield _part("Run-up", machine, ("run_up",))
 
 
 def _part(group: str, machine: Machine, place: Place) -> Part:
-    """One part with all entries that it has."""
     node: Any = machine
     around: Any = None
     for key in place:
@@ -161,7 +154,6 @@ def _part(group: str, machine: Machine, place: Place) -> Part:
 
 
 def _entries(machine: Machine, place: Place, node: object, before: str = "") -> Iterator[Entry]:
-    """The entries of a part, those of its guides among them."""
     assumed = _not_given(node)
     for key in keys(node):
         value, word = look(node, key), f"{before}{key}".replace("_", " ")
@@ -185,7 +177,6 @@ def _entries(machine: Machine, place: Place, node: object, before: str = "") -> 
 
 
 def _words(machine: Machine, place: Place, node: BaseModel) -> str:
-    """A description inside a list in one line: its kind, and what was given."""
     parts = []
     for key in keys(node):
         value = look(node, key)
@@ -197,7 +188,6 @@ def _words(machine: Machine, place: Place, node: BaseModel) -> str:
 
 
 def _not_given(node: object) -> set[str]:
-    """Keys of the entries that follow from others or have their usual value."""
     if not isinstance(node, BaseModel):
         return set()
     names = field_names(type(node))
@@ -225,7 +215,6 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
 
 
 def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:
-    """Several values of one quantity."""
     quantity = kind(machine, join((*place, "0")))
     unit = quantity.unit if quantity else ""
     shown = values[:_LONGEST_LIST]

@@ -200,7 +200,6 @@ def _columns_of(compiled: CompiledMachine, derivatives: Sequence[Floats]) -> Flo
 
 
 def _parting(compiled: CompiledMachine, derivatives: Mapping[str, Floats]) -> list[str]:
-    """Entries that move apart angles at which two motion laws jump together."""
     along = compiled.kinks_along(_columns_of(compiled, [*derivatives.values()]), compiled.kinks())
     return [name for name, moves in zip(derivatives, along.T, strict=True) if np.isnan(moves).any()]
 
@@ -267,7 +266,6 @@ def followed(
 
 
 def _is_of_law(machine: Machine, name: str) -> bool:
-    """Whether an entry belongs to the motion that the law of a cam is made of."""
     place = known_place(machine, name)
     return place[:2] == ("mechanism", "cams") and place[3] in ("sections", "train")
 

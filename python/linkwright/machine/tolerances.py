@@ -53,7 +53,6 @@ def with_tolerances(tables: dict[str, Any]) -> dict[str, str]:
 
 
 def _behind_values(tables: Mapping[str, Any], node: Any, place: Place) -> Iterator[tuple[Place, str]]:
-    """Places of quantities with a tolerance behind them, and what stands there."""
     entries: list[tuple[Any, Any]] = []
     if isinstance(node, Mapping):
         entries = list(node.items())
@@ -94,7 +93,6 @@ def with_known_tolerances(machine: Machine) -> Machine:
 
 
 def _require_possible(machine: Machine, key: str, address: str, text: str) -> None:
-    """Refuse what is no tolerance of an entry, or what it cannot have."""
     quantity = kind(machine, address)
     if quantity is None:
         raise problem(key, show(text), "the tolerance of a number")
@@ -138,5 +136,4 @@ def tolerance_names(machine: Machine, taken: Collection[str] = ()) -> dict[str, 
 
 
 def _name(place: Place, n: int) -> str:
-    """The last keys of an address as a name that formulas can take."""
     return "".join(letter if letter.isalnum() else "_" for letter in "_".join(place[-n:]))

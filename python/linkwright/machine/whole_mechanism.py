@@ -67,7 +67,6 @@ def _merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Me
 
 
 def _has_arrays(*parts: BaseModel | None) -> bool:
-    """Whether entries of some parts vary over many machines."""
     return any(True for _ in arrays(parts))
 
 
@@ -106,7 +105,6 @@ def topology_of(machine: object) -> Topology:
 
 
 def _joined(table: str, own: object, *expanded: Mapping[str, Any]) -> dict[str, Any]:
-    """One table of names: those of the file and those that are expanded."""
     elements = look(own, table)
     joined = {name: look(elements, name) for name in keys(elements)}
     for element in expanded:

@@ -84,13 +84,11 @@ def _spelled(value: float, kind: Kind, place: tuple[str, ...], machine: Machine,
 
 
 def _listed(values: tuple[Any, ...], place: tuple[str, ...], machine: Machine) -> Any:
-    """A list as the file writes it; in SI if that is another one."""
     given, mark = _given(machine, place), mark_of(annotation_at(Machine, (*place, "0"), machine))
     return given if isinstance(mark, Quantity) and _reads(given, values, mark.kind) else list(values)
 
 
 def _reads(given: object, value: float | tuple[float, ...], kind: Kind) -> bool:
-    """Whether an entry is read as a value, or as a list of values."""
     try:
         return (tuple(parse_list(given, kind)) if isinstance(value, tuple) else parse(given, kind)) == value
     except UnitError:
@@ -112,7 +110,6 @@ def _given(machine: Machine, place: tuple[str, ...]) -> object:
 
 
 def _text(machine: Machine, units: OutUnits | None) -> str:
-    """A machine as a TOML text, in units of its own or in SI."""
     import tomlkit
 
     document = tomlkit.document()
@@ -122,7 +119,6 @@ def _text(machine: Machine, units: OutUnits | None) -> str:
 
 
 def _add(document: TOMLDocument, key: str, value: Any) -> None:
-    """Put one top entry into the document."""
     import tomlkit
 
     if key not in _INLINE:
@@ -139,7 +135,6 @@ def _add(document: TOMLDocument, key: str, value: Any) -> None:
 def _table(
     node: BaseModel, place: tuple[str, ...], machine: Machine, units: OutUnits | None
 ) -> dict[str, Any]:
-    """The given entries of a description, plain entries before tables."""
     entries = {
         key: _toml_value(getattr(node, name), (*place, key), machine, units)
         for key, name in field_names(type(node)).items()
@@ -149,12 +144,10 @@ def _table(
 
 
 def _rank(entry: tuple[str, Any]) -> int:
-    """Order of the entries of a table: its kind, plain entries, tables."""
     return 0 if entry[0] == "kind" else 2 if isinstance(entry[1], dict) else 1
 
 
 def _toml_value(value: Any, place: tuple[str, ...], machine: Machine, units: OutUnits | None) -> Any:
-    """A value as TOML can hold it."""
     if isinstance(value, BaseModel):
         return _table(value, place, machine, units)
     if isinstance(value, dict):
