@@ -65,6 +65,5 @@ def sensitivity(file: File, responses: Of = None, variables: By = None, *, to: T
 
 
 def _few(gradient: Gradient) -> Gradient:
-    """What people are shown without --of."""
     few = gradient.only([f"steady_state.{name}" for name in _SHOWN])
     return few if few.responses else gradient

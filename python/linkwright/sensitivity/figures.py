@@ -31,7 +31,6 @@ def influence_figure(gradient: Gradient, *responses: str) -> Figure:
 
 
 def _shown(gradient: Gradient, response: str) -> list[int]:
-    """Places of the variables that have a bar, what matters most last."""
     row = gradient.responses.index(response)
     return [at for at in gradient.ranked(response) if np.isfinite(gradient.elasticities[row, at])][:ROWS][
         ::-1
@@ -39,7 +38,6 @@ def _shown(gradient: Gradient, response: str) -> list[int]:
 
 
 def _bars(axes: Axes, gradient: Gradient, row: int, shown: list[int]) -> None:
-    """The bars of one response."""
     shares = gradient.elasticities[row, shown]
     names = [shortened(gradient.variables[at], ADDRESS_LETTERS) for at in shown]
     axes.barh(range(len(names)), shares, color=[BLUE if share > 0 else RED for share in shares], height=0.62)

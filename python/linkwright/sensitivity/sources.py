@@ -124,7 +124,6 @@ def _mark(kind: type, name: str) -> Label:
 
 
 def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
-    """Several results of one kind."""
 
     def merged(field: str) -> dict[str, Any]:
         return {name: value for part in parts for name, value in getattr(part, field).items()}
