@@ -112,12 +112,10 @@ class CheckedDescription(Description):
 
     @model_validator(mode="after")
     def _entries_fit(self) -> Self:
-        """Report entries that do not go together."""
         raise_faults(type(self).__name__, self._faults())
         return self
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        """What contradicts itself."""
         return iter(())
 
 
@@ -145,7 +143,6 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
 
 def _checked_name(name: str) -> str:
-    """A name that can stand in an address, or the fault."""
     if not name.strip() or "." in name or not name.isprintable():
         remedy = "points separate the parts of an address" if "." in name else ""
         raise wrong(show(name), "a name of printable characters, without a point", remedy)
@@ -158,7 +155,6 @@ def _checked_name(name: str) -> str:
 
 
 def _checked_title(title: str) -> str:
-    """A text that stands on one line of a terminal and of a page, or the fault."""
     if not title.isprintable():
         raise wrong(show(title), "a text of printable characters, on one line")
     if len(title) > TITLE.most:

@@ -48,7 +48,6 @@ def unread_file(found: str) -> InitErrorDetails:
 
 
 def _length_faults(owner: BaseModel, argument: str, values: Iterable[str]) -> Iterator[InitErrorDetails]:
-    """Lists that have not as many values as there are arguments."""
     n = len(getattr(owner, argument))
     for name in values:
         field = type(owner).model_fields[name]

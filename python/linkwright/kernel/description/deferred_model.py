@@ -38,7 +38,6 @@ class DeferredModel:
         return handler({**core, "schema": named} if inner is not core else named)
 
     def _checked(self, value: Any, info: core_schema.ValidationInfo) -> BaseModel:
-        """The description of a table; faults have their place in it."""
         model = self.model()
         if not isinstance(model.__pydantic_validator__, SchemaValidator):
             model.model_rebuild()

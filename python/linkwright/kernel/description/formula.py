@@ -139,7 +139,6 @@ _TAKES = {"number": 0, "name": 0, "where": 4} | dict.fromkeys(
 
 
 def _summands(node: Node) -> Iterator[Node]:
-    """What is added up, each with its sign."""
     if node.op in "+-" and len(node.args) == 2:
         yield from _summands(node.args[0])
         for summand in _summands(node.args[1]):
@@ -152,7 +151,6 @@ def _summands(node: Node) -> Iterator[Node]:
 
 
 def _instructions(node: Node) -> Iterator[Instruction]:
-    """The instructions of a part, its arguments first."""
     if node.op in ("number", "name"):
         yield node.op, node.value
         return
@@ -209,7 +207,6 @@ class _Reader:
         self.nested = 0
 
     def formula(self) -> Node:
-        """The whole text."""
         node = self._sum()
         kind, word, at = self._here()
         if kind == "end":

@@ -34,7 +34,6 @@ def problems(
 
 
 def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Problem:
-    """One problem in words."""
     place = key_as_written(_place(error["loc"], model, data), data, model)
     context: dict[str, Any] = error.get("ctx") or {}
     match error["type"]:
@@ -52,7 +51,6 @@ def _problem(error: ErrorDetails, model: type[BaseModel], data: object) -> Probl
 
 
 def _bound(kind: str, context: dict[str, Any]) -> str:
-    """The limit that a number goes beyond, in words."""
     match kind:
         case "greater_than":
             return f" greater than {context['gt']:g}"
@@ -66,7 +64,6 @@ def _bound(kind: str, context: dict[str, Any]) -> str:
 
 
 def _place(location: Iterable[str | int], model: type[BaseModel], data: object) -> tuple[str, ...]:
-    """The keys from the top down, without the marks and kinds that pydantic puts between them."""
     place: list[str] = []
     node, tagged = data, False
     for part in (str(part) for part in location if part != "[key]"):
@@ -87,7 +84,6 @@ def _as_written(place: Sequence[str], data: object, short: str) -> str:
 
 
 def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
-    """A key that its table does not have."""
     table = data
     for key in place[:-1]:
         table = look(table, key)
@@ -98,7 +94,6 @@ def _unknown_key(place: tuple[str, ...], model: type[BaseModel], data: object) -
 
 
 def _wrong_kind(place: tuple[str, ...], model: type[BaseModel], data: object) -> Problem:
-    """A table whose kind is missing or unknown."""
     known = kinds_at(annotation_at(model, place[:-1], data))
     entry = data
     for n, key in enumerate(place):
@@ -119,7 +114,6 @@ class WholeDescription(Description):
     @model_validator(mode="wrap")
     @classmethod
     def _all_problems(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Report all that is wrong in the words of the file."""
         try:
             return cls._checked(data, handler)
         except ValidationError as error:
@@ -127,5 +121,4 @@ class WholeDescription(Description):
 
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """The description, or all its faults in one error."""
         return handler(data)

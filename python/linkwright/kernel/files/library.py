@@ -65,7 +65,6 @@ def task_templates() -> dict[str, str]:
 
 
 def _described(folder: Path) -> dict[str, str]:
-    """The first lines of the files of a folder, by name."""
     paths = sorted(folder.glob("*.toml"))
     return {path.stem: path.read_text(encoding="utf-8").split("\n", 1)[0].lstrip("# ") for path in paths}
 

@@ -73,7 +73,6 @@ class _Scanner:
     _counted: tuple[int, int] = (0, 1)
 
     def document(self) -> None:
-        """Tables and keys down to the end of the text."""
         table: Place = ()
         self._skip(_SPACE)
         while self.at < len(self.text):
@@ -112,7 +111,6 @@ class _Scanner:
         return table
 
     def _key(self) -> Place:
-        """One key, dotted or not."""
         parts, more = [], True
         while more:
             match = _KEY_PART.match(self.text, self.at)
@@ -174,7 +172,6 @@ class _Scanner:
 
 
 def _unquoted(key: str) -> str:
-    """A key without its quotes and escapes."""
     if key[0] not in "\"'":
         return key
     value: str = tomllib.loads(f"k = {key}")["k"]

@@ -71,7 +71,6 @@ def require_place(place: Path, *, replace: bool) -> None:
 
 
 def _require_free(place: Path, *, replace: bool) -> None:
-    """Refuse what is no plain file, and a file that is not to be replaced."""
     if os.path.lexists(place):
         _require_file(place)
         if not replace:
@@ -154,7 +153,6 @@ class OutputFolder:
         return [self.path / name for name in contents]
 
     def _require_place_above(self) -> None:
-        """Refuse a file where a folder above should be, and one in which nothing can be made."""
         above = next((parent for parent in self.path.parents if parent.exists()), None)
         if above is None:
             return
@@ -175,7 +173,6 @@ class OutputFolder:
         return frozenset(line for line in lines if line and not line.startswith("#"))
 
     def _require_ours(self, name: str, known: frozenset[str]) -> None:
-        """A place that is free, or holds a file of an earlier run."""
         place = self.path / name
         assert place.parent == self.path, "names are plain: see file_names"
         if not os.path.lexists(place):
@@ -210,7 +207,6 @@ def file_names(words: Mapping[str, str]) -> dict[str, str]:
 
 
 def _write_all(contents: Mapping[Path, str | bytes]) -> None:
-    """Bring all to the disk under other names, then rename one after the other."""
     for folder in {place.parent for place in contents}:
         _remove_stale(folder)
     parts: dict[Path, Path] = {}
@@ -236,7 +232,6 @@ def _remove(parts: list[Path]) -> None:
 
 
 def _remove_stale(folder: Path) -> None:
-    """Remove what runs on this computer that were killed left in a folder."""
     here = _computer()
     for place in folder.glob(f"{_PART}*"):
         name = _PART_NAME.match(place.name)

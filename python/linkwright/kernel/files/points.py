@@ -77,7 +77,6 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
 
 
 def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
-    """All tables of a file with their keys."""
     if isinstance(node, dict):
         yield place, node
     entries = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
@@ -154,7 +153,6 @@ def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
 
 
 def _row_problems(key: str, names: list[str], row: list[str], numbers: Collection[str]) -> Iterator[Problem]:
-    """What is wrong with a row of points."""
     if len(row) != len(names):
         yield Problem(key, show(",".join(row)), f"{len(names)} values, one for each column")
     for name, cell in zip(names, row, strict=False):
@@ -168,7 +166,6 @@ def _is_number(cell: str) -> bool:
 
 
 def _with_unit(number: str, unit: str | None) -> Any:
-    """An entry as it would stand in the machine file."""
     return f"{number} {unit}" if unit else float(number)
 
 

@@ -133,7 +133,6 @@ def _most(node: dict[str, Any] | list[Any]) -> int:
 
 
 def _problems(place: tuple[str, ...], node: Any) -> Iterator[Problem]:
-    """What is too large at one place."""
     key = join(part[: NAME.most] for part in place[:_SHOWN_DEPTH])
     if place and len(place[-1]) > NAME.most:
         yield Problem(key, f"a name of {grouped(len(place[-1]))} characters", NAME.words, "shorten it")

@@ -80,7 +80,6 @@ def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False
 
 
 def _real(name: str, value: Any) -> float:
-    """A real number of any kind as a float."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
@@ -164,7 +163,6 @@ def checks_of(function: Callable[..., Any]) -> dict[str, Check]:
 
 
 def _check(annotation: str, default: Any) -> Check | None:
-    """The check that an annotation asks for; None if it asks for none."""
     kinds = {annotation} if annotation in _CHECKS else set(annotation.split(" | "))
     if kinds & _KINDS.keys() and kinds <= _KINDS.keys() | {"None"}:
         return _of_kinds(kinds)
@@ -209,7 +207,6 @@ def _choice(annotation: str, known: Mapping[str, Any]) -> Check | None:
 
 
 def _function(*, is_optional: bool) -> Check:
-    """Checks that something can be called."""
 
     def check(name: str, value: Any) -> Any:
         if not callable(value) and not (value is None and is_optional):
@@ -231,7 +228,6 @@ def _one_or_more(name: str, value: Any) -> Any:
 
 
 def _column(name: str, value: Any) -> Any:
-    """A number, or a list of them."""
     if isinstance(value, numbers.Number):
         return _one_or_more(name, value)
     return rows(name, np.atleast_1d(array(name, value)))
@@ -252,7 +248,6 @@ def _two_whole(name: str, value: Any) -> tuple[int, int]:
 
 
 def _three(name: str, value: Any) -> Any:
-    """Three numbers or arrays."""
     if not isinstance(value, tuple | list) or len(value) != 3:
         raise _wrong(name, value, "three numbers or arrays")
     return tuple(_one_or_more(name, entry) for entry in value)
@@ -270,14 +265,12 @@ def _mapping(name: str, value: Any) -> Any:
 
 
 def _mappings(name: str, value: Any) -> Any:
-    """Tables by name."""
     for key, table in _mapping(name, value).items():
         _mapping(f"{name}[{key}]", table)
     return value
 
 
 def _named_or(other: Check) -> Check:
-    """Something by name, or what stands for all names."""
     return lambda name, value: (_mapping if isinstance(value, Mapping) else other)(name, value)
 
 
@@ -324,7 +317,6 @@ def _overrides(name: str, value: Any) -> Any:
 
 
 def _texts(name: str, value: Any) -> Any:
-    """Several texts."""
     texts = _several(name, value, "a list of texts")
     if not all(map(_is_text, texts)):
         raise _wrong(name, value, "a list of texts")
@@ -332,7 +324,6 @@ def _texts(name: str, value: Any) -> Any:
 
 
 def _motors(name: str, value: Any) -> Any:
-    """Several motors of a catalogue."""
     expected = "a list of motors, such as motors() or read_motors() gives"
     listed = _several(name, value, expected)
     if not all(type(motor).__name__ == "CatalogueMotor" for motor in listed):
@@ -394,7 +385,6 @@ _KINDS = {
 
 
 def _of_kinds(kinds: set[str]) -> Check:
-    """Checks that something is of one of some classes."""
     expected = " or ".join(words for kind, words in _KINDS.items() if kind in kinds)
 
     def check(name: str, value: Any) -> Any:

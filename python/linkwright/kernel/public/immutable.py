@@ -92,7 +92,6 @@ def freeze(result: Any) -> None:
 
 
 def _inside(value: Any) -> Any:
-    """The value with what it holds read-only."""
     kind = type(value)
     if isinstance(value, np.ndarray):
         value.flags.writeable = False
@@ -106,7 +105,6 @@ def _inside(value: Any) -> Any:
 
 
 def _fields(result: Any) -> None:
-    """The fields of a frozen dataclass, once."""
     names = _names(type(result))
     changed: list[tuple[str, Any]] = []
     for name, value in _entries(result, names):
@@ -151,7 +149,6 @@ def keep(kind: type) -> None:
 
 
 def _refuse(self: Any, name: str, *_: object) -> NoReturn:
-    """Refuse to set or delete an attribute."""
     is_field = any(field.name == name and field.init for field in fields(self))
     refuse(self, name, f"dataclasses.replace(…, {name}=value)" if is_field else "")
 

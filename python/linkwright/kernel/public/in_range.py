@@ -27,7 +27,6 @@ def in_range(**arguments: tuple[Any, Quantity]) -> None:
 
 
 def _require(name: str, value: Any, mark: Quantity) -> None:
-    """Raise for the first number of one argument that is none of its kind."""
     if type(value) is float and mark.holds(value):
         return
     try:
@@ -52,6 +51,5 @@ def _suspects(numbers: Floats) -> list[int]:
 
 
 def _wanted(mark: Quantity) -> str:
-    """What belongs there, as a number in SI."""
     unit = f" in {mark.kind.unit_word}" if mark.kind.unit else ""
     return f"{mark.kind.word}{mark.bound.words.rstrip(',')}{unit}"
