@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -15,7 +16,9 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import BLUE, RED, SMALL, legend_above, panels, styled
 from linkwright.kernel.figure.svg import svg
+from linkwright.kernel.page.language import language
 from linkwright.kernel.page.numbers import number
+from linkwright.kernel.page.translation import in_language
 from linkwright.torsion.page import torsion_content
 from linkwright.torsion.study import torsion_study
 
@@ -76,6 +79,41 @@ def test_joints_are_named_in_the_drawing_as_in_the_tables() -> None:
     pins = {name.rpartition(":")[2] for name, pair in lw.forces(machine).pairs.items() if pair.kind == "pin"}
     assert pins
     assert pins <= drawn
+
+
+@pytest.mark.parametrize("code", ["en", "uk"])
+@pytest.mark.parametrize("machine", ["rod_rotator_continuous", "pumping_unit_torque", "jansen_leg"])
+def test_names_of_joints_stand_beside_them(machine: str, code: str) -> None:
+    """No name of the drawing covers a joint, whatever the language and the length of its words."""
+    report = in_language(content(lw.study(lw.read(machine))), language(code))
+    assert report.sketch is not None
+    figure = report.sketch()
+    (axes,) = figure.axes
+    FigureCanvasAgg(figure).draw()
+    # Filled areas of joints are white and lie before the links.
+    joints = [patch.get_window_extent() for patch in axes.patches if patch.get_facecolor()[:3] == (1, 1, 1)]
+    names = [text.get_window_extent() for text in axes.texts]
+    assert joints
+    for joint in joints:
+        centre = (joint.x0 + joint.x1) / 2, (joint.y0 + joint.y1) / 2
+        assert not [name for name in names if name.contains(*centre)]
+
+
+def test_a_moving_drawing_names_its_parts_in_the_language_of_the_page() -> None:
+    """Names that a file gives stay; those of expanded parts have their words, as in the tables."""
+    (scene,) = in_language(content(lw.study(lw.read("pumping_unit_torque"))), language("uk")).scenes.values()
+    assert scene["labels"]["beam"] == "балансир"
+    (own,) = in_language(content(lw.study(lw.read("roller_two_carts"))), language("uk")).scenes.values()
+    assert own["labels"] == {}
+
+
+def test_a_tall_drawing_leaves_room_on_its_page() -> None:
+    """Warnings, cards and the drawing of a square machine stand on the first page of its report."""
+    sketch = content(lw.study(lw.read("roller_cam"))).sketch
+    assert sketch is not None
+    width, height = sketch().get_size_inches()
+    # Printed as wide as the text, 170 mm.
+    assert 170 * height / width < 100
 
 
 @pytest.mark.parametrize("machine", ["v8_diesel", "twin_engine_ship"])

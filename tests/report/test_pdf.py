@@ -14,7 +14,8 @@ from linkwright.app.report.page import content
 from linkwright.app.study import study
 from linkwright.kernel.figure.style import WIDTH
 from linkwright.kernel.page.formulas import Formula, typst
-from linkwright.kernel.page.typeset import _STYLE, _sheet, document, pdf
+from linkwright.kernel.page.table import Table
+from linkwright.kernel.page.typeset import _STYLE, _sheet, _table, document, pdf
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -50,6 +51,31 @@ def test_all_tables_findings_and_assumptions_are_in_it(two_carts: lw.Machine) ->
     assert told.warnings
     assert all(sentence in text for sentence in told.warnings)
     assert two_carts.name in text
+
+
+def test_a_passed_machine_says_so_in_a_paragraph_of_its_own() -> None:
+    """Without warnings the sentence would follow the source of the numbers on its line."""
+    told = content(study(lw.read("topper")))
+    assert told.source
+    assert told.passed
+    assert '\n\n*#"All checks passed.";*\n' in document(told)
+
+
+def test_one_card_is_no_wider_than_three() -> None:
+    text = document(content(study(lw.read("jansen_leg"))))
+    assert "#grid(columns: (1fr,) * 3, gutter: 6pt, few" in text
+
+
+@pytest.mark.parametrize(("remark", "is_broad"), [("dead centre", False), ("slow return, " * 12, True)])
+def test_a_short_table_is_as_wide_as_its_words(remark: str, is_broad: bool) -> None:
+    """Names and values stand together; words that would not fit are broken over the width of the text."""
+    typst = pytest.importorskip("typst")
+    table = Table("limits", "Limits", ("quantity", "", "value", "remark"), [("swing", "ψ", "60°", remark)])
+    text = _STYLE.format(title='"x"', foot="", language='"en"') + _table(table)
+    drawn = typst.compile({"main.typ": text.encode()}, ignore_system_fonts=True, format="svg").decode()
+    # The lines above and below the rows [pt]; the text is 170 mm wide.
+    lengths = [float(end) for end in re.findall(r'd="M 0 0h ([0-9.]+)"', drawn)]
+    assert (max(lengths) > 400) == is_broad
 
 
 def test_names_are_words_never_commands() -> None:

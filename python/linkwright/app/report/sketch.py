@@ -18,7 +18,7 @@ Scene = dict[str, Any]
 
 # Width of the drawing in the units in which joints, blocks and hatches have their sizes, and the height that
 # a tall machine may take [inch].
-_ACROSS, _TALLEST = 640.0, 5.0
+_ACROSS, _TALLEST = 640.0, 3.6
 
 # Line widths of links [points].
 _WIDTHS = {"crank": 5.0, "cable": 1.5, "arm": 3.0}
@@ -85,6 +85,11 @@ class _Painter:
         left, bottom, right, top = scene["box"]
         self.unit = max(right - left, top - bottom, 1e-9) / _ACROSS
         self.depth = 0
+        self.ends: dict[str, list[str]] = {}
+        for part in scene["parts"]:
+            if "from" in part:
+                self.ends.setdefault(part["from"], []).append(part["to"])
+                self.ends.setdefault(part["to"], []).append(part["from"])
 
     def draw(self, part: Scene, depth: int) -> None:
         self.depth = depth
@@ -231,12 +236,24 @@ class _Painter:
         if part["slides"]:
             self.words(place + np.array([-16, 24 + 15 * part["series"]]) * self.unit, part["name"])
             return
-        # Beside the joint, away from the middle of the drawing.
-        left, bottom, right, top = self.scene["box"]
-        out = place - np.array([left + right, bottom + top]) / 2
-        out = out / (float(np.hypot(*out)) or 1.0)
-        room = [12 + 3 * len(part["name"]), 14]
-        self.words(place + out * room * self.unit, part["name"], ha="center", va="center")
+        cos, sin = self.free_side(part["name"])
+        sides = {"ha": ("right", "center", "left"), "va": ("top", "center", "bottom")}
+        near = {
+            key: side[1 + round(1.2 * part)]
+            for (key, side), part in zip(sides.items(), (cos, sin), strict=True)
+        }
+        self.words(place + 12 * self.unit * np.array([cos, sin]), part["name"], **near)
+
+    def free_side(self, name: str) -> tuple[float, float]:
+        """Direction from a joint in the middle of the widest gap between its links."""
+        ways = [self.at(end) - self.at(name) for end in self.ends.get(name, ())]
+        if not ways:
+            left, bottom, right, top = self.scene["box"]
+            ways = [np.array([left + right, bottom + top]) / 2 - self.at(name)]
+        angles = np.sort([np.arctan2(y, x) for x, y in ways])
+        gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
+        side = float(angles[gaps.argmax()] + gaps.max() / 2)
+        return float(np.cos(side)), float(np.sin(side))
 
 
 _TURN = np.linspace(0, 2 * np.pi, 73)

@@ -38,7 +38,14 @@ def in_language(content: Content, to: Language) -> Content:
     groups = [
         (to.heading(group), [_part(part, to, named) for part in parts]) for group, parts in content.groups
     ]
-    return replace(changed, title=title, groups=groups, language=to)
+    scenes = {name: scene | {"labels": _labels(scene, named)} for name, scene in content.scenes.items()}
+    return replace(changed, title=title, groups=groups, language=to, scenes=scenes)
+
+
+def _labels(scene: dict[str, Any], named: Language) -> dict[str, str]:
+    """Names of the parts of a moving drawing whose label differs: parts that the file does not name."""
+    names = {part["name"] for part in scene.get("parts", ()) if part.get("name")}
+    return {name: label for name in sorted(names) if (label := named.label(name)) != name}
 
 
 def _part(part: Any, to: Language, named: Language) -> Any:

@@ -73,11 +73,10 @@ def _lines(content: Content) -> Iterator[str]:
     if content.warnings:
         yield _box(words("Warnings"), content.warnings, "care")
     if content.passed:
-        yield f"*{_text(content.passed)}*\n"
+        yield f"\n*{_text(content.passed)}*\n"
     if content.headline:
         cells = "".join(f"few[{_text(w)}][{_text(v)}][{_text(u)}], " for w, v, u in content.headline)
-        columns = min(len(content.headline), 3)
-        yield f"#grid(columns: (1fr,) * {columns}, gutter: 6pt, {cells})"
+        yield f"#grid(columns: (1fr,) * 3, gutter: 6pt, {cells})"
     if content.sketch is not None:
         yield f'== {words("The mechanism")}\n#image("sketch.svg", width: 100%)'
     for part in content.parts:
@@ -265,7 +264,8 @@ _STYLE = """#set document(title: {title}, date: none)
 #let note(body) = text(8.5pt, fill: soft, body)
 #let code(text) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 6pt, radius: 3pt, raw(text, block: true))
 #let notice(colour, body) = block(width: 100%, stroke: (left: 3pt + colour), inset: (x: 8pt, y: 4pt), body)
-#let few(word, value, unit) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 7pt, radius: 3pt)[
+// A cell, not a block: those of one row are of one height.
+#let few(word, value, unit) = grid.cell(fill: rgb("#f4f6f8"), inset: 7pt)[
   #note(word) \\ #text(14pt, value) #note(unit)
 ]
 #let data(wordy, title, heads, ..cells) = layout(page => {{
@@ -288,7 +288,9 @@ _STYLE = """#set document(title: {title}, date: none)
   }}
   let fits(letters) = measure(set_in(letters, 38mm, 38mm)).width <= page.width
   let letters = if fits(9pt) {{ 9pt }} else if fits(8pt) {{ 8pt }} else {{ 7pt }}
-  let share(size) = if fits(letters) {{ size }} else {{ auto }}
+  // As wide as its words: in a row that is drawn out over the page, the eye loses the value of a name.
+  let is_narrow = measure(set_in(letters, auto, auto)).width <= page.width
+  let share(size) = if fits(letters) and not is_narrow {{ size }} else {{ auto }}
   block(above: 1.2em, below: 1.2em, set_in(letters, share(1.6fr), share(1fr)))
 }})
 // It stands where the text has it: one that floats would cut a table or a list in two.

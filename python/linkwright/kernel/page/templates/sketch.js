@@ -49,6 +49,10 @@
   const colour = (part) => `var(${COLOURS[part.series % COLOURS.length]})`;
   const WIDTHS = { crank: 9, cable: 2.5, arm: 5 };
 
+  // Names that the file does not give have their words in the language of the page.
+  const labels = new Map(Object.entries(scene.labels ?? {}));
+  const label = (part) => labels.get(part.name) ?? part.name;
+
   function title(element, text) {
     const words = document.createElementNS(svg.namespaceURI, "title");
     words.textContent = text;
@@ -78,7 +82,7 @@
       add("path", "ground", { d: `M${x} ${y}l-13 22h26z`, "stroke-width": 1.5 });
       hatch(x, y + 22, 38, 0);
       const words = add("text", "name", { x: x + 16, y: y + 18 });
-      words.textContent = part.name;
+      words.textContent = label(part);
     },
     trace(part) {
       const points = scene.points[part.name][0].map((_, k) => at(part.name, k).map((v) => v.toFixed(1)).join(" "));
@@ -96,7 +100,7 @@
       const gap = add("path", "link gap", { d: `M${c} ${y}H${d}`, "stroke-width": 12 });
       const foot = add("path", "link", { d: `M0 0V${y}`, stroke: colour(part), "stroke-width": 6 });
       group.append(bar, gap, foot);
-      title(bar, part.name);
+      title(bar, label(part));
       return carry(group, part, part.angle);
     },
     gear(part) {
@@ -104,7 +108,7 @@
       const wheel = add("g", "gear");
       wheel.append(add("circle", "pitch", { r, stroke: colour(part) }));
       if (part.link) wheel.append(add("path", "pitch", { d: `M0 0H${r}`, stroke: colour(part) }));
-      title(wheel, part.name);
+      title(wheel, label(part));
       return carry(wheel, part);
     },
     cam(part) {
@@ -116,14 +120,14 @@
       }
       const [x, y] = part.outlines[0][0];
       group.append(add("path", "mark", { d: `M0 0L${x * scale} ${-y * scale}`, stroke: colour(part) }));
-      title(group, part.name);
+      title(group, label(part));
       return carry(group, part, part.angle);
     },
     roller(part) {
       const group = add("g", "roller"), [x, y] = [part.place[0] * scale, -part.place[1] * scale];
       rod(group, part, x, y);
       group.append(add("circle", "roll", { cx: x, cy: y, r: Math.max(part.radius * scale, 4), stroke: colour(part) }));
-      title(group, part.name);
+      title(group, label(part));
       return carry(group, part, part.angle);
     },
     face(part) {
@@ -132,12 +136,12 @@
       rod(group, part, x, y);
       const d = `M${x + a * c} ${y + a * s}L${x + b * c} ${y + b * s}`;
       group.append(add("path", "link", { d, stroke: colour(part), "stroke-width": 5 }));
-      title(group, part.name);
+      title(group, label(part));
       return carry(group, part, part.angle);
     },
     belt(part) {
       const path = add("path", "belt");
-      title(path, part.name);
+      title(path, label(part));
       return (k) => path.setAttribute("d", belt(at(part.from, k), at(part.to, k), part.radii.map((r) => r * scale), part.crossed));
     },
     rack(part) {
@@ -145,7 +149,7 @@
       let d = `M${a - 30} ${side}H${b + 30}`;
       for (let s = a - 30; s <= b + 30; s += 10) d += `M${s} ${side}V0`;
       const bar = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 2.5 });
-      title(bar, part.name);
+      title(bar, label(part));
       return carry(bar, part, part.angle);
     },
     arc(part) {
@@ -153,7 +157,7 @@
       const end = (a) => `${(r * Math.cos(a)).toFixed(2)} ${(-r * Math.sin(a)).toFixed(2)}`;
       const d = `M${end(low)}A${r} ${r} 0 ${high - low > Math.PI ? 1 : 0} 0 ${end(high)}`;
       const curve = add("path", "link", { d, stroke: colour(part), fill: "none", "stroke-width": 6 });
-      title(curve, part.name);
+      title(curve, label(part));
       // The arc is part of its link.
       const sector = add("path", "plate", { d: `${d}L0 0Z`, fill: colour(part), stroke: colour(part) });
       const [carrySector, carryCurve] = [carry(sector, part), carry(curve, part)];
@@ -161,7 +165,7 @@
     },
     link(part) {
       const line = add("line", "link", { stroke: colour(part), "stroke-width": WIDTHS[part.role] ?? 6 });
-      title(line, part.name);
+      title(line, label(part));
       return (k) => ends(line, at(part.from, k), at(part.to, k));
     },
     plate(part) {
@@ -170,33 +174,33 @@
     },
     spring(part) {
       const path = add("path", "spring", { "stroke-width": 2 });
-      title(path, part.name);
+      title(path, label(part));
       return (k) => path.setAttribute("d", coil(at(part.from, k), at(part.to, k)));
     },
     slider(part) {
       const size = part.heavy ? [44, 30] : [30, 22];
       const box = { x: -size[0] / 2, y: -size[1] / 2, width: size[0], height: size[1], rx: 3, "stroke-width": 3 };
       const block = add("rect", "block", { ...box, stroke: colour(part) });
-      title(block, part.name);
+      title(block, label(part));
       return carry(block, part, part.angle);
     },
     mass(part) {
       const dot = add("circle", "mass", part.place
         ? { r: 4, cx: part.place[0] * scale, cy: -part.place[1] * scale } : { r: 9 });
-      title(dot, part.name);
+      title(dot, label(part));
       return carry(dot, part);
     },
     point(part) {
       const joint = add("circle", "joint", { r: 5, "stroke-width": 2 });
-      title(joint, part.name);
+      title(joint, label(part));
       const words = add("text", "name");
-      words.textContent = part.name;
+      words.textContent = label(part);
       // Above a block; else beside the joint, away from the middle of the drawing.
       if (!part.slides) words.setAttribute("text-anchor", "middle");
       function aside(x, y) {
         if (part.slides) return [-16, -24 - 15 * part.series];
         const [dx, dy] = [x - width / 2, y - height / 2], r = Math.hypot(dx, dy) || 1;
-        return [(dx / r) * (12 + 4 * part.name.length), (dy / r) * 16 + 4];
+        return [(dx / r) * (12 + 4 * label(part).length), (dy / r) * 16 + 4];
       }
       return (k) => {
         const [x, y] = at(part.name, k);
