@@ -420,7 +420,7 @@ def test_least_base_lets_the_follower_reach_the_cam(kind: str) -> None:
         profile(f"base_radius = {0.9999 * base}\n{lines}", sections, rest)
 
 
-def test_limits_are_cautions_with_the_size_that_keeps_them() -> None:
+def test_limits_are_warnings_with_the_size_that_keeps_them() -> None:
     lines = 'base_radius = "{} mm"\nroller_radius = "8 mm"\ncurvature_limit = "30 mm"\n'
     texts = cam_cautions(profile(lines.format(35)))
     steep = next(each for each in texts if "pressure angle" in each)

@@ -64,7 +64,7 @@ def test_dead_centre(tmp_path: Path) -> None:
     assert json.loads(done.stdout)["results"]["slider_crank"]["stroke"] == 0.1
 
 
-def test_cautions_are_printed(task: Path) -> None:
+def test_warnings_are_printed(task: Path) -> None:
     """A poor transmission angle is reported on the terminal and in JSON."""
     wide = ("dead-centre", "--swing", "110 deg", "--time-ratio", "1.5")
     told = json.loads(run(*wide, "--json").stdout)

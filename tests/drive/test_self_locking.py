@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.cautions import cautions
 from linkwright.drive.transient import End
+from linkwright.drive.warnings import drive_warnings
 from linkwright.kernel.errors import MachineError, StartError, SteadyStateError
 from linkwright.machine.read import loads
 
@@ -54,14 +54,14 @@ def test_the_load_does_not_drive_the_motor() -> None:
     assert abs(locked.torque_motor_min) < 1e-4 * locked.torque_motor_max
     # The weight is held by the gearbox: 10 kg amid the crank of 0.5 m, less the friction at its pin.
     assert -locked.torque_drive.min() == pytest.approx(10 * 9.80665 * 0.25 - 4 * 0.5, rel=1e-3)
-    (words,) = [text for text in cautions_of(locked) if "self-locking" in text]
+    (words,) = [text for text in warnings_of(locked) if "self-locking" in text]
     assert f"{-locked.torque_drive.min():.4g} N m at the crank" in words
-    assert not [text for text in cautions_of(locked) if "generator" in text]
+    assert not [text for text in warnings_of(locked) if "generator" in text]
 
 
-def cautions_of(steady: lw.SteadyState) -> tuple[str, ...]:
+def warnings_of(steady: lw.SteadyState) -> tuple[str, ...]:
     machine = hoist()
-    return cautions(machine, lw.reduction(machine, n=360), steady)
+    return drive_warnings(machine, lw.reduction(machine, n=360), steady)
 
 
 def test_a_weight_does_not_turn_the_crank_back() -> None:

@@ -165,7 +165,7 @@ def test_starts_part_at_the_unstable_motion(name: str) -> None:
     assert down.speed[-1] < parting.speed_min
 
 
-def test_every_other_motion_is_a_caution_and_is_written_out() -> None:
+def test_every_other_motion_is_a_warning_and_is_written_out() -> None:
     """Text and JSON tell the stable and the unstable motion."""
     machine = read(HERE / "machines" / "three_motions.toml")
     study = lw.study(machine)

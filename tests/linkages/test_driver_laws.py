@@ -13,7 +13,7 @@ from command_line import invoke
 import linkwright as lw
 from linkwright.kernel.errors import FindingError
 from linkwright.linkages.idle_parts import idle_parts
-from linkwright.linkages.law_jumps import law_cautions, law_jumps
+from linkwright.linkages.law_jumps import law_jumps, law_warnings
 
 FOUND = Path(__file__).parents[1] / "found" / "use"
 MACHINES = Path(__file__).parents[2] / "machines"
@@ -76,7 +76,7 @@ def test_a_jump_of_the_acceleration_is_a_warning() -> None:
     assert {jump.order for jump in jumps} == {2}
     assert [abs(jump.after - jump.before) for jump in jumps] == pytest.approx([2.0, 2.0], abs=1e-6)
     lw.forces(machine)
-    assert any("inertia forces jump there" in text for text in law_cautions(machine))
+    assert any("inertia forces jump there" in text for text in law_warnings(machine))
 
 
 @pytest.mark.parametrize("law", ["phi", "0.6*sin(phi)", "phi + 0.3*sin(3*phi)^5", "0.5*tanh(40*sin(phi))"])
@@ -90,7 +90,7 @@ def test_a_corner_beside_the_masses_is_a_warning() -> None:
     for mass in ("[bodies]\nT = { mass = 10 }", ""):
         machine = crank(corner, mass=mass)
         lw.forces(machine)
-        assert any("masses there would need" in text for text in law_cautions(machine))
+        assert any("masses there would need" in text for text in law_warnings(machine))
     with pytest.raises(FindingError, match="S would need an infinite acceleration"):
         lw.forces(crank(corner, mass="[bodies]\nT = { mass = 10 }\nS = { mass = 1 }"))
     with pytest.raises(FindingError, match="S would need an infinite acceleration"):

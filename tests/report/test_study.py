@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from linkwright.app.study import Study, study
-from linkwright.drive.cautions import cautions
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.steady_state import steady_state
+from linkwright.drive.warnings import drive_warnings
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import template
 from linkwright.machine.read import loads, read
@@ -115,7 +115,7 @@ def test_instability_is_told() -> None:
     assert found.reduction is not None
     assert found.steady_state is not None
     unstable = replace(found.steady_state, multiplier=1.25)
-    assert "grows 1.25 times" in cautions(found.machine, found.reduction, unstable)[0]
+    assert "grows 1.25 times" in drive_warnings(found.machine, found.reduction, unstable)[0]
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from linkwright.synthesis.four_bar import FourBar, turn_spare, type_of
 from linkwright.synthesis.path_model import SPARE, Linkages, PathModel, shape
 from linkwright.synthesis.path_search import starts
 from linkwright.synthesis.task import Box, PathTask
-from linkwright.synthesis.verification import transmission_caution
+from linkwright.synthesis.verification import transmission_warning
 
 KNOWN = FourBar(0.1 + 0.2j, 0.5 + 0.3j, 0.12, 0.35, 0.3, "left", 0.3)
 ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
@@ -127,8 +127,8 @@ def test_transmission_angles_of_exact_linkages_decide() -> None:
 @pytest.mark.parametrize(
     ("degrees", "words"), [(5, "nearly locks"), (20, "at least"), (35, "low speed"), (41, "")]
 )
-def test_cautions_of_transmission_angles(degrees: float, words: str) -> None:
-    told = transmission_caution(np.radians(degrees))
+def test_warnings_of_transmission_angles(degrees: float, words: str) -> None:
+    told = transmission_warning(np.radians(degrees))
     assert bool(told) == bool(words)
     assert all(f"{degrees}°" in each and words in each for each in told)
 

@@ -14,7 +14,6 @@ from linkwright.kernel.errors import InputError, MachineError
 from linkwright.kernel.files.library import template
 from linkwright.machine.write import dumps
 from linkwright.topping import coverage as passes
-from linkwright.topping.cautions import field_cautions, field_findings
 from linkwright.topping.coverage import pass_over
 from linkwright.topping.edge import edges_of
 from linkwright.topping.field import TopperField, topper_field
@@ -22,6 +21,7 @@ from linkwright.topping.knife import knives
 from linkwright.topping.model.field import RandomField
 from linkwright.topping.required_length import constant_speed_lengths
 from linkwright.topping.roots import cap_volume, draw_roots, head_diameter
+from linkwright.topping.warnings import field_findings, field_warnings
 
 Floats = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ def told(found: TopperField, described: lw.Machine) -> str:
     assert described.topper is not None
     knife = knives(described, described.topper)[0]
     return "\n".join(
-        [*field_findings(found, described.topper), *field_cautions(found, described.topper, knife)]
+        [*field_findings(found, described.topper), *field_warnings(found, described.topper, knife)]
     )
 
 

@@ -4,7 +4,7 @@
 | --- | --- |
 | `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `batch` | Steady motion of thousands to millions of machines that differ in some entries |
-| `cautions` | What the designer of a machine should know although it runs: sentences with numbers |
+| `warnings` | What the designer of a machine should know although it runs: sentences with numbers |
 | `characteristic` | The motor's characteristic and the mean load that it works against |
 | `commands` | ``linkwright transient``: motion in time |
 | `crank_speed` | At which speed of the crank a command computes, and where that speed comes from |

@@ -58,7 +58,7 @@ STEADY = Analysis(
     applies=attrgetter("has_crank"),
     obstacle=of("drive.obstacles:no_motor"),
     make=of("drive.study:made_steady_state"),
-    warnings=of("drive.cautions:cautions", "machine", "reduction", "?steady_state"),
+    warnings=of("drive.warnings:drive_warnings", "machine", "reduction", "?steady_state"),
     tangents=of("drive.gradient:steady_derivatives"),
 )
 

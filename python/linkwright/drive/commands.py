@@ -74,10 +74,10 @@ def transient(
     Reports what happens on the way (kinks of the loads, standstill, stall) with angle and numbers, and the
     exact extremes of speed and acceleration.
     """
-    from linkwright.drive.cautions import unjudged_limits
     from linkwright.drive.motion_events import course, motion_events, motion_extremes
     from linkwright.drive.tables_in_time import end_sentence
     from linkwright.drive.transient import transient as follow
+    from linkwright.drive.warnings import unjudged_limits
     from linkwright.kernel.findings import Findings
     from linkwright.kinetostatics.contact_in_time import contact_losses
     from linkwright.linkages.motion import motion_along

@@ -31,7 +31,7 @@ from linkwright.kernel.findings import Findings
 from linkwright.kernel.page.numbers import quantity
 from linkwright.linkages.closure import closure, is_screw
 from linkwright.linkages.idle_parts import idle_parts
-from linkwright.linkages.law_jumps import law_cautions
+from linkwright.linkages.law_jumps import law_warnings
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.analysis import Results
 from linkwright.machine.machine import Machine
@@ -139,7 +139,7 @@ def check_drive(machine: Machine, findings: Findings) -> Iterator[str]:
     compiled = (findings.beside_of if ends else findings.of)(require_turn, machine)
     if compiled is not None:
         findings.add(idle_parts(machine))
-        findings.warn(law_cautions(machine))
+        findings.warn(law_warnings(machine))
     loads = "; loads are defined everywhere" if machine.loads else ""
     closes = "closure" if compiled is None else "closes"
     yield f"mechanism: {closes} over the {'travel' if is_screw(machine) else 'full revolution'}{loads}"

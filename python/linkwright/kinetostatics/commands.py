@@ -110,7 +110,7 @@ def forces(
     Joint reactions of all pins, guides, slots, teeth and cables, driving torque, shaking force and moment;
     along the steady motion, or at a constant speed; in one pose with --at.
     """
-    from linkwright.drive.cautions import unjudged_limits
+    from linkwright.drive.warnings import unjudged_limits
     from linkwright.linkages.law_jumps import shaft_of_laws
     from linkwright.linkages.whole_cycle import first_revolution_words
     from linkwright.linkages.zero import zero_of, zero_over

@@ -6,7 +6,7 @@
 | `centrodes` | About which point does a link turn, and what does that point trace on frame and link? |
 | `circuits` | In which assembly modes does it close, and which form one circuit? |
 | `closure` | At which crank angles does the mechanism close? |
-| `cautions` | What the designer of a linkage should know although it moves |
+| `warnings` | What the designer of a linkage should know although it moves |
 | `commands` | `linkwright motion FILE`: poses at one crank angle, over one revolution or over time |
 | `coupler_curve` | What path does a point draw? |
 | `cycle` | What are its extreme positions, transmission angles, dead points, its Grashof class? |

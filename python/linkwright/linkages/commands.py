@@ -150,18 +150,18 @@ def _pose(
 
 
 def _warnings(machine: Machine, zero: float = 0.0) -> list[str]:
-    from linkwright.linkages.cautions import linkage_cautions
     from linkwright.linkages.closure import closure
     from linkwright.linkages.cycle import linkage
-    from linkwright.linkages.law_jumps import law_cautions
+    from linkwright.linkages.law_jumps import law_warnings
+    from linkwright.linkages.warnings import linkage_warnings
 
     if not closure(machine).turns_fully:
         return []
-    return [*linkage_cautions(linkage(machine), zero), *law_cautions(machine)]
+    return [*linkage_warnings(linkage(machine), zero), *law_warnings(machine)]
 
 
 def _worded(machine: Machine, zero: Zero) -> list[str]:
-    return [f"WARNING  {caution}" for caution in _warnings(machine, zero.angle)]
+    return [f"WARNING  {warning}" for warning in _warnings(machine, zero.angle)]
 
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:

@@ -102,7 +102,7 @@ def require_finite_accelerations(machine: Machine) -> None:
             )
 
 
-def law_cautions(machine: Machine) -> Iterator[str]:
+def law_warnings(machine: Machine) -> Iterator[str]:
     """Jumps of velocity that move no masses, and jumps of acceleration, in sentences."""
     for jump in law_jumps(machine):
         words = jump.words[0].upper() + jump.words[1:]

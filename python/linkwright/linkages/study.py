@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from linkwright.kernel.errors import AssemblyError
 from linkwright.kernel.findings import Findings
-from linkwright.linkages.cautions import linkage_cautions
 from linkwright.linkages.cycle import Linkage, linkage
 from linkwright.linkages.idle_parts import idle_parts
-from linkwright.linkages.law_jumps import law_cautions, shaft_of_laws
+from linkwright.linkages.law_jumps import law_warnings, shaft_of_laws
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.mobility import mobility
 from linkwright.linkages.model.topology import TABLES
+from linkwright.linkages.warnings import linkage_warnings
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.analysis import Results
 from linkwright.machine.machine import Machine
@@ -26,7 +26,7 @@ def made_linkage(known: Results, findings: Findings) -> Linkage | None:
     if moved is None:
         return None
     findings.add(idle_parts(machine))
-    findings.warn((*linkage_cautions(moved), *law_cautions(machine), *shaft_of_laws(machine)))
+    findings.warn((*linkage_warnings(moved), *law_warnings(machine), *shaft_of_laws(machine)))
     if moved.closure.turns_fully and machine.drive is not None and machine.drive.motor is not None:
         findings.of(over_whole_cycle, compile_machine(machine))
     return moved if _has_outputs(machine, moved) else None

@@ -3,7 +3,7 @@
 | module | |
 | --- | --- |
 | `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
-| `cautions` | What the user of a pumping unit or of a rotator should know although it runs |
+| `warnings` | What the user of a pumping unit or of a rotator should know although it runs |
 | `check` | What can be seen without solving, and what a machine consists of |
 | `figures` | Figures of pumping units and rod rotators |
 | `gear_gradient` | Derivatives of peaks, means and work of the gearbox, and of its counterbalance |

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from linkwright.kernel.findings import Findings
 from linkwright.machine.machine import Machine
-from linkwright.pumping.cautions import unit_findings
 from linkwright.pumping.rod_rotator import rod_rotator
 from linkwright.pumping.unit import pumping_unit
+from linkwright.pumping.warnings import unit_findings
 
 
 def check_unit(machine: Machine, findings: Findings) -> Iterator[str]:

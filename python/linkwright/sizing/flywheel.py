@@ -97,7 +97,7 @@ class FlywheelChoice(Result):
         Label("time of the run-up without the flywheel", "", "s", "None if the machine does not run up."),
     ]
     iterations: Annotated[int, Label("steady motions that were solved", "", "")]
-    warnings: Annotated[tuple[str, ...], About("Cautions.")]
+    warnings: Annotated[tuple[str, ...], About("Warnings.")]
     machine: Annotated[Machine, About("The machine with it.")]
     steady: Annotated[SteadyState, About("Its steady motion.")]
     run_up: Annotated[RunUp | None, About("Its run-up.")]

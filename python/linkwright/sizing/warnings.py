@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.drive.cautions import unjudged_limits
+from linkwright.drive.warnings import unjudged_limits
 from linkwright.kinetostatics.contact import lost_contacts
 from linkwright.linkages.law_jumps import drivers_with_laws
 from linkwright.machine.machine import Machine

@@ -33,7 +33,7 @@ _NEAR_LOCK = np.radians(15.0)
 _SAME = 1e-6
 
 
-def transmission_caution(angle: float, remedy: str = "") -> tuple[str, ...]:
+def transmission_warning(angle: float, remedy: str = "") -> tuple[str, ...]:
     """What to know of a minimum transmission angle; nothing where it is good.
 
     `angle`: minimum transmission angle in the motion that is used [rad].
@@ -61,7 +61,7 @@ def least_transmission(of: Callable[[Floats], Floats], start: float, end: float)
 
 
 class TransmissionResult(Result):
-    """A result with a minimum transmission angle, and a caution where that is small."""
+    """A result with a minimum transmission angle, and a warning where that is small."""
 
     transmission_angle_min: float
     # What raises the transmission angle.
@@ -70,7 +70,7 @@ class TransmissionResult(Result):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know of the linkage."""
-        return transmission_caution(self.transmission_angle_min, self.remedy)
+        return transmission_warning(self.transmission_angle_min, self.remedy)
 
 
 # Share by which a linkage may miss what was asked for. Lengths and places are good to some 1e-16 of the

@@ -4,7 +4,7 @@
 | --- | --- |
 | `analyses` | Its analyses, as study, report, studio, studies and derivatives read them |
 | `best/` | The best knife of a topper within its limits |
-| `cautions` | Findings and warnings on a topper and on its field |
+| `warnings` | Findings and warnings on a topper and on its field |
 | `charts` | Curves of required length over speed and diameter |
 | `check` | What can be seen without solving, and what a machine consists of |
 | `commands` | ``linkwright topper``: field, sweep, best knife |

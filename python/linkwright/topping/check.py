@@ -8,11 +8,11 @@ from math import degrees
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.page.numbers import quantity
 from linkwright.machine.machine import Machine
-from linkwright.topping.cautions import knife_look
 from linkwright.topping.coverage import require_advance
 from linkwright.topping.edge import edges_of
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.roots import draw_roots, head_diameter
+from linkwright.topping.warnings import knife_look
 
 
 def check_knife(machine: Machine, findings: Findings) -> Iterator[str]:

@@ -53,9 +53,9 @@ def field(
 
     from linkwright.kernel.command.console import bar
     from linkwright.studies.knives import sweep_field
-    from linkwright.topping.cautions import field_cautions, field_findings
     from linkwright.topping.edge import edges_of, require_topper
     from linkwright.topping.field import topper_field
+    from linkwright.topping.warnings import field_findings, field_warnings
 
     machine, axes = file.read(), _axes(over or [])
     described = require_topper(machine)
@@ -95,7 +95,7 @@ def field(
         machine=machine,
         results=results,
         findings=list(field_findings(result, described)),
-        warnings=list(field_cautions(result, described, edges_of(machine, described)[0].knife)),
+        warnings=list(field_warnings(result, described, edges_of(machine, described)[0].knife)),
         head=machine.name,
         tables=tables,
         files=files,

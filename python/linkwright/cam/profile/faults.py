@@ -13,7 +13,7 @@ doubtful.
 | diameter | two followers do not both touch |
 
 Each is reported with the cam angle, the amount, and the smallest change that mends it. A profile whose radius
-is smaller than allowed, or a pressure angle above its limit, is a caution: the cam can be made.
+is smaller than allowed, or a pressure angle above its limit, is a warning: the cam can be made.
 
 References
 ----------

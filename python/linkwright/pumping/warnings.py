@@ -19,7 +19,7 @@ _SMALL = 0.01
 _FREE_FALL = 9.81
 
 
-def unit_cautions(unit: PumpingUnitMotion) -> Iterator[str]:
+def unit_warnings(unit: PumpingUnitMotion) -> Iterator[str]:
     """What should be known of a unit."""
     yield from _stroke(unit)
     yield from _fall(unit)
@@ -71,7 +71,7 @@ def _flanks(gear: GearTorque) -> Iterator[str]:
         )
 
 
-def rotator_cautions(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
+def rotator_warnings(machine: Machine, rotator: RodRotatorMotion) -> Iterator[str]:
     """What should be known of a rotator."""
     if not rotator.extremes_coincide:
         yield (

@@ -14,7 +14,7 @@ from linkwright.linkages.cycle import Linkage
 _IN_LINE, _NEAR = 1e-6, np.radians(1.0)
 
 
-def linkage_cautions(linkage: Linkage, zero: float = 0.0) -> Iterator[str]:
+def linkage_warnings(linkage: Linkage, zero: float = 0.0) -> Iterator[str]:
     """Elements whose links almost come into line. `zero`: crank angle from which angles are counted [rad]."""
     for element in linkage.elements:
         worst = element.transmission_angle_worst

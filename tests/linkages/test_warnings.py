@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.linkages.cautions import linkage_cautions
+from linkwright.linkages.warnings import linkage_warnings
 
 RHOMBUS = """
 format = 1
@@ -30,7 +30,7 @@ rocker = 0.3
 @pytest.mark.parametrize(("radius", "is_near"), [(0.3, False), (0.29999, True), (0.299, True), (0.25, False)])
 def test_a_rhombus_and_its_neighbours(radius: float, is_near: bool) -> None:
     machine = lw.loads(RHOMBUS, {"mechanism.cranks.A.radius": radius})
-    told = list(linkage_cautions(lw.linkage(machine)))
+    told = list(linkage_warnings(lw.linkage(machine)))
     assert len(told) == is_near
     if is_near:
         # Crank and frame differ by so much, which leaves the dyad out of line by as much over its length.

@@ -44,7 +44,7 @@ def _head(study: TopperStudy) -> str:
     return f"{where}, at the phase {round(np.degrees(study.uncut_phase), 3):.6g}°" if study.stroke else where
 
 
-def topper_cautions(described: Topper, study: TopperStudy) -> Iterator[str]:
+def topper_warnings(described: Topper, study: TopperStudy) -> Iterator[str]:
     """What should be known although every head is cut."""
     if described.cut_height > 0.5 * described.root_diameter:
         yield (
@@ -90,7 +90,7 @@ def field_findings(field: TopperField, topper: Topper) -> Iterator[str]:
         yield f"The edge is {field.edge_length:.4g} m long; {limits.length_max:.4g} m is permitted."
 
 
-def field_cautions(field: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
+def field_warnings(field: TopperField, topper: Topper, knife: Knife) -> Iterator[str]:
     """What the designer should know of a field."""
     if topper.field is None:
         yield "There is no [topper.field]: all roots are alike, their axes even within the offset."

@@ -33,7 +33,7 @@ _SMALL = 0.01
 _ACCURATE = 1e-6
 
 
-def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
+def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | None) -> tuple[str, ...]:
     """All that should be known. Returns: sentences, empty if there is nothing to say."""
     drive = machine.drive
     sentences = [
