@@ -67,10 +67,7 @@ class Rod:
         return [Rod(self.shaft, k, j, (float(j.sum()) / 2,) * 2) for k, j in pairs]
 
     def refined(self, omega: float, angle: float) -> tuple[Rod, NDArray[np.int64]]:
-        """The same in pieces of a smaller β at a frequency, and the piece that each is of.
-
-        `omega`: [rad/s].
-        """
+        """The rod in pieces of smaller β at `omega` [rad/s], and the piece that each is of."""
         parts = np.maximum(np.ceil(self.delay * omega / angle), 1).astype(np.int64)
         of = np.repeat(np.arange(len(parts)), parts)
         n = parts[of]
@@ -88,10 +85,7 @@ class Ends(NamedTuple):
 
 
 def ends(rods: Sequence[Rod], omega: Floats | Complexes, lossy: NDArray[Any] | float = 1.0) -> list[Ends]:
-    """Rods as springs and inertias.
-
-    `omega`: (n,) [rad/s]; `lossy`: (rods, n) complex over real stiffness.
-    """
+    """Rods as springs and inertias. `omega`: (n,) [rad/s]; `lossy`: (rods, n) complex over real stiffness."""
     result: dict[int, Ends] = {}
     factor = np.broadcast_to(np.asarray(lossy, complex), (len(rods), len(omega)))
     by_pieces: dict[int, list[int]] = {}
@@ -135,11 +129,7 @@ class RodState(NamedTuple):
 
 
 def along(rod: Rod, omega: Floats, lossy: Complexes, start: Complexes, torque: Complexes) -> RodState:
-    """A rod from its first end on. All (orders, speeds).
-
-    `omega`: [rad/s]; `lossy`: complex over real stiffness; `start`: θ₁ [rad]; `torque`: there
-    [N m].
-    """
+    """State along a rod, (orders, speeds); `lossy`: complex over real stiffness; θ₁ [rad]; torque [N m]."""
     angles, torques = [start], [torque]
     for k, j in zip(rod.stiffness.tolist(), rod.inertia.tolist(), strict=True):
         stiff = k * lossy
@@ -182,10 +172,7 @@ def energies(rod: Rod, omega: float, angles: Floats) -> PieceEnergy:
 
 
 def node_shares(rod: Rod, omega: float, angles: Floats) -> Floats:
-    """Places at rest between stations, as shares of the flexibility of the rod.
-
-    `angles`: (stations,) [rad].
-    """
+    """Nodes between stations as shares of the flexibility of the rod; `angles`: (stations,) [rad]."""
     a, b, beta = angles[:-1], angles[1:], rod.delay * omega
     crossed = np.flatnonzero(a * b < 0)
     β, first, second = beta[crossed], a[crossed], b[crossed]

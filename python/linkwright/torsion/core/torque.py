@@ -126,11 +126,7 @@ _POINTS = 4001
 
 
 def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor) -> Curve:
-    """Torque of a motor over its speed.
-
-    Torque [N m] over speed [rad/s]. That of an induction motor is held below rest and beyond twice its
-    synchronous speed.
-    """
+    """Torque [N m] over speed [rad/s]; of induction motors held below rest and beyond twice synchronous."""
     match motor:
         case ConstantTorqueMotor():
             return straight([0.0], [motor.torque])

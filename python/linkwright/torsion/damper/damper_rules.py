@@ -81,10 +81,7 @@ def rubber_rule(mass_ratio: float) -> DamperRule:
 
 
 def magnification(rule: DamperRule, frequency: ArrayLike) -> Floats:
-    """Deflection of the mass over that under the same torque at rest, (n,).
-
-    Infinite at a resonance without damping. `frequency`: (n,) g, over that of the mass alone.
-    """
+    """Dynamic over static deflection, (n,), infinite at an undamped resonance; `frequency`: (n,) g."""
     g = np.atleast_1d(np.asarray(frequency, dtype=np.float64))
     mu = rule.mass_ratio
     held: Complex = mu * rule.tuning**2 * (1 + 1j * rule.loss_factor) + 2j * rule.damping_ratio * mu * g

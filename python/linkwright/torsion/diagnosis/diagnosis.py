@@ -280,10 +280,7 @@ def diagnosis(
 
 
 def equations(harmonics: Complexes, measured: MeasuredSpeed) -> Floats:
-    """Real and imaginary parts over their noise, (..., 2 orders).
-
-    Equations for least squares. `harmonics`: (..., orders) speeds at the orders measured [rad/s].
-    """
+    """Real and imaginary parts over their noise, (..., 2 orders), of harmonics (..., orders) [rad/s]."""
     scaled = harmonics if measured.noise is None else harmonics / measured.noise
     rows: Floats = np.concatenate([scaled.real, scaled.imag], axis=-1)
     return rows

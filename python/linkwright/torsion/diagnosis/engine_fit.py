@@ -107,10 +107,7 @@ class EngineFit:
         return fit._replace(deviation=factor * fit.deviation, covariance=covariance)
 
     def up_to(self, highest: float, likely: Floats) -> EngineFit | None:
-        """The same to the orders up to one, held by the sizes that values likely have; None without orders.
-
-        `likely`: (values,).
-        """
+        """The fit to the orders up to `highest`, held by `likely` sizes (values,); None without orders."""
         low = self.measured.orders <= highest
         if not low.any():
             return None

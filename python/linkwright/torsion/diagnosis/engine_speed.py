@@ -36,10 +36,7 @@ def disc_speed(at: ExcitedTrain, disc: str, *, rigid: bool = False) -> Complexes
 
 
 def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid: bool = False) -> Complexes:
-    """Harmonics of the speed of a disc under torques one by one, (sources, orders) [rad/s].
-
-    `sources`: (sources, orders, discs) [N m].
-    """
+    """Speed harmonics of a disc [rad/s], (sources, orders), by torques (sources, orders, discs) [N m]."""
     referred, many, orders = at.referred, len(sources), at.torques.orders
     place = _place(referred, disc)
     onto = np.zeros((len(referred.discs), len(referred.inertia)))
@@ -110,10 +107,7 @@ class EngineSpeed:
         return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
 
     def states(self, values: Floats) -> ExcitedTrain:
-        """The train in some states of its cylinders.
-
-        A column for each state, all at the same speed. `values`: (kinds · cylinders, states) [rad].
-        """
+        """The train in states of its cylinders, a column each; values (kinds · cylinders, states) [rad]."""
         speeds = np.repeat(self.gas.banks[0].speeds, values.shape[1])
         combustion, *others = np.split(values, len(values) // self.engine.n_cylinders)
         delay, compression = others or (0.0, 0.0)

@@ -136,11 +136,7 @@ class RecordedSpeed:
         return resolved
 
     def harmonics(self, disc: str, orders: Floats, noise: float | None = None) -> MeasuredSpeed:
-        """Its harmonics over the crank angle.
-
-        With angle 0 where the crank angle is 0. `orders`: (orders,); `noise`: standard deviation of a sample
-        [rad/s].
-        """
+        """Harmonics over the crank angle, 0 where it is 0; `noise`: deviation of a sample [rad/s]."""
         measured = measured_speed(disc, self.samples, self.turns, orders, noise)
         turned = measured.harmonics * np.exp(-1j * measured.orders * self.start)
         return MeasuredSpeed(disc, measured.orders, turned, measured.noise)

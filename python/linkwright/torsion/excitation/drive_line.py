@@ -86,10 +86,7 @@ def drive_line(machine: Machine) -> Train:
 
 
 def mean_inertia(machine: Machine) -> float:
-    """Mean over the revolution of the mechanism's reduced inertia, without that of the drive.
-
-    At the crank [kg m²].
-    """
+    """Mean reduced inertia of the mechanism at the crank, without that of the drive [kg m²]."""
     compiled = mechanism_alone(machine)
     turn = turn_curve(lambda phi: compiled.reductions(phi).inertia[None], compiled.kinks(), "reduced inertia")
     return float(turn.mean()[0])

@@ -116,10 +116,7 @@ class EnginePlace(NamedTuple):
 def engine_sources(
     engine: ReciprocatingEngine, speeds: Floats, highest: float = 24.0, place: EnginePlace | None = None
 ) -> list[Source]:
-    """Torques on the throws of an engine, with their mean.
-
-    One a throw, in order. `speeds`: (speeds,) of the first disc of the train [rad/s].
-    """
+    """Torques on the throws of an engine with their mean, one a throw; `speeds`: (speeds,) [rad/s]."""
     place = place or EnginePlace()
     gas = cylinder_torques(engine, place.turning * speeds, highest)
     return throw_sources(engine, gas, CylinderStates(sound_factors(engine)[:, None]), place)
@@ -136,10 +133,7 @@ def throw_sources(
     states: CylinderStates,
     place: EnginePlace | None = None,
 ) -> list[Source]:
-    """Torques on the throws of an engine whose cylinders work more or less.
-
-    One a throw, in order, with a column for each speed or state.
-    """
+    """Torques on the throws by cylinders that work more or less, a column for each speed or state."""
     place = place or EnginePlace()
     torque = states.torque(gas)
     moving = _moving_parts(engine, gas.banks[0].speeds, gas.orders)

@@ -78,10 +78,7 @@ def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrai
 
 
 def prepared(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
-    """As `excited_train`, also for a train that nothing excites.
-
-    What the train is at each speed. `speeds`: (speeds,) [rad/s].
-    """
+    """As `excited_train`, also for a train that nothing excites; `speeds`: (speeds,) [rad/s]."""
     train = train_of(machine)
     referred = refer(train)
     place = {name: k for k, name in enumerate(train.discs)}
@@ -130,10 +127,7 @@ def _require_room(train: Train, sources: Sequence[Source], speeds: int) -> None:
 
 
 def loaded(machine: Machine, train: Train, referred: ReferredTrain, torques: Torques) -> ExcitedTrain:
-    """A train under torques: mean torques of its shafts, stiffness and damping.
-
-    At the speeds of the torques.
-    """
+    """A train at the speeds of its torques: mean torques of its shafts, stiffness and damping."""
     mean = mean_shaft_torques(referred, torques.mean)
     return ExcitedTrain(train, referred, torques, mean, _operating(machine.train, referred, torques, mean))
 

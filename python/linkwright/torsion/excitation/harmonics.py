@@ -177,10 +177,7 @@ class Orders:
 
 
 def orders_together(values: Floats) -> Orders:
-    """Find the common base of orders, of as many of them as have one.
-
-    `values`: (orders,) cycles per revolution, above zero.
-    """
+    """Common base of orders (orders,) above zero, cycles per revolution, of as many as have one."""
     return _together(tuple(values.tolist()))
 
 
@@ -231,10 +228,7 @@ def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> t
 
 
 def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> Complexes:
-    """Harmonics 0, 1, 2, … of the time in which the orders repeat, (harmonics, ...).
-
-    `amplitudes`: (orders, ...).
-    """
+    """Harmonics 0, 1, 2, … of the period of the orders, (harmonics, ...), by amplitudes (orders, ...)."""
     count = int(orders.harmonic.max(initial=0)) + 1
     remedy = "lower the highest order, or train.run.points"
     require_within(RESPONSE, count * math.prod(amplitudes.shape[1:]), "forced response", remedy)
@@ -245,10 +239,7 @@ def coefficients(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0
 
 
 def waveform(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0, points: int = 1440) -> Floats:
-    """The sum of harmonics over the time in which they repeat, (points, ...).
-
-    Over `Orders.turns` turns. `amplitudes`: (orders, ...).
-    """
+    """Sum of harmonics (orders, ...) over the `Orders.turns` in which they repeat, (points, ...)."""
     harmonic = coefficients(orders, amplitudes, mean)
     phase = 2j * np.pi * np.outer(np.arange(points) / points, np.arange(len(harmonic)))
     wave: Floats = np.tensordot(np.exp(phase), harmonic, axes=1).real

@@ -66,10 +66,7 @@ def shaft_torques_figure(forced: ForcedVibration) -> Figure:
 
 @styled
 def stress_figure(stress: ShaftStress, barred: Sequence[BarredRange] = ()) -> Figure:
-    """Draw the vibratory stress of the shafts over the speed, and what they bear.
-
-    Shafts of one limit share a panel; at most four panels.
-    """
+    """Draw vibratory and permitted stress over the speed; a panel for each limit, at most four."""
     groups: dict[bytes, list[int]] = {}
     for s in _largest(stress.vibratory, len(stress.shafts)):
         groups.setdefault(stress.continuous[s].tobytes(), []).append(s)

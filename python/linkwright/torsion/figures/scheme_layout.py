@@ -88,10 +88,7 @@ class _Edge(NamedTuple):
 def layout(
     discs: Sequence[str], parts: Sequence[Connection], lengths: Mapping[str, float], room: float
 ) -> Layout:
-    """Place the parts of a train.
-
-    Rows from 0 downwards, x from 0. `lengths`: [inch]; `room`: what a disc needs to either side [inch].
-    """
+    """Place the parts: rows downwards, x from 0; `lengths`, `room` of discs to either side [inch]."""
     return _RowSearch(discs, parts, lengths, room).run()
 
 

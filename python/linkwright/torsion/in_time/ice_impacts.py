@@ -96,10 +96,7 @@ def ice_torque(name: str, on: int, event: IceImpacts, start: IceStart) -> TrainT
 
 
 def pulses(event: IceImpacts, angle: Floats) -> Floats:
-    """All pulses with their ramps, one being the peak of a single pulse, (n,).
-
-    `angle`: (n,) of the propeller from the first impact on [rad], rising.
-    """
+    """Pulses over the peak of one, with ramps, (n,); `angle`: (n,) from the first impact on, rising [rad]."""
     alpha, total = event.pulse.duration, np.zeros_like(angle)
     for begin in event.begins:
         first, last = np.searchsorted(angle, begin, "right"), np.searchsorted(angle, begin + alpha)
@@ -129,10 +126,7 @@ def within_limit(turns: int) -> int:
 
 
 def is_outrun(event: IceImpacts, start: IceStart, angle: Floats) -> bool:
-    """Whether the propeller turned so far that the table of its ice began again, in either sense.
-
-    `angle`: (n,) of the propeller after the first impact [rad].
-    """
+    """Whether the propeller turned beyond the table of its ice; `angle`: (n,) from the impact on [rad]."""
     period, since = 2 * np.pi * start.turns, angle - start.angle
     return bool(since.max() >= period or since.min() <= event.length - period)
 

@@ -61,10 +61,7 @@ _TURNS_MAX = 8
 
 
 def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
-    """A train ready for a manoeuvre. With all torques; its notes say what was assumed.
-
-    `ice`: where ice begins; other ice is left out.
-    """
+    """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
     place = {name: k for k, name in enumerate(expanded.discs)}

@@ -81,10 +81,7 @@ class PeakJudgement:
 
 
 def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
-    """Limits of a train against a manoeuvre.
-
-    Shafts, couplings, then gear stages; empty where nothing is limited.
-    """
+    """Limits of shafts, couplings and gear stages against a manoeuvre; empty without limits."""
     return (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
 
 

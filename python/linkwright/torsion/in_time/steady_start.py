@@ -181,10 +181,7 @@ _TORQUE_LEFT, _TWIST_ROUNDING = 1e-9, 1e-14
 
 
 def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
-    """Angles of the masses under mean torques, (masses,).
-
-    The first mass of a free train stays where it is [rad]. `angle`, `speed`: (masses,) [rad, rad/s].
-    """
+    """Angles of the masses under mean torques, (masses,) [rad]; the first mass of a free train stays."""
     is_free = not (train.tip < 0).any()
     # A train that is held does not turn: its torques are those at its angles.
     turns = 4 * np.pi * np.arange(_ANGLES) / _ANGLES if is_free else np.zeros(1)

@@ -308,11 +308,7 @@ def follow_train(
     method: Literal["auto", "explicit", "implicit"] = "auto",
     steps_max: int = 5_000_000,
 ) -> TorsionTransient:
-    """Follow any train in time.
-
-    `duration`: time that is followed [s]; `speed`, `angle`: () or (masses,) [rad/s, rad]; `settle`: [s];
-    `sample_time`: between samples [s].
-    """
+    """Follow any train; `duration`, `settle`, `sample_time` [s]; `speed`, `angle` () or (masses,)."""
     _require(duration, accuracy, sample_time, settle)
     _require_inertia(train)
     n = train.masses

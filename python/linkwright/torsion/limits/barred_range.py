@@ -194,10 +194,7 @@ def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
 
 
 def together(ranges: Iterable[BarredRange]) -> list[tuple[float, float]]:
-    """Barred speed ranges for all shafts, ranges that meet taken as one.
-
-    Lowest and highest of each, by speed [rad/s].
-    """
+    """Barred speed ranges of all shafts, merged where they meet: lowest and highest speed [rad/s]."""
     return joined_ranges(span.barred for span in ranges)
 
 

@@ -166,10 +166,7 @@ class Exceedance(NamedTuple):
 
 
 def exceedances(curves: Curves, speeds: Floats, values: Floats) -> list[Exceedance]:
-    """Ranges in which curves lie above 1.
-
-    By row, then by speed. `speeds`: (n,) [rad/s]; `values`: (rows, n).
-    """
+    """Ranges in which curves (rows, n) over speeds (n,) [rad/s] lie above 1, by row and speed."""
     runs = [(row, *run) for row, above in enumerate(values > 1) for run in _runs(above)]
     last = len(speeds) - 1
     edges = [(row, n, n - 1) for row, n, _ in runs if n > 0]

@@ -110,10 +110,7 @@ class MisfireVerdict(Result):
 def misfire_verdict(
     machine: Machine, seen: Survey, barred: Sequence[BarredRange] = ()
 ) -> MisfireVerdict | None:
-    """Limits with the worst single misfire.
-
-    None without an engine whose cylinders all fire, or without anything to judge. `barred`: in normal firing.
-    """
+    """Limits with the worst misfire; None without a wholly firing engine or limits."""
     normal = [criterion for criterion in seen.criteria if _counts(criterion)]
     engines = () if machine.train is None else machine.train.installed
     is_asked = bool(normal) or any(one.engine.fatigue for one in engines)

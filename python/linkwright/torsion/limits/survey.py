@@ -39,10 +39,7 @@ class Resonance(NamedTuple):
 
 
 def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
-    """Resonances between the lowest and the highest speed, by speed.
-
-    Without damping, of all orders, however small their torque.
-    """
+    """Undamped resonances of all orders between the lowest and the highest speed, by speed."""
     speeds = np.sort(at.torques.speeds)
     omega = _frequencies(at)[np.argsort(at.torques.speeds)]
     crossings = []
@@ -250,18 +247,12 @@ class Survey:
         return exceedances(self._ratios, self.speeds, ratios)
 
     def criteria_at(self, speeds: Floats) -> list[Criterion]:
-        """All limits at any speeds between the lowest and the highest.
-
-        In the same order at any speeds. `speeds`: (n,) [rad/s].
-        """
+        """All limits, in one order, at `speeds` (n,) [rad/s] between the lowest and the highest."""
         parts = [criteria(self.machine, at, torsion_response(at), self.service) for at in self.parts(speeds)]
         return in_a_row(parts)
 
     def carried_at(self, speeds: Floats) -> TorsionResponse:
-        """What the shafts carry at some speeds between the lowest and the highest.
-
-        At these, which are few. `speeds`: (n,) [rad/s].
-        """
+        """What the shafts carry at a few `speeds` (n,) [rad/s] between the lowest and the highest."""
         return torsion_response(between(self.machine, self.at, speeds))
 
     def vibratory_at(self, speeds: Floats) -> Floats:
@@ -378,10 +369,7 @@ class TorquePeaks(Result):
 
 
 def torque_peaks(seen: Survey) -> TorquePeaks:
-    """Largest vibratory torques over the speeds of a run and all resonances between them.
-
-    The highest of all speeds and resonances, sought between its neighbours as well.
-    """
+    """Largest vibratory torques over a run and the resonances between its speeds, with their peaks."""
     resonant = seen.resonant_speeds
     every, vibratory = seen.at.torques.speeds, seen.found.shaft_torque_vibratory
     if len(resonant):

@@ -124,11 +124,7 @@ class Verdict(Result):
 
 
 def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
-    """Check of a train against its limits.
-
-    Empty where nothing is limited and no teeth mesh. Looked at are the speeds of the run and all resonances
-    between them.
-    """
+    """Check of a train against its limits over the run and its resonances; empty without limits or mesh."""
     seen = survey(machine) if seen is None else seen
     barred = surveyed_ranges(seen)
     peaks = np.array([exceedance.peak for exceedance in seen.exceeded])

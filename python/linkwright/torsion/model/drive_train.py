@@ -65,10 +65,7 @@ def drive_train(drive: Drive, inertia: float) -> Train:
 
 
 def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
-    """Inertia of each station at its own speed.
-
-    Together, at the crank, those of the rigid drive and the mechanism [kg m²]. `inertia`: [kg m²].
-    """
+    """Inertias of the stations at their own speeds, together those of drive and mechanism [kg m²]."""
     share = _share_of_wheel(drive)
     J = {
         MOTOR: drive.motor.inertia if drive.motor else 0.0,

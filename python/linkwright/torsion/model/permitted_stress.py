@@ -91,10 +91,7 @@ _MM = 1e-3
 
 
 def counted_strength(tensile_strength: float, steel: Steel, design: Design) -> float:
-    """Tensile strength as far as it counts.
-
-    At most 600 MPa; of alloy steel outside propeller shafts at most 800 MPa [Pa]. `tensile_strength`: [Pa].
-    """
+    """Strength that counts [Pa]: at most 600 MPa, of alloy steel outside propeller shafts 800 MPa."""
     highest = _STRENGTH_MAX_PROPELLER if design in _PROPELLER else _STRENGTH_MAX[steel]
     return min(tensile_strength, highest)
 
@@ -105,10 +102,7 @@ def size_factor(diameter: float) -> float:
 
 
 def speed_factor(speed_ratio: Floats) -> Floats:
-    """C_λ, (n,).
-
-    NaN above λ = 1.05, where nothing is said. `speed_ratio`: (n,) λ, speed over that at rated power.
-    """
+    """C_λ, (n,), at λ (n,), speed over rated speed; NaN above λ = 1.05, where nothing is said."""
     ratio = np.asarray(speed_ratio, float)
     below = np.where(ratio < 0.9, 3 - 2 * ratio**2, 1.38)
     return np.where(ratio <= RATIO_MAX, below, np.nan)
@@ -126,10 +120,7 @@ def continuous_stress(strength: float, diameter: float, design_factor: float, sp
 
 
 def transient_stress(continuous: Floats, design_factor: float) -> Floats:
-    """τ_T, permitted while barred speed ranges are passed, (n,) [Pa].
-
-    `continuous`: (n,) τ_C [Pa]; `design_factor`: C_K.
-    """
+    """τ_T, permitted while barred ranges are passed, (n,) [Pa]; τ_C (n,) [Pa]; C_K."""
     stress: Floats = 1.7 * continuous / np.sqrt(design_factor)
     return stress
 
@@ -177,10 +168,7 @@ def crank_stress(speed_ratio: Floats, firing: Firing, strength: float | None = N
 def crank_transient_stress(
     speed_ratio: Floats, firing: Firing, yield_strength: float | None = None
 ) -> Floats:
-    """τ₂, in transient passage, (n,).
-
-    [Pa]; NaN above λ = 0.8, where none is permitted. `speed_ratio`: (n,) λ; `yield_strength`: σ_Y [Pa].
-    """
+    """τ₂, in transient passage, (n,) [Pa]; NaN above λ = 0.8, where none is permitted; σ_Y [Pa]."""
     ratio = np.asarray(speed_ratio, float)
     factor = 1.0 if yield_strength is None else max(yield_strength / _YIELD, 1.0)
     stress = 2 * (45 - _FALL[firing] * ratio**2) * factor * _MPA

@@ -56,10 +56,7 @@ def polar_moment(diameter: float, bore: float = 0.0) -> float:
 def cone_integral(
     length: float, diameters: tuple[float, float], bores: tuple[float, float] = (0.0, 0.0)
 ) -> float:
-    """The integral of dx/I_p over a cone, solid or hollow [1/m³].
-
-    `length`: [m]; `diameters`, `bores`: [m].
-    """
+    """∫ dx/I_p over a cone, solid or hollow [1/m³]; length, diameters and bores [m]."""
     if bores == (0.0, 0.0):
         a, b = diameters
         return 32 * length / (3 * math.pi) * (a * a + a * b + b * b) / (a * b) ** 3
@@ -69,10 +66,7 @@ def cone_integral(
 def cone_place(
     share: float, diameters: tuple[float, float], bores: tuple[float, float] = (0.0, 0.0)
 ) -> float:
-    """Share of the length of a cone over which a share of its twist lies.
-
-    `diameters`, `bores`: outside and inside, at its two ends [m].
-    """
+    """Share of a cone's length over which a share of its twist lies; diameters, bores at its ends [m]."""
     full = cone_integral(1.0, diameters, bores)
 
     # The twist grows steadily along the cone.
@@ -120,10 +114,7 @@ def _over_share(
 
 
 def step_length(thin: float, thick: float, fillet: float = 0.0, bore: float = 0.0) -> float:
-    """Length of the thinner side that a step adds [m].
-
-    `thin`, `thick`: diameters on its two sides [m]; `fillet`: [m]; `bore`: [m].
-    """
+    """Length that a step adds to its thinner side [m]; diameters, fillet and bore [m]."""
     x = thin / thick
     w = 1 - x**3
     sharp: float = 0.16 * w**1.77 * (1 - (bore / thin) ** 4) ** (0.85 * w)

@@ -224,10 +224,7 @@ class ShaftLimit(CheckedDescription):
         return 1.0 / (section.section_modulus * size)
 
     def section(self, sections: Sequence[ShaftSection] | None) -> StressedSection | None:
-        """Where the stress counts: as given, else where it comes closest to what is permitted.
-
-        None if no section is known.
-        """
+        """Where the stress counts: given, else nearest to its limit; None if no section is known."""
         if self.section_modulus is not None:
             return StressedSection(self.section_modulus, None)
         if self.diameter is not None:

@@ -38,10 +38,7 @@ def _step(first: ShaftSection, second: ShaftSection) -> tuple[float, float]:
 
 
 def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
-    """Twist per torque of sections in a row, times the shear modulus; steps count with the thinner ones.
-
-    Of each section [1/m³].
-    """
+    """Twist per torque of sections in a row times G, steps with the thinner ones [1/m³]."""
     e = [section.flexibility for section in sections]
     for n, pair in enumerate(pairwise(sections)):
         before, after = _step(*pair)
@@ -51,10 +48,7 @@ def flexibilities(sections: Sequence[ShaftSection]) -> tuple[float, ...]:
 
 
 def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails]:
-    """Fillets that lie at no step between cylinders or tapers, or do not fit into theirs.
-
-    Each with the number of its section and the key.
-    """
+    """Fillets at no step of cylinders or tapers, or too large, by number of the section and key."""
     for n, section in enumerate(sections):
         if section.fillet is None or section.kind == "flange":
             continue

@@ -216,10 +216,7 @@ class ShaftSection(CheckedDescription):
         return modulus * left
 
     def inertia(self, density: float) -> float:
-        """Moment of inertia about the axis [kg m²]; of a flange out to its circle of bolts.
-
-        `density`: [kg/m³].
-        """
+        """Inertia about the axis [kg m²], of a flange out to its circle of bolts; `density` [kg/m³]."""
         (a, b), (p, q) = self.diameters, self.bores
         if self.kind == "spline":
             # The teeth fill about half of the ring that they stand in.

@@ -245,10 +245,7 @@ class TrainTransient(CheckedDescription):
 
 
 def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitErrorDetails]:
-    """Faults between a manoeuvre and its train: names that mean nothing.
-
-    Each with its keys from the machine down.
-    """
+    """Names of a manoeuvre that its train does not have, each with its keys from the machine down."""
     manoeuvre = train.transient
     if manoeuvre is None:
         return

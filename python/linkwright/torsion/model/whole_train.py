@@ -23,10 +23,7 @@ from linkwright.torsion.model.train_torques import InstalledEngine
 
 
 def whole_train(train: Train) -> Train:
-    """A train of discs, shafts and gears alone.
-
-    Of the same vibration: discs, then rings of dampers; shafts, then couplings, then what holds the rings.
-    """
+    """A train of discs, then rings of dampers; shafts, then couplings, then what holds the rings."""
     heavy = any(shaft.is_heavy for shaft in train.shafts.values())
     if not (train.couplings or train.dampers or train.installed or heavy):
         return train

@@ -339,10 +339,7 @@ def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
 
 
 def own_stiffness(referred: ReferredTrain) -> Floats:
-    """Stiffness of each shaft at its own speed, of a mesh at its first disc, (shafts,).
-
-    As in the file [N m/rad].
-    """
+    """Stiffness of each shaft at its own speed, of a mesh at its first disc, (shafts,) [N m/rad]."""
     own: Floats = referred.stiffness / referred.lead**2
     return own
 

@@ -78,10 +78,7 @@ class PhaseVectors(Result):
 def phase_vectors(
     free: FreeVibration, diagram: CampbellDiagram, at: ExcitedTrain
 ) -> tuple[PhaseVectors, ...]:
-    """Phase vectors of all critical speeds at which an order excites more than one disc, by speed.
-
-    `at`: at the critical speeds of the diagram, in its order.
-    """
+    """Phase vectors of critical speeds, `at` which an order excites more than one disc, by speed."""
     stars = []
     for n, critical in enumerate(diagram.critical):
         same = np.abs(at.torques.orders - critical.order) <= _EQUAL * critical.order

@@ -64,10 +64,7 @@ def worst_place(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> Wors
 
 
 def station_torques(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> StationTorques:
-    """Torques along a rod at each speed.
-
-    `q`: (orders, masses, speeds) [rad]; `flow`: (orders, speeds) of its spring [N m]; `n`: of the rods.
-    """
+    """Torques along a rod; `q`: (orders, masses, speeds) [rad]; `flow`: (orders, speeds) [N m]."""
     assert at.distributed is not None
     referred, rod = at.referred, at.referred.rods[n]
     omega = at.torques.orders[:, None] * at.torques.speeds

@@ -143,10 +143,7 @@ def responses(at: ExcitedTrain) -> Complexes:
 # At a resonance without damping amplitudes are not finite, nor are torques.
 @np.errstate(invalid="ignore", over="ignore")
 def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
-    """What the shafts carry where the masses swing by some amplitudes.
-
-    `q`: (orders, masses, speeds) as of `responses` [rad].
-    """
+    """What the shafts carry where the masses swing by `q` (orders, masses, speeds) [rad]."""
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
     omega = orders[:, None, None] * speeds
     lead = referred.lead[:, None]
@@ -185,10 +182,7 @@ def _losses(at: ExcitedTrain) -> Floats:
 
 
 def spring_stiffness(at: ExcitedTrain, losses: Floats | None = None) -> Complexes:
-    """Torque per twist of each shaft, (orders, shafts, speeds); of a rod of the spring that it is there.
-
-    `losses`: its imaginary part, where it is known [N m/rad].
-    """
+    """Torque per twist, (orders, shafts, speeds) [N m/rad]; `losses`: its imaginary part, if known."""
     if at.distributed is not None:
         return at.distributed.stiffness
     return _complex(at.operating.stiffness, _losses(at) if losses is None else losses)
@@ -196,10 +190,7 @@ def spring_stiffness(at: ExcitedTrain, losses: Floats | None = None) -> Complexe
 
 @np.errstate(invalid="ignore", over="ignore")
 def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
-    """Torque of each shaft, referred to the first disc, (orders, shafts, speeds).
-
-    Of a shaft with distributed inertia that of the spring which it is between its ends.
-    """
+    """Torque of each shaft at the first disc, (orders, shafts, speeds); of a rod that of its spring."""
     omega = np.outer(at.torques.orders, at.torques.speeds)
     outside = at.referred_harmonics
     forces, size = outside.copy(), np.abs(outside)

@@ -257,10 +257,7 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
 def passed_on(
     discs: tuple[str, ...], gears: dict[str, TrainGear], rigid: list[str], net: Complexes | Floats
 ) -> Complexes:
-    """What rigid stages pass on from what is left over at each disc; NaN in loops.
-
-    (…, rigid, n) from (…, discs, n), referred to the first disc [N m].
-    """
+    """Torques of rigid stages (…, rigid, n) by those left at discs (…, discs, n) [N m]; NaN in loops."""
     joins = np.zeros((len(discs), len(rigid)))
     for g, name in enumerate(rigid):
         first, second = gears[name].between

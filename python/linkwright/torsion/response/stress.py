@@ -179,10 +179,7 @@ def _pieces(
 
 
 def stressed(shafts: dict[str, Shaft]) -> dict[str, tuple[StressedSection, ShaftLimit]]:
-    """Where the stress of each shaft counts, and what it bears, for shafts of which a section is known.
-
-    Section and limit; a limit without entries where the file has none.
-    """
+    """Section and limit of each shaft with a known section; a limit without entries if none is given."""
     limits = {name: shaft.limit or ShaftLimit() for name, shaft in shafts.items()}
     sections = {name: limits[name].section(shaft.sections) for name, shaft in shafts.items()}
     return {name: (section, limits[name]) for name, section in sections.items() if section is not None}

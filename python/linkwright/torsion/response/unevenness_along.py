@@ -109,10 +109,7 @@ class UnevennessAlong(Result):
 def unevenness_along(
     at: ExcitedTrain, forced: ForcedVibration, firing: Mapping[str, float], turns: int, speed: float
 ) -> UnevennessAlong:
-    """N at every disc.
-
-    Of the orders that repeat with the cycle; others have no place in it. `firing`: [rad]; `speed`: [rad/s].
-    """
+    """N at every disc, of orders that repeat with the cycle; `firing`: [rad]; `speed`: [rad/s]."""
     names, angles = _fired(firing, turns)
     column = int(np.argmin(np.abs(forced.speeds - speed)))
     waves = forced.orders * turns

@@ -87,10 +87,7 @@ def _passage(one: BarredRange) -> str:
 
 
 def critical_table(responses: Sequence[CriticalResponse]) -> Table:
-    """The critical order alone and all orders in phase where it peaks, with what is permitted.
-
-    At the critical speed itself where the order has no peak of its own.
-    """
+    """The critical order alone and all in phase at its peak, or at the critical speed without one."""
     heads = ("critical speed", "", "{rpm}", f"peaks at {per_minute()}")
     return part_table(
         "synthesis",

@@ -188,10 +188,7 @@ def _discs(study: TorsionStudy, forced: ForcedVibration) -> Table:
 
 
 def service_place(study: TorsionStudy, forced: ForcedVibration) -> int:
-    """Where tables and figures look at the train in service.
-
-    Place of the speed next to that of service; of a driveline the middle of its speeds.
-    """
+    """Index of the speed next to that of service; of a driveline the middle of its speeds."""
     run = study.machine.train.run if study.machine.train is not None else None
     if run is None:
         return len(forced.speeds) // 2

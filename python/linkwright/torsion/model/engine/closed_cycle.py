@@ -98,10 +98,7 @@ def burnable(mass_times_constant: Floats) -> Floats:
 
 
 def heat_ratio(temperature: Floats, used: Floats) -> Floats:
-    """Ratio of the specific heats γ, shape (n, m).
-
-    γ = c_p/c_v. `temperature`: (n, m) [K]; `used`: (n, m) share b of the oxygen that is used, 0 to 1.
-    """
+    """γ = c_p/c_v, (n, m), at temperatures (n, m) [K] and shares b of the oxygen used (n, m)."""
     T = np.clip(temperature, _COLD, _HOT)
     hot = T > _MIDDLE
     air = np.where(hot, _polynomial(_AIR[1], T), _polynomial(_AIR[0], T))

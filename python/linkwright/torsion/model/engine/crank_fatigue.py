@@ -108,10 +108,7 @@ class CrankFatigue(CheckedDescription):
         )
 
     def strength(self, diameter: float, radius: float) -> float:
-        """σ_DW, fatigue strength for alternating stress [Pa].
-
-        `diameter`: of pin or journal [m]; `radius`: R_X of the fillet, or half the diameter of the bore [m].
-        """
+        """σ_DW, fatigue strength [Pa]; pin or journal diameter [m]; R_X of the fillet or bore radius [m]."""
         tensile = self.tensile_strength / _MPA
         size = 0.264 + 1.073 * (diameter / _MM) ** -0.2 + (785 - tensile) / 4900
         notch = 196 / tensile * math.sqrt(1 / (radius / _MM))

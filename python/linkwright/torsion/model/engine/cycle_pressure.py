@@ -44,10 +44,7 @@ class CycleMesh:
     half_width: Floats  # (m/6,) of the panels [rad]
 
     def integrals(self, values: Floats) -> Floats:
-        """Integrals from the start to every angle, (n, m).
-
-        Integrals of the polynomials through the points of each panel. `values`: (n, m) rows of values.
-        """
+        """Integrals from the start to every angle, (n, m), of the panel polynomials through `values`."""
         _, w, S = _gauss()
         panels = values.reshape(*values.shape[:-1], -1, _POINTS) * self.half_width[:, None]
         panel = panels @ w
@@ -67,20 +64,14 @@ def _gauss() -> tuple[Floats, Floats, Floats]:
 
 
 def mesh(edges: Floats) -> CycleMesh:
-    """Gauss points between given edges.
-
-    Six points a panel. `edges`: (k,) ends of panels, increasing [rad].
-    """
+    """Six Gauss points in each panel between increasing `edges` (k,) [rad]."""
     x, w, _ = _gauss()
     half, middle = np.diff(edges) / 2, (edges[1:] + edges[:-1]) / 2
     return CycleMesh((middle[:, None] + half[:, None] * x).ravel(), np.outer(half, w).ravel(), half)
 
 
 def closed_edges(start: float, end: float, releases: list[tuple[float, float]]) -> Floats:
-    """Ends of panels between closing and opening, (k,).
-
-    Increasing [rad]. `start`, `end`: crank angles of closing and of opening [rad]; `releases`: [rad].
-    """
+    """Ends of panels between closing and opening, (k,), increasing [rad]; `releases` [rad]."""
     marks = [_even(start, end, _CLOSED)]
     for begin, duration in releases:
         n = 2 * math.ceil(duration / _CLOSED + _BESIDE)
@@ -111,10 +102,7 @@ def _apart(edges: Floats, corners: set[float]) -> Floats:
 
 
 def periodic_cubic(knots: Floats, values: Floats, period: float, at: Floats) -> Floats:
-    """Value of the monotone cubic through points of one period, (m,).
-
-    Values there. `knots`: (k,); `values`: (k,) value at each; `at`: (m,) arguments of any size.
-    """
+    """Value of the monotone periodic cubic through knots (k,) at arguments (m,) of any size."""
     x, y = _one_period(knots, values, period)
     h = np.diff(x)
     s = np.diff(y) / h

@@ -77,10 +77,7 @@ class Cylinder:
         return c[: kept[-1] + 1]
 
     def motion(self, crank_angle: Floats) -> tuple[Floats, Floats]:
-        """Position of the piston [m] and its derivative by the crank angle [m/rad].
-
-        x and x′, shape (m,) each. `crank_angle`: (m,) crank angles φ [rad].
-        """
+        """x [m] and x′ [m/rad] of the piston, (m,) each, at crank angles φ (m,) [rad]."""
         c = self._series
         turn = np.exp(1j * crank_angle)
         # Horner; a product of matrices so small is shared out to threads, which wait longer than they work.
@@ -190,10 +187,7 @@ class GasTorque:
         return self.motored + factor * (self.firing - self.motored)
 
     def waveform(self, crank_angle: Floats, factor: float = 1.0) -> Floats:
-        """Torque over the crank angle, summed from the harmonics, (n, m).
-
-        M [N m]. `crank_angle`: (m,) φ [rad].
-        """
+        """Torque M [N m], (n, m), summed from the harmonics at crank angles φ (m,) [rad]."""
         turns = np.exp(1j * self.orders[:, None] * np.asarray(crank_angle))
         return np.asarray((self.of(factor) @ turns).real)
 

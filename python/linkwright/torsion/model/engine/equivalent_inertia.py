@@ -157,10 +157,7 @@ def published_piston_speed(
 
 
 def articulated_inertia(moment_small_end: float, mass: float, mass_articulated: float) -> float:
-    """J_a of an articulated rod from that of its master rod, (12).
-
-    J_a = J_w m_a/m [kg m²]. `moment_small_end`: [kg m²]; `mass`, `mass_articulated`: [kg].
-    """
+    """J_a = J_w m_a/m of an articulated rod from that of its master rod, (12) [kg m²]; masses [kg]."""
     return moment_small_end * mass_articulated / mass
 
 
@@ -171,11 +168,7 @@ def disc_by_two_masses(
     own_inertia: float = 0.0,
     articulated_inertia: float = 0.0,
 ) -> float:
-    """The disc of a throw with one rod on its pin, (7).
-
-    J [kg m²]. `crank_radius`, `rod_length`: r, l [m]; `masses`: [kg]; `own_inertia`, `articulated_inertia`:
-    [kg m²].
-    """
+    """J of the disc of a throw with one rod, (7) [kg m²]; r, l [m]; masses [kg]; inertias [kg m²]."""
     m_1, m_2, m_3 = masses
     second = 1.0 + (crank_radius / rod_length) ** 2 / 4.0
     return own_inertia + crank_radius**2 * (m_1 + 0.5 * (m_2 + m_3) * second) + articulated_inertia

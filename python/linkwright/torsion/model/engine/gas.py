@@ -36,10 +36,7 @@ class GasLoad(CheckedDescription):
 
     @abstractmethod
     def mean_effective(self, speeds: Floats, rated: float) -> Floats:
-        """Mean effective pressure at each speed, (n,).
-
-        p_i [Pa]. `speeds`: (n,) [rad/s]; `rated`: that of the gas as described [Pa].
-        """
+        """Mean effective pressure p_i [Pa], (n,), at `speeds` (n,) [rad/s]; `rated`: as described [Pa]."""
 
     @property
     @abstractmethod
@@ -52,10 +49,7 @@ class GasLoad(CheckedDescription):
         raise NotImplementedError
 
     def charge(self, speeds: Floats) -> Floats | None:
-        """Charge pressure at each speed, shape (n,) [Pa]; None where the map does not say.
-
-        `speeds`: (n,) [rad/s].
-        """
+        """Charge pressure [Pa], (n,), at `speeds` (n,) [rad/s]; None where the map does not say."""
         return None
 
     def kinks(self) -> tuple[float, ...]:
@@ -188,10 +182,7 @@ def below(wrong: InitErrorDetails, *place: str | int) -> InitErrorDetails:
 
 
 def check_reach(wanted: Floats, motored: Floats, speeds: Floats) -> None:
-    """Refuse mean effective pressures below that of the motored cylinder.
-
-    `wanted`, `motored`: (n,) mean effective pressures [Pa]; `speeds`: (n,) [rad/s].
-    """
+    """Refuse mean effective pressures (n,) [Pa] below those of the motored cylinder; speeds (n,) [rad/s]."""
     short = np.flatnonzero(wanted < motored - 1e-9 * np.abs(motored))
     if len(short):
         i = int(short[0])

@@ -233,10 +233,7 @@ class Diagram(CheckedDescription):
         yield from wrong or diagram_faults(self.angle, self.pressure)
 
     def over(self, angle: Floats, cycle: float) -> Floats:
-        """Pressure at any angles of the cycle, (m,).
-
-        Absolute pressure [Pa]. `angle`: (m,) [rad]; `cycle`: crank angle of a working cycle [rad].
-        """
+        """Absolute pressure [Pa], (m,), at angles (m,) [rad] of a working cycle of `cycle` [rad]."""
         return periodic_cubic(np.asarray(self.angle), np.asarray(self.pressure), cycle, angle)
 
 

@@ -68,10 +68,7 @@ def pendulum_length(period: float, gravity: float = FREE_FALL) -> float:
 
 
 def inertia_about_centre(mass: float, edge: float, length: float) -> float:
-    """Moment of inertia about the centre of mass, (14).
-
-    J_S = m b (A − b) [kg m²]; negative if no body swings like that.
-    """
+    """J_S = m b (A − b), (14) [kg m²]; negative if no body swings like that."""
     return mass * edge * (length - edge)
 
 
@@ -92,10 +89,7 @@ def two_point_centre(length_big_end: float, length_small_end: float, distance: f
 
 
 def printed_inertia_about_edge(weight: float, edge: float, swings_per_minute: float) -> float:
-    """The paper's (13), with 358 000 [kgf cm s²].
-
-    `weight`: G [kgf]; `edge`: b, from the centre of mass to the edge [cm].
-    """
+    """The paper's (13), with 358 000 [kgf cm s²]; G [kgf]; b from the centre of mass to the edge [cm]."""
     return weight / PRINTED_GRAVITY * edge * PRINTED_LENGTH / swings_per_minute**2
 
 

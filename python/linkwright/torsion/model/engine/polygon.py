@@ -106,10 +106,7 @@ def first_crossing(corners: Points) -> tuple[int, int] | None:
 
 
 def holds(corners: Points, point: Point) -> bool:
-    """Whether a point lies inside a polygon that does not cross itself.
-
-    `corners`: in order [m]; `point`: along and across [m].
-    """
+    """Whether a point [m] lies inside a polygon [m] that does not cross itself."""
     inside = False
     for a, b in sides(corners):
         if (a[1] > point[1]) != (b[1] > point[1]):

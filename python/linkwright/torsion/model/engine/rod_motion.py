@@ -85,19 +85,13 @@ class RodMotion:
 
 
 def crank_pin(crank_radius: float, crank_angle: ArrayLike) -> PinMotion:
-    """Motion of the crank pin.
-
-    In the shape of the crank angles. `crank_radius`: r [m]; `crank_angle`: [rad].
-    """
+    """Motion of the crank pin at crank angles [rad], in their shape; r [m]."""
     p = in_arrays(crank_radius) * np.exp(1j * np.asarray(crank_angle, dtype=np.float64))
     return PinMotion(p, 1j * p, -p)
 
 
 def articulated_pin(master: RodMotion, pin_radius: float, pin_angle: float) -> PinMotion:
-    """Motion of an articulated pin on a master rod.
-
-    The pin. `pin_radius`: ρ, from the axis of its big end to the pin [m]; `pin_angle`: [rad].
-    """
+    """Motion of an articulated pin on a master rod; ρ from the axis of the big end [m]; angle [rad]."""
     rho, gamma = in_arrays(pin_radius), in_arrays(pin_angle)
     return master.point(rho * np.cos(gamma), rho * np.sin(gamma))
 

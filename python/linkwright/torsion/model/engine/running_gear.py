@@ -112,10 +112,7 @@ class ThrowReduction:
     weight_torque: Floats  # M_g of all weights on the crank, positive where they drive [N m]
 
     def inertia_torque(self, speed: float) -> Floats:
-        """Torque of the inertia on the crank at constant speed, positive where it drives, as ``crank_angle``.
-
-        −½J′ω² [N m]. `speed`: ω of the crank [rad/s].
-        """
+        """−½J′ω² at constant ω [rad/s], positive where it drives the crank [N m], as ``crank_angle``."""
         return -0.5 * speed**2 * self.inertia_reduced_d1
 
 

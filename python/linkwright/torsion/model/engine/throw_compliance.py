@@ -236,10 +236,7 @@ def compliance_formula(name: str) -> ComplianceFormula:
 
 
 def compliance(throw: CrankThrow, formula: str = DEFAULT_FORMULA) -> float:
-    """Twist of a throw per torque, from the middle of a journal to the middle of the next [rad/(N m)].
-
-    Greater than 0.
-    """
+    """Twist per torque from the middle of a journal to that of the next [rad/(N m)], above 0."""
     chosen = compliance_formula(formula)
     e = chosen.compliance(throw)
     if e <= 0:
@@ -251,18 +248,12 @@ def compliance(throw: CrankThrow, formula: str = DEFAULT_FORMULA) -> float:
 
 
 def compliances(throw: CrankThrow) -> dict[str, float]:
-    """Twist of a throw per torque by every formula, for their spread [rad/(N m)].
-
-    By name of the formula; a formula that gives nothing positive is left out.
-    """
+    """Twist of a throw per torque [rad/(N m)] by name of the formula, those above 0."""
     by_formula = {name: formula.compliance(throw) for name, formula in COMPLIANCE_FORMULAS.items()}
     return {name: value for name, value in by_formula.items() if value > 0}
 
 
 def compliance_remarks(throw: CrankThrow) -> dict[str, str]:
-    """What is out of the range of a formula, in words.
-
-    By name of the formula; without those that have nothing to remark.
-    """
+    """What is out of the range of a formula, in words by its name."""
     remarks = ((name, formula.remark(throw)) for name, formula in COMPLIANCE_FORMULAS.items())
     return {name: text for name, text in remarks if text}

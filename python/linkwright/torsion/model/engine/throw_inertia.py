@@ -71,10 +71,7 @@ class ThrowInertia:
 
 
 def throw_inertia(throw: CrankThrow) -> ThrowInertia:
-    """Mass, static moment and inertia of what turns with a throw.
-
-    Exact for the shapes as described; nothing is known of fillets and chamfers.
-    """
+    """Mass, static moment and inertia of a throw, exact for its shapes, without fillets and chamfers."""
     parts = tuple(_parts(throw))
     mass, inertia = total(part.mass for part in parts), total(part.inertia for part in parts)
     if mass <= 0 or inertia <= 0:
@@ -152,10 +149,7 @@ def _sector(weight: Counterweight, density: float) -> tuple[float, float, float]
 
 
 def published_inertia(throw: CrankThrow) -> float:
-    """Inertia by the published formula (16): disc webs, drillings parallel to the shaft [kg m²].
-
-    About the axis of the shaft.
-    """
+    """Inertia about the shaft by the published (16), disc webs, drillings parallel to the shaft [kg m²]."""
     web, pin, journal, R = throw.web, throw.pin, throw.journal, throw.radius
     if web.outline != "disc":
         raise InputError(

@@ -75,17 +75,11 @@ class Timing:
         return (self.blown_down, self.intake_opens, self.charged)
 
     def blowdown(self, angle: Floats) -> Floats:
-        """Share b of the pressure at opening that is left, shape (m,).
-
-        `angle`: (m,) crank angles while the cylinder is open [rad].
-        """
+        """Share b of the pressure at opening that is left at crank angles (m,) while open [rad]."""
         return 1.0 - _rise(angle, self.opens, self.blown_down)
 
     def charging(self, angle: Floats) -> Floats:
-        """Share s of the charge in the pressure, shape (m,).
-
-        `angle`: (m,) crank angles while the cylinder is open [rad].
-        """
+        """Share s of the charge in the pressure at crank angles (m,) while open [rad]."""
         return _rise(angle, self.intake_opens, self.charged)
 
 
