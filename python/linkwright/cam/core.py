@@ -98,10 +98,7 @@ class CamKernel:
         return Shape(shape.angle, shape.piece, shape.rows, greatest, least, passes)
 
     def rows(self, angle: ArrayLike, *, before: bool = False) -> dict[str, Floats]:
-        """All rows at cam angles from the start of the programme; at a joint after it, or ``before``.
-
-        With derivatives where dimensions or angles have some.
-        """
+        """Rows at angles of the programme; at a joint those after it, or ``before``."""
         rows = self.core.rows(self.size, _floats(primal(angle)), before)
         return rows if self._variables(angle) is None else self._along(rows, angle, before)
 
@@ -126,10 +123,7 @@ class CamKernel:
         return self.core.curve(self.size, _floats(angle), before, away)
 
     def search(self, sizes: Sizes, lift: ArrayLike, per_turn: int) -> _core.CamSearch:
-        """Largest tan γ, minimum soundness, maximum and minimum bend of many cams.
-
-        ``sizes`` and ``lift``, the factor on it, are a number or one for every cam each.
-        """
+        """Largest tan γ, minimum soundness, bends of many cams; ``lift``: factor on it, one or one a cam."""
         columns = {name: _floats(column) for name, column in sizes._asdict().items()}
         columns["lift"] = _floats(lift)
         return self.core.search(**columns, n=max(map(len, columns.values())), per_turn=per_turn)

@@ -36,10 +36,7 @@ _FACE = 0.3
 
 
 def cam_parts(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
-    """The cams and what touches them: parts of kinds ``cam`` and ``roller`` or ``face``.
-
-    `series`: number of the colour of each element.
-    """
+    """Drawing parts of cams and followers; `series`: number of the colour of each element."""
     for name, cam in machine.mechanism.cams.items():
         touching = _contacts(machine, name, cam)
         for k, contact in enumerate(touching):
@@ -50,10 +47,7 @@ def cam_parts(machine: Machine, series: dict[str, int]) -> Iterator[Scene]:
 
 
 def cam_headings(machine: Machine, angles: Floats) -> dict[str, Floats]:
-    """Angles of the cams at crank angles.
-
-    ``angles`` (n,): crank angles [rad] → by the name of the cam's heading [rad], (n,).
-    """
+    """Angles of the cams at crank angles (n,), by the name of the cam's heading [rad]."""
     sense = {"same": 1.0, "opposite": -1.0}
     return {
         heading(name): _direction(machine, cam) + sense[cam.rotation] * (angles - cam.phase)

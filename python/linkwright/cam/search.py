@@ -88,10 +88,7 @@ class Cams(Result):
 
     @public
     def smallest(self, keeps: Bools, count: int = 1) -> Indices:
-        """The cams of minimum base radius among some, then of minimum pressure angle.
-
-        ``keeps`` (n,): which may be chosen.
-        """
+        """The cams of minimum base radius, then pressure angle, among those that ``keeps`` (n,) admits."""
         if keeps.shape != self.is_sound.shape:
             raise ShapeError(f"keeps: found {len(keeps)} truths for {len(self.is_sound)} cams")
         numbers = np.flatnonzero(keeps)

@@ -57,10 +57,7 @@ class SideChange:
 
 
 def side_changes(course: CamCourse, force: Floats, mass: float, clearance: float) -> tuple[SideChange, ...]:
-    """Where the force along the way, (n,) [N or N m], changes its sign, in the order of the angles.
-
-    `mass`: m of the follower [kg or kg m²]; `clearance`: j [m or rad].
-    """
+    """Sign changes of the force (n,) [N or N m] by angle; `mass` [kg or kg m²]; `clearance` j [m or rad]."""
     # A force that is zero, as in a dwell without load, belongs to the flank that carried before.
     sign = np.sign(force)
     known = np.flatnonzero(sign)

@@ -212,10 +212,7 @@ def cam_course(
 
 
 def force_along(course: CamCourse, follower: FollowerLoad) -> Floats:
-    """F, (n,), that the follower needs along its way, friction left out [N or N m].
-
-    Raises `ShapeError` if the load has another length than the course.
-    """
+    """F, (n,), along the way without friction [N or N m]; `ShapeError` if the load has another length."""
     load = alike(cam_angle=course.cam_angle, load=follower.load)["load"]
     along: Floats = (
         follower.mass * course.lift_ddot

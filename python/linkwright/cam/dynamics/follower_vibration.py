@@ -128,19 +128,11 @@ class Train:
         return x, v * self.speed, a * self.speed**2
 
     def force(self, step: Indices, phi: Floats) -> Floats:
-        """Force of the train on the cam.
-
-        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → F [N],
-        (m,).
-        """
+        """Force on the cam F [N], (m,), at angles ``phi`` [rad] in steps ``step`` of the answer."""
         return self._force(self.departure.at(step, phi), step, phi, 0) + self.model.preload
 
     def force_slope(self, step: Indices, phi: Floats) -> Floats:
-        """Derivative of the force by the cam angle.
-
-        ``step`` (m,): step of the answer in which each angle lies; ``phi`` (m,): cam angles [rad] → dF/dθ
-        [N/rad], (m,).
-        """
+        """dF/dθ [N/rad], (m,), at cam angles ``phi`` [rad] in steps ``step`` of the answer."""
         return self._force(self.departure.at(step, phi), step, phi, 1)
 
     def _force(self, parts: Derivatives, step: Indices, phi: Floats, order: int) -> Floats:

@@ -66,10 +66,7 @@ def nodes_for(law: MotionLaw, turn: float) -> tuple[Floats, Floats, Floats, Indi
 
 
 def in_pieces(law: MotionLaw, pieces: Indices, x: Floats) -> Floats:
-    """Values of a law where the piece that counts is given.
-
-    ``pieces`` (n,): piece for each row of x; ``x`` (n,) or (n, k): where → the values, (n,) or (n, k).
-    """
+    """Values of a law on given ``pieces`` (n,), one for each row of ``x`` (n,) or (n, k)."""
     value = np.zeros_like(x)
     for i in np.unique(pieces):
         here = pieces == i
@@ -93,11 +90,7 @@ class Oscillation:
     weights: Floats
 
     def at(self, steps: Indices, x: Floats) -> tuple[Floats, Floats, Floats]:
-        """z, z′ and z″ inside given steps.
-
-        ``steps`` (m,): number of the step for each place; ``x`` (m,): places → z, z_d1, z_d2: the answer and
-        its derivatives, (m,).
-        """
+        """z, z′ and z″ at places ``x`` inside the steps of numbers ``steps``, (m,) each."""
         pieces = self.pieces[steps]
         length = x - self.starts[steps]
         inner = _integral(self.drive, self.pole, pieces, self.starts[steps], length, self.nodes, self.weights)
@@ -107,10 +100,7 @@ class Oscillation:
         return z, z_d1, in_pieces(self.drive, pieces, x) + 2 * self.pole.real * z_d1 - abs(self.pole) ** 2 * z
 
     def find(self, x: Floats) -> Indices:
-        """The steps in which places lie; at a break the one after it.
-
-        ``x`` (m,): places inside the law → numbers of the steps, (m,).
-        """
+        """Numbers of the steps in which places (m,) lie; at a break the one after it."""
         step = np.searchsorted(self.starts, x, side="right") - 1
         return np.asarray(np.clip(step, 0, len(self.pieces) - 1))
 
@@ -134,10 +124,7 @@ class Oscillation:
 
 
 def oscillation(drive: MotionLaw, pole: complex, kicks: Floats, *, periodic: bool) -> Oscillation:
-    """Answer of an oscillator that is at rest beforehand, or that moves periodically.
-
-    ``kicks`` (pieces + 1,): by how much z′ jumps at each break.
-    """
+    """Answer of an oscillator at rest before, or periodic; ``kicks`` (pieces + 1,): jumps of z′ at breaks."""
     starts, nodes, weights, pieces = nodes_for(drive, abs(pole) * drive.length)
     lengths = np.diff(starts)
     inner = _integral(drive, pole, pieces, starts[:-1], lengths, nodes, weights)

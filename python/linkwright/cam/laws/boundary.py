@@ -71,10 +71,7 @@ def half_law(law: MotionLaw) -> MotionLaw:
 
 
 def with_boundary(law: MotionLaw, task: Boundary) -> MotionLaw:
-    """A symmetric law made to meet boundary values.
-
-    ``task``: the boundary values. Accelerations that are None are those that come out.
-    """
+    """A symmetric law made to meet boundary values; accelerations that are None are free."""
     moved = law.scaled(task.lift)
     if moves(task.velocity_start) or moves(task.velocity_end):
         moved = _moved(law, task)
@@ -139,10 +136,7 @@ def by_conditions(
     continuity_end: int = 2,
     powers: Sequence[int] | None = None,
 ) -> MotionLaw:
-    """The polynomial that meets the boundary values.
-
-    ``task``: the boundary values; accelerations that are None are zero.
-    """
+    """The polynomial that meets the boundary values; accelerations that are None are zero."""
     start = (0.0, task.velocity_start, or_none(task.acceleration_start))
     end = (task.lift, task.velocity_end, or_none(task.acceleration_end))
     at_start = _conditions("continuity_start", start, continuity_start)

@@ -111,11 +111,7 @@ def limited_section(
 
 
 def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
-    """The law of a section that keeps limits.
-
-    ``lift``: size of the lift [m or rad], above zero; ``length``: of the section [rad]; at least
-    `Limits.shortest`.
-    """
+    """The law of a section within limits; ``lift`` > 0 [m or rad]; ``length`` ≥ `Limits.shortest` [rad]."""
     least = limits.shortest(lift)
     low, high = lift / length, limits.fastest(lift)
     if length > least * (1 + _SHORTEST):

@@ -282,11 +282,7 @@ class MotionLaw:
         return max(self.extremes(order)[::-1], key=lambda extreme: abs(extreme.value))
 
     def integral_of_square(self, order: int = 0) -> float:
-        """∫ (dⁿs/dxⁿ)² dx over the law, to rounding.
-
-        Gauss–Legendre with as many nodes a piece as integrate its polynomial exactly, and its harmonics to
-        rounding.
-        """
+        """∫ (dⁿs/dxⁿ)² dx over the law: Gauss–Legendre, exact for polynomials, to rounding for harmonics."""
         terms: list[float] = []
         for _, length, piece in self.derivative(order)._stretches():
             nodes = len(piece.polynomial) + 24 + int(2 * piece.waves)

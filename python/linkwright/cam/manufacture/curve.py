@@ -262,10 +262,7 @@ class Track:
         return np.concatenate(tau), np.concatenate(places)
 
     def nearest(self, places: Floats) -> tuple[Floats, Floats]:
-        """The nearest places of the curve.
-
-        ``places`` (n, 2): places [m] → τ [rad], and distances [m], (n,).
-        """
+        """τ [rad] of the nearest places of the curve to ``places`` (n, 2) [m], and distances [m], (n,)."""
         tau, samples = self.sampled
         blocks = np.array_split(places, max(1, len(places) // _BLOCK))
         closest = [((block[:, None] - samples) ** 2).sum(axis=-1).argmin(axis=1) for block in blocks]

@@ -79,11 +79,7 @@ class Sides:
         return np.asarray(self.starts[:, None] + share[..., None] * chord)
 
     def distances(self, places: Floats) -> Floats:
-        """Distance of places from them.
-
-        ``places`` (n, m, 2): for each side its places [m] → to the arc where the place lies beside it, else
-        to the nearer end [m], (n, m).
-        """
+        """Distances [m] of ``places`` (n, m, 2) from the sides: to the arc, or to its nearer end."""
         from_start = places - self.starts[:, None]
         from_end = from_start - self.chords[:, None]
         after_start = dot(from_start, self.start_directions[:, None]) >= 0
@@ -158,16 +154,9 @@ class Outline:
         return angle_between(before, self.sides.start_directions)
 
     def at(self, which: Indices, u: Floats) -> Floats:
-        """Places on sides.
-
-        ``which`` (k,): numbers of the sides; ``u`` (k, m): how far along each, from 0 to 1 → [m], (k, m, 2).
-        """
+        """Places [m], (k, m, 2), on sides ``which`` (k,) at shares ``u`` (k, m) of their length."""
         return self.sides.chosen(which).at(u)
 
     def distances(self, which: Indices, places: Floats) -> Floats:
-        """Distance of places from sides.
-
-        ``which`` (k,): numbers of the sides; ``places`` (k, m, 2): for each side its places [m] → [m],
-        (k, m).
-        """
+        """Distances [m], (k, m), of ``places`` (k, m, 2) from the sides ``which`` (k,)."""
         return self.sides.chosen(which).distances(places)

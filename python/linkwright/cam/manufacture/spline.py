@@ -51,10 +51,7 @@ class Spline:
         return self.values(self.cuts[:-1])[0]
 
     def values(self, x: Floats) -> tuple[Floats, Floats]:
-        """Places and first derivatives.
-
-        ``x`` (…): values of the parameter [rad] → [m], [m/rad], (…, 2).
-        """
+        """Places and first derivatives. ``x`` (…): values of the parameter [rad] → [m], [m/rad], (…, 2)."""
         curve, slope = self._curves
         return curve(x), slope(x)
 

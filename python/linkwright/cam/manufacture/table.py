@@ -52,10 +52,7 @@ class Table:
 
 
 def table(track: Track, step: float, by: By = "cam") -> Table:
-    """Places of a curve at equal steps.
-
-    ``step``: step of the angle; a whole number of them makes a revolution [rad].
-    """
+    """Places of a curve at equal steps [rad], a whole number of which makes a revolution."""
     n = _count(step)
     angles: Floats = np.arange(n + 1, dtype=float) * (2 * math.pi / n)
     tau = track.at_cam_angles(angles) if by == "cam" else _at_polar_angles(track, angles)
@@ -68,10 +65,7 @@ def table(track: Track, step: float, by: By = "cam") -> Table:
 
 
 def curvature(track: Track, tau: Floats) -> Floats:
-    """Curvature of a curve, positive where convex.
-
-    ``tau`` (n,): where; at a joint the stretch that follows counts [rad] → [1/m], (n,).
-    """
+    """Curvature [1/m] at ``tau`` (n,) [rad], positive where convex; at a joint that of the next stretch."""
     t, t2 = track.tangents(tau), track.seconds(tau)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(cross(t, t2) / dot(t, t) ** 1.5 * track.sense)

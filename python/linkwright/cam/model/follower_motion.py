@@ -45,10 +45,7 @@ def polydyne_correction(wanted: MotionLaw, slow: float, damping_ratio: float) ->
 
 
 def polydyne_lift(wanted: MotionLaw, slow: float, damping_ratio: float, share: float) -> MotionLaw:
-    """The lift.
-
-    ``wanted`` [m over rad]; ``slow`` [–]; ``damping_ratio`` [–]; ``share`` [–] → [m over rad].
-    """
+    """Lift [m over rad] for the wanted motion [m over rad]; ``slow``, ``damping_ratio``, ``share`` [–]."""
     correction = polydyne_correction(wanted, slow, damping_ratio)
     return combined((1.0, wanted), (1.0, correction)).scaled(1 / share)
 
@@ -86,10 +83,7 @@ class FollowerTrain(CheckedDescription):
             )
 
     def lift_for(self, wanted: MotionLaw) -> MotionLaw:
-        """The lift that makes the mass move by a law at the polydyne speed.
-
-        ``wanted``: x over the cam angle [m over rad].
-        """
+        """Lift that makes the mass move by the law ``wanted`` [m over rad] at the polydyne speed."""
 
         if self.polydyne_speed is None:
             return wanted

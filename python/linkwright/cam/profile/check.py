@@ -20,8 +20,5 @@ class CamCheck(Result):
 
 
 def cam_check(machine: Machine, name: str | None = None) -> CamCheck:
-    """Count what makes a cam impossible.
-
-    `name`: which cam; left out if there is one. Raises what `cam_profile` raises.
-    """
+    """Count what makes a cam impossible; `name`: left out if there is one. Raises as `cam_profile`."""
     return CamCheck(len(cam_faults(cam_profile(machine, name))))

@@ -276,10 +276,7 @@ def unit_in(units: str, cam: Cam) -> str:
 
 
 def the_cam(machine: Machine, name: str | None = None) -> tuple[str, Cam]:
-    """A cam of a machine by name, which may be left out if there is one; with its name.
-
-    Raises `InputError` if there is none, none of this name, or several to choose from.
-    """
+    """A cam by name, optional if there is one, with its name; `InputError` if none fits, or several."""
     cams = machine.mechanism.cams
     if not cams:
         raise InputError("the machine has no cam: give it one as [mechanism.cams.NAME]")
