@@ -102,10 +102,7 @@ def _first_speed(plan: StudyPlan, record: MeasuredRecord) -> tuple[float, float]
 
 
 def number_of(plan: StudyPlan, axis: Axis) -> Number:
-    """A variable as a number that is sought, from the value of the machine on.
-
-    Raises InputError: the machine has none, and there is no range.
-    """
+    """A variable as a sought number from the machine's value; `InputError` without value and range."""
     value, low, high = get(plan.machine, axis.addresses[0]), axis.low, axis.high
     if not isinstance(value, int | float):
         value = 0.5 * (low + high)

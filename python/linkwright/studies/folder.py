@@ -98,10 +98,7 @@ class SweepFolder:
         return (self.part(number) for number in range(self.n_parts) if self.is_done(number))
 
     def begin(self) -> None:
-        """Make the folder, or see that it is that of the same study.
-
-        Raises `InputError` if it is a file, holds files of others or another study, or cannot be written to.
-        """
+        """Make the folder, or see that it holds the same study; else, or if not writable, an `InputError`."""
         require_pyarrow()
         try:
             if (self.path / MANIFEST).exists() and (manifest := _manifest_of(self.path / MANIFEST)):

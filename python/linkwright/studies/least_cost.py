@@ -46,10 +46,7 @@ class LeastCost:
     most: float
 
     def factors(self) -> Floats:
-        """The cheapest factors, (n,).
-
-        Raises ConvergenceError: the duality gap of what was found is too large.
-        """
+        """The cheapest factors, (n,); `ConvergenceError` if the duality gap is too large."""
         for j in range(len(self.room)):
             alone = self._of_one(j)
             if self._used(alone).max() <= 1 + _ROUNDING:

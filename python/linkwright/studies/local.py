@@ -82,10 +82,7 @@ class Descent:
         self._known: dict[bytes, _Place] = {}
 
     def run(self, start: Floats) -> Floats:
-        """The best place from a start, as shares, (variables,).
-
-        Raises FindingError: the machine of the start has no answer.
-        """
+        """The best place from a start, as shares, (variables,); `FindingError` if the start has no answer."""
         self.base = end = start.copy()
         try:
             first = self.at(start[self.free])

@@ -69,10 +69,7 @@ def encoded(rows: Rows, start: int, units: Mapping[str, str], about: bytes) -> b
 
 
 def is_whole(path: Path, rows: range, names: Iterable[str], about: bytes) -> bool:
-    """Whether a file holds these rows of a study, with its columns.
-
-    It does not if it is cut off, damaged, another study's, or has other rows of this one.
-    """
+    """Whether a file holds these rows of a study: not cut off, damaged, of another study or other rows."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -127,10 +124,7 @@ def _as_array(column: pa.ChunkedArray) -> Any:
 def parquet_columns(
     path: Path, names: Sequence[str], choices: Mapping[str, Sequence[str]]
 ) -> dict[str, Floats]:
-    """Columns of numbers of somebody's Parquet file [SI]; of `choices` the places of names, or these.
-
-    Raises `InputError` if the file cannot be read, or lacks a column.
-    """
+    """Columns of a Parquet file [SI]; of `choices` the indices; `InputError` if unreadable or incomplete."""
     require_pyarrow()
     import pyarrow as pa
     import pyarrow.parquet as pq

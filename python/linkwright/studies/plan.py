@@ -111,10 +111,7 @@ class StudyPlan:
         return (*(axis.name for axis in self.axes), *(entry.name for entry in self.derived), *self.responses)
 
     def shares(self, start: int, stop: int) -> Floats:
-        """Rows of the sweep as shares between 0 and 1, (stop - start, variables).
-
-        Raises InputError: there are no such rows.
-        """
+        """Rows of the sweep as shares, 0 to 1, (stop - start, variables); `InputError` for rows beyond it."""
         start, stop = self._span(start, stop)
         n, seed = len(self.axes), self.sweep.seed
         match self.sweep.method:
@@ -127,20 +124,14 @@ class StudyPlan:
         return sampling.random(n, seed, start, stop)
 
     def rows(self, start: int, stop: int) -> dict[str, Floats]:
-        """Values of the variables in some rows of the sweep, (stop - start,) each, in SI.
-
-        Raises InputError: there are no such rows.
-        """
+        """Values of the variables in rows of the sweep [SI], (stop - start,) each; `InputError` beyond it."""
         start, stop = self._span(start, stop)
         if self.listed is not None:
             return {axis.name: self.listed[start:stop, i] for i, axis in enumerate(self.axes)}
         return self.values(self.shares(start, stop))
 
     def values(self, shares: Floats) -> dict[str, Floats]:
-        """Values of the variables at shares, shape (n, variables) → (n,) each, in SI.
-
-        Raises InputError: no such array, or shares outside 0 to 1.
-        """
+        """Values of the variables [SI], (n,) each, at shares (n, variables); `InputError` outside 0 to 1."""
         shares = array("shares", shares)
         if shares.ndim != 2 or shares.shape[1] != len(self.axes):
             expected = f"(n, {len(self.axes)}), a share of each variable"

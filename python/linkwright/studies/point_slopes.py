@@ -40,10 +40,7 @@ _TWO = "two points of the path have the same {}"
 def point_tangents(
     machine: Machine, wanted: Sequence[StudyResponse], entries: Sequence[str]
 ) -> tuple[dict[str, Tangent], dict[str, str]]:
-    """Responses of points with derivatives by entries, NaN by those that have none; and which have a kink.
-
-    Raises FindingError: the machine does not close.
-    """
+    """Responses of points with derivatives or NaN, and which have a kink; `FindingError`: does not close."""
     own = [asked for asked in wanted if asked.analysis in (MOTION, PATH)]
     if not own:
         return {}, {}

@@ -162,10 +162,7 @@ def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:
 
 
 def require_place(machine: Machine, response: StudyResponse) -> None:
-    """Refuse a place beyond the end of a list, by the machine as it is.
-
-    A machine without an answer has no list to tell by: its rows say why. Raises `MachineError`.
-    """
+    """Refuse, by a `MachineError`, an index beyond a list of the machine; without an answer its rows tell."""
     if response.index is None or response.analysis in (MOTION, PATH):
         return
     try:

@@ -97,10 +97,7 @@ def _variables(plan: StudyPlan, at: Floats) -> dict[str, Any]:
 
 
 def entries_at(plan: StudyPlan, at: Floats) -> dict[str, Any]:
-    """Address → its value at a place, `at` (variables,) [SI], with derivatives by the variables.
-
-    Raises InputError: a derived number has no derivatives.
-    """
+    """Address → value [SI] at `at` (variables,), with derivatives; `InputError` if one has none."""
     return _entries(plan, _variables(plan, at))
 
 

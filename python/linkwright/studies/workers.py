@@ -47,10 +47,7 @@ _own: tuple[StudyPlan, SweepFolder] | None = None
 
 
 def computed(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: int) -> Iterator[int]:
-    """Compute files of a folder; gives the number of each as it is there.
-
-    Raises InputError: processes were lost ten times, or a file cannot be written.
-    """
+    """Compute files, and give the number of each; `InputError` if ten times lost, or not writable."""
     left, losses = set(numbers), 0
     while left:
         try:
