@@ -381,10 +381,7 @@ def _passes(compiled: CompiledMachine, at: float) -> bool:
 
 
 def require_full_turn(compiled: CompiledMachine, machine: Machine) -> None:
-    """Raise if the crank cannot rotate fully.
-
-    The `AssemblyError` says which element does not close, where the mechanism closes, and what to change.
-    """
+    """Raise an `AssemblyError` with the ranges that close and a remedy unless the crank rotates fully."""
     closed = closure_of(compiled)
     if not closed.turns_fully:
         raise closure_error(closed, machine)
@@ -423,9 +420,7 @@ def require_finite_rates(table: Floats, compiled: CompiledMachine, machine: Mach
 
 
 def in_cycle(closed: Closure, angle: float) -> float:
-    """The crank angle within the cycle, or within a range, at which the mechanism stands as at `angle` [rad];
-    the same angle where there is none.
-    """
+    """Crank angle within the cycle or range where the mechanism stands as at `angle` [rad], if any."""
     if closed.turns is None:
         return angle
     period = 2 * np.pi * closed.turns
@@ -451,10 +446,7 @@ def _meets_change_point(closed: Closure, angles: Floats) -> bool:
 
 
 def closure_error(closed: Closure, machine: Machine) -> AssemblyError:
-    """The error for a mechanism that does not turn fully: what does not close, where, and what to change.
-
-    `closed`: of a mechanism that does not turn fully.
-    """
+    """The error of a mechanism that does not turn fully: what does not close, where, and the remedy."""
     at = closed.ranges[0][1] if closed.ranges else 0.0
     at = at if closed.turns is None else at % (2 * np.pi * closed.turns)
     return AssemblyError(_sentence(closed, machine), element=closed.element, crank_angle=at)
@@ -506,10 +498,7 @@ def _deg(angle: float) -> str:
 
 @lru_cache(maxsize=8)
 def turn_angles(n: int, turns: int = 1) -> Floats:
-    """Crank angles over some revolutions from 0 on, ``n`` ≥ 1 intervals a revolution [rad].
-
-    Both ends are included. They are shared by results, so read-only.
-    """
+    """Crank angles from 0, both ends included, ``n`` ≥ 1 intervals a revolution [rad]; shared, read-only."""
     if n < 1:
         raise InputError(f"n = {n}: expected at least 1 interval of the revolution")
     angles = np.linspace(0.0, 2 * np.pi * turns, n * turns + 1)

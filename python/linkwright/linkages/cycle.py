@@ -217,10 +217,7 @@ class Linkage(Result):
 
     @public
     def element(self, name: str) -> ElementMotion:
-        """The first entry of an element, or of the link or slide with this name; else an `InputError`.
-
-        The slot of a lever is called ``LEVER.slot``.
-        """
+        """Entry of an element, link or slide, of a lever's slot as ``LEVER.slot``; else an `InputError`."""
         for own, element in zip(self.names, self.elements, strict=True):
             if name in (own, element.element, element.output):
                 return element

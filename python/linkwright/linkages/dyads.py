@@ -93,9 +93,7 @@ def transmission_channels(compiled: CompiledMachine, dyad: Dyad) -> list[Channel
 
 
 def transmission(q: Floats, dyad: Dyad, values: Sequence[Rows]) -> Floats:
-    """Transmission angle from 0 to π, (n,) [rad]. `q`: the program's numbers; `values`: motion of
-    `transmission_channels`; both with derivatives or without.
-    """
+    """Transmission angle, 0 to π, (n,) [rad]; `values`: motion of `transmission_channels`."""
     if isinstance(dyad.element, Element.SlottedLever):
         (slot,), offset = values, q[dyad.element.offset]
         assert isinstance(slot, SlideRows)

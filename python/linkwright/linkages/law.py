@@ -217,10 +217,7 @@ class FunctionLaw:
 
 
 def as_law(law: Law | Callable[[Any], Any] | Sequence[ArrayLike]) -> Law:
-    """A law, a function, or a pair of times and angles as a law.
-
-    `law` (n,): see the classes of this module. Raises ShapeError: it is none of these.
-    """
+    """A law, function, or pair of times and angles (n,) as a law; `ShapeError` for anything else."""
     if hasattr(law, "at") and callable(law.at):
         return law
     if callable(law):

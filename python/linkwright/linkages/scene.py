@@ -278,10 +278,7 @@ class _Circle(NamedTuple):
 
 
 def gear_parts(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
-    """Circles, belts and racks.
-
-    `series`: number of the driver that moves each element.
-    """
+    """Circles, belts and racks. `series`: number of the driver that moves each element."""
     drawn: set[_Circle] = set()
     links = mechanism.links()
     for name, gear in mechanism.gears.items():

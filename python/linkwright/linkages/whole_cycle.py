@@ -57,10 +57,7 @@ def first_revolution_words(machine: Machine) -> Iterator[str]:
 
 
 def over_whole_motion(compiled: CompiledMachine) -> CompiledMachine | None:
-    """The machine over the revolutions after which every point and link is where it was, with all loads.
-
-    None if these are more than a cycle may take, or there are none.
-    """
+    """The machine over the revolutions in which motion and loads repeat; None if too many, or none."""
     turns = turns_to_repeat(compiled)
     if turns is None or math.lcm(turns, compiled.turns) > TURNS_MAX:
         return None

@@ -30,10 +30,7 @@ _SLIDING = ("linear_drivers", "cams", "racks", "sliders", "yokes")
 
 
 def guide_faults(topology: Topology) -> Iterator[InitErrorDetails]:
-    """Guides through points of another body, crossings at rest, gears that nothing turns.
-
-    `topology`: a topology whose names all refer to something.
-    """
+    """Guides through points of another body, crossings at rest, gears that nothing turns."""
     for element in topology.elements:
         for before in [key[: -len("through")] for key in element.kind.references if key.endswith("through")]:
             yield from _through(element, before, topology)

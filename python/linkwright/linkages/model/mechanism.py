@@ -109,9 +109,7 @@ class Mechanism(Description):
         return tuple(Topology.of(self).slides)
 
     def links(self) -> dict[str, Link]:
-        """The links by name: a crank has that of its element; ``"cart1.rod"`` is the rod of the slider
-        ``cart1``.
-        """
+        """Links by name: a crank has its element's; ``"cart1.rod"`` is the rod of the slider ``cart1``."""
         links: dict[str, Link] = {}
         for name, crank in self.cranks.items():
             links[name] = Link("crank", name, crank.pivot or ORIGIN, name, crank.radius)
