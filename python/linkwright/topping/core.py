@@ -56,10 +56,7 @@ class KnifeKernel:
         length: float | None = None,
         fine: int = 16,
     ) -> _core.TopperCover:
-        """What heads need, and what an edge leaves of them.
-
-        ``radius``, ``offset`` (n,) [m]; ``phase`` [rad]; ``length`` [m].
-        """
+        """Needs of heads, and what an edge leaves; radius, offset (n,) [m]; phase [rad]; length [m]."""
         columns = [_column(radius), _column(offset), _in_one_revolution(_column(phase))]
         return self._core.cover(
             radius=columns[0],

@@ -153,10 +153,7 @@ def pass_over(
     fine: int = COARSE,
     watch: Watch | None = None,
 ) -> Pass:
-    """Let an edge go over roots.
-
-    ``length``: of the edge [m]; without it, only what is needed is looked at.
-    """
+    """Let an edge pass over roots; ``length`` [m]: without it only what is needed is looked at."""
     require_advance(edges, roots)
     phase = roots.phase(edges[0].knife.rate, edges[0].forward_speed)
     diameter, missed = roots.diameter, roots.is_missed

@@ -73,10 +73,7 @@ class Edge:
         return ahead * sin + aside * cos, ahead * cos - aside * sin
 
     def velocity(self, time: Any, phase: Any = 0.0) -> tuple[Any, Any]:
-        """Velocity of the edge: along it, to its left, and normal to it, ahead [m/s], (...).
-
-        `time` [s] and `phase` of the knife at the time zero [rad] broadcast.
-        """
+        """Velocity along the edge, to its left, and normal, ahead [m/s], (...); `time` [s], `phase` [rad]."""
         v, across = self.forward_speed, self.knife.at(time, phase, 1)
         sin, cos = np.sin(self.angle), np.cos(self.angle)
         return v * sin + across * cos, v * cos - across * sin
@@ -137,10 +134,7 @@ def edges_of(machine: Machine, described: Topper) -> list[Edge]:
 
 
 def barely_advances(edge: Edge, diameter: float, offset: float) -> str | None:
-    """Why an edge cannot be followed: its knife goes back and forth over a head again and again.
-
-    ``diameter``, ``offset``: d and Δ [m].
-    """
+    """Why an edge cannot be followed: its knife crosses a head again and again; d and Δ [m]."""
     turns, most = edge.turns(diameter, offset), _TURNS_RETREATING if edge.retreats else _TURNS
     if turns <= most:
         return None

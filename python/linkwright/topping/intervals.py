@@ -206,10 +206,7 @@ class ShareCurve:
         return Interval(lengths, np.maximum.accumulate(low), np.minimum.accumulate(high[::-1])[::-1])
 
     def worth(self) -> float | None:
-        """Independent heads that the shares at the lengths for 50 and 90 % are worth, the fewer of both.
-
-        None if all heads need the same length.
-        """
+        """Heads that the shares at the 50 and 90 % lengths are worth; None if all need the same length."""
         worths = self.clusters.worths(self._counts(self.quantiles((0.5, 0.9))))
         worths = worths[np.isfinite(worths)]
         return float(worths.min()) if len(worths) else None

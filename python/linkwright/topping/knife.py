@@ -126,11 +126,7 @@ class Knife:
         return greatest(*(size(extreme.value) for extreme in self.law.extremes(2))) * self.rate**2
 
     def at(self, time: Any, phase: Any = 0.0, order: int = 0) -> Any:
-        """Place, velocity or acceleration across the row, by the order of the derivative, (...) [m, m/s or
-        m/s²].
-
-        `time` [s] and `phase` at the time zero [rad] broadcast.
-        """
+        """Place, velocity or acceleration by `order`, (...) [m, m/s, m/s²]; `time` [s], `phase` [rad]."""
         value = self.law.at(np.mod(phase + self.rate * time, _TURN), order) * self.rate**order
         return value + (self.drift * time, self.drift, 0.0)[order]
 
@@ -334,10 +330,7 @@ def carried(machine: Machine) -> Any:
 
 
 def knife_drive(machine: Machine, knife: Knife) -> KnifeDrive | None:
-    """Inertia force of the knife and torque of its drive; None if no mechanism moves it, or nothing has mass.
-
-    Raises `FindingError` if there are no forces.
-    """
+    """Inertia force of the knife and torque of its drive; None without mechanism or mass."""
     motion = None if machine.topper is None else machine.topper.motion
     drive = machine.drive
     if not isinstance(motion, MemberKnife) or drive is None or drive.speed is None or not machine.bodies:
@@ -366,10 +359,7 @@ _ROUNDS = 7
 
 
 def other_peaks(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[float]:
-    """Other crank angles at which the driving torque is as large, or as small [rad].
-
-    `end`: ``"max"`` or ``"min"``.
-    """
+    """Other crank angles [rad] at which the driving torque is as large, ``"max"``, or small, ``"min"``."""
     assert machine.drive is not None
     speed, sign = machine.drive.speed, 1.0 if end == "max" else -1.0
     top = getattr(knife_drive, f"torque_{end}_angle") % _TURN, sign * getattr(knife_drive, f"torque_{end}")

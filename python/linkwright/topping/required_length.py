@@ -85,10 +85,7 @@ def constant_speed_lengths(
 
 
 def every_phase_length(diameter: Any, offset: Any, edge_angle: Any, stroke: Any) -> Any:
-    """Minimum length of an edge that never retreats, (...) [m].
-
-    d of the head and maximum offset Δ [m], α [rad], stroke S [m] broadcast.
-    """
+    """Minimum length of an edge that never retreats, (...) [m]; d, Δ, S [m] and α [rad] broadcast."""
     return (stroke + (diameter + 2 * offset)) / np.cos(edge_angle)
 
 
@@ -132,17 +129,11 @@ def published_lengths(
 
 
 def length_published(band: Any, edge_angle: Any, ratio: Any) -> Any:
-    """Minimum length as printed, paper 5 (5), (9), (10), (...) [m].
-
-    d + 2Δ [m], α [rad], v_h/v [–] broadcast.
-    """
+    """Minimum length as printed, paper 5 (5), (9), (10), (...) [m]; d + 2Δ [m], α [rad], v_h/v [–]."""
     return band * (ratio * np.cos(edge_angle) + np.abs(np.sin(edge_angle)))
 
 
 def length_consistent(band: Any, edge_angle: Any, ratio: Any) -> Any:
-    """Minimum length that follows from paper 5 (4), (...) [m].
-
-    d + 2Δ [m], α [rad], v_h/v [–] broadcast.
-    """
+    """Minimum length that follows from paper 5 (4), (...) [m]. d + 2Δ [m], α [rad], v_h/v [–] broadcast."""
     sin = np.abs(np.sin(edge_angle))
     return band * (ratio * (1 + sin * np.abs(np.tan(edge_angle))) + sin)

@@ -44,10 +44,7 @@ def head_diameter(root_diameter: Any, cut_height: Any) -> Any:
 
 
 def cap_volume(root_diameter: Any, cut_height: Any) -> Any:
-    """Volume V of the root of D above the cut at h_p, (...) [m³].
-
-    Zero where the cut passes above the root, all of the root where it passes below.
-    """
+    """Volume of the root above the cut at h_p, (...) [m³]; zero above the root, all of it below."""
     h = np.minimum(np.maximum(cut_height, 0.0), root_diameter)
     return np.pi * h**2 * (1.5 * root_diameter - h) / 3
 
@@ -110,10 +107,7 @@ class Roots(Result):
         return np.asarray(self.cut_height >= self.root_diameter)
 
     def phase(self, rate: float, forward_speed: float) -> Floats:
-        """Phase of the knife, from 0 to 2π, when the middle of the edge is abreast of each root, (n,) [rad].
-
-        `rate`: phase per time [rad/s]; `forward_speed`: v [m/s].
-        """
+        """Phase, 0 to 2π, when the edge's middle is abreast of each root, (n,); `rate` [rad/s]; v [m/s]."""
         turns = self.start + self.distance * (rate / (2 * np.pi * forward_speed))
         return np.asarray(2 * np.pi * (turns - np.floor(turns)))
 

@@ -129,10 +129,7 @@ _LEFT = 1e3 * NOTHING
 
 
 def knife_look(machine: Machine, described: Topper) -> Iterator[str]:
-    """What a knife is seen not to do: sentences, if and only if the study has some.
-
-    Where the few heads do not decide, all are followed.
-    """
+    """What a knife fails to do, as sentences, if the study finds any; all heads if a few do not decide."""
     d = float(head_diameter(described.root_diameter, described.cut_height))
     edges = edges_of(machine, described)
     if not any(barely_advances(edge, d, described.offset) for edge in edges):

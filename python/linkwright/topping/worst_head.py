@@ -96,10 +96,7 @@ _NEAR = 0.02
 def heads_as_bad(
     edges: Sequence[Edge], offset: float, phase: float | None, measure: Measure, worst: float
 ) -> list[Worst]:
-    """All heads at which a measure is as large as its maximum, `worst`, each once.
-
-    `offset`, `phase`, `measure`: as of `worst_head`.
-    """
+    """Heads at which a measure is at its maximum `worst`, each once; arguments as of `worst_head`."""
     heads: list[Worst] = []
     for edge in edges:
         phases, offsets, wide = _grid(edge, offset, phase)

@@ -57,21 +57,14 @@ class KnifeGrid:
     def grid(
         self, forward_speed: float, numbers: tuple[int, int], low: Floats, high: Floats
     ) -> list[list[Trial]]:
-        """All knives of a grid.
-
-        ``forward_speed``: v [m/s]; ``low``, ``high`` (2,): ends of both [rad, m/s]; one value where they are
-        the same.
-        """
+        """All knives of a grid at v [m/s]; ``low``, ``high`` (2,): ends [rad, m/s], equal for one value."""
         axes = [
             np.linspace(a, b, n if b > a else 1).tolist() for a, b, n in zip(low, high, numbers, strict=True)
         ]
         return [[self._at(angle, speed, forward_speed) for speed in axes[1]] for angle in axes[0]]
 
     def shortest(self, forward_speed: float, first: Sequence[Trial] | None = None) -> Trial:
-        """The knife of the shortest edge; the one nearest to the draw-cut asked for if all lack it.
-
-        ``forward_speed``: v [m/s].
-        """
+        """The knife of the shortest edge at v [m/s]; nearest to the draw-cut asked for if all lack it."""
         if first is None:
             first = _listed(self.grid(forward_speed, _COARSE, self.low, self.high))
         return self._about(min(first, key=self._order), _ROUNDS)

@@ -52,10 +52,7 @@ class Trials:
         self._knives: dict[float, list[Knife]] = {}
 
     def edges(self, angle: float, knife_speed: float, forward_speed: float) -> list[Edge]:
-        """An edge, in one or two directions.
-
-        ``angle``: α [rad]; ``knife_speed``, ``forward_speed``: v_h and v [m/s].
-        """
+        """An edge, in one or two directions; α [rad], v_h and v [m/s]."""
         if knife_speed not in self._knives:
             changed = self.topper.with_entries({"knife_speed": knife_speed})
             self._knives[knife_speed] = [
@@ -130,10 +127,7 @@ class LimitFailure:
 
 
 def failing_limit(chosen: Trial, roots: Roots, limits: TopperLimits, length_max: float) -> LimitFailure:
-    """The limit that the knife which comes closest does not keep.
-
-    ``length_max``: maximum length of the edge [m].
-    """
+    """The limit that the closest knife does not keep; ``length_max``: of the edge [m]."""
     place = (
         f"α = {math.degrees(chosen.edge_angle):.4g}°, v_h = {chosen.knife_speed:.4g} m/s, "
         f"v = {chosen.forward_speed:.4g} m/s"

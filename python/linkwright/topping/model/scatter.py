@@ -65,10 +65,7 @@ class Scatter(CheckedDescription):
         return self.ends[0] == self.ends[1]
 
     def values(self, shares: ArrayLike) -> Floats:
-        """The values below which shares of all lie: the inverse of the distribution function.
-
-        ``shares`` (n,): between 0 and 1; random ones give random values → [m], (n,).
-        """
+        """Inverse of the distribution function [m], (n,), at ``shares`` (n,) from 0 to 1."""
         raise NotImplementedError
 
 
