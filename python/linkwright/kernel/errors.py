@@ -101,10 +101,7 @@ class InputError(LinkwrightError):
 
 
 def require_within(limit: Limit, number: float, what: str, remedy: str) -> None:
-    """Refuse a count beyond its limit, before memory or time are spent on it, by an `InputError`.
-
-    `what`: option or key that asks for it; `remedy`: what to change.
-    """
+    """Refuse a count beyond its limit before any work; `what`: option or key; `remedy`: what to change."""
     if not number <= limit.most:
         # Beyond 1e15 the digits say nothing.
         shown = grouped(round(number)) if number < 1e15 else f"{number:.3g}"

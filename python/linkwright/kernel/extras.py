@@ -13,10 +13,7 @@ from linkwright.kernel.errors import InputError
 
 
 def require(module: str, extra: str, need: str) -> Any:
-    """A module of an extra, as in ``require("typst", "report", "a PDF needs Typst")``.
-
-    Raises `InputError` if it cannot be imported: the need, and the command.
-    """
+    """A module of an extra, as ``require("typst", "report", "a PDF needs Typst")``; else an `InputError`."""
     try:
         return import_module(module)
     except ModuleNotFoundError:

@@ -56,10 +56,7 @@ CRANK_ANGLE = "crank angle φ [°]"
 
 
 def line_figure(x: Floats, *drawn: Panel, height: float, over: str = CRANK_ANGLE) -> Figure:
-    """Draw panels over what their curves run over.
-
-    `x`: angles are in degrees; `height`: of the figure [inch]; `over`: the words along x.
-    """
+    """Draw panels over `x` (angles in degrees); `height` [inch]; `over`: the words along x."""
     figure, axes = panels(len(drawn), height=height)
     for one, panel in zip(axes, drawn, strict=True):
         _draw(one, x, panel)

@@ -91,10 +91,7 @@ def _figure(over: _PlotCurve, chosen: list[_PlotCurve]) -> Figure:
 
 @styled
 def batch_plotted(batch: Any, names: tuple[str, ...]) -> Figure:
-    """Draw quantities of many machines over the entry that varies, over their numbers if several do.
-
-    Raises `InputError` if the machines have no such quantity.
-    """
+    """Draw quantities over the entry that varies, or over row numbers; `InputError` if there is none."""
     known = {quantity.name: quantity for quantity in quantities_of(type(batch)) if quantity.symbol}
     for name in names:
         if name not in known:

@@ -192,9 +192,7 @@ ABOVE, COLUMNS = "above", 4
 
 
 def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries: Any) -> None:
-    """A legend above the axes, where no line runs through it; `gap` in heights of its letters, `entries` of
-    its own.
-    """
+    """A legend above the axes, where no line runs through it; `gap` in heights of its letters."""
     legend = axes.legend(
         loc="lower left",
         bbox_to_anchor=(0, 1.0),

@@ -38,11 +38,7 @@ def text_of(path: Path, limit: Limit) -> str:
 
 
 def data_of(path: Path, limit: Limit) -> bytes:
-    """The bytes of a file of at most so many.
-
-    A device without end is read no farther than the limit. Raises `TextError` if it cannot be read, or is too
-    large.
-    """
+    """Bytes of a file or device, at most `limit`; `TextError` if it is unreadable or too large."""
     require_no_pipe(path)
     try:
         with path.open("rb") as file:

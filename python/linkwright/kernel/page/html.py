@@ -33,10 +33,7 @@ INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
 def html(content: Content) -> str:
-    """A report as one HTML page that needs nothing else; the same content gives the same page.
-
-    Style, figures and scripts are in it.
-    """
+    """A report as one self-contained HTML page; the same content gives the same page."""
     import linkwright
 
     template = environment().get_template("report.html")

@@ -126,9 +126,7 @@ def measured(
 
 
 def crank_angle(angle: float | None, before: str = "", cycle: float = 2 * math.pi) -> str:
-    """A crank angle [rad] within a cycle [rad], from 0° on; its end is 0°. It is counted from the dead centre
-    that the reader wants.
-    """
+    """A crank angle within a cycle [rad], its end 0, counted from the dead centre that the reader wants."""
     if angle is None or not math.isfinite(angle):
         return "–"
     counted = zero_shown().counted(angle)

@@ -70,11 +70,7 @@ class OutUnits:
 
     @classmethod
     def of(cls, text: str, where: str = "--units") -> OutUnits:
-        """Units by a list such as ``"mm, rpm, kN"``; an `InputError` if one is unknown, or two measure the
-        same.
-
-        `where`: who asks for them, in messages.
-        """
+        """Units of a list such as ``"mm, rpm, kN"``; `InputError` if unknown or double, naming `where`."""
         units: list[_Unit] = []
         for name in (part.strip() for part in text.split(",") if part.strip()):
             unit = _unit(name)

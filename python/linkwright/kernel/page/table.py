@@ -184,10 +184,7 @@ def _cell(entry: str | float) -> str | float:
 
 
 def curves_csv(result: Result) -> str:
-    """The curves of a result as CSV, one column a curve such as ``speed [rad/s]``; empty without curves.
-
-    Numbers read back exactly; where there is none, the cell is empty.
-    """
+    """Curves as CSV, heads such as ``speed [rad/s]``, numbers exact, gaps empty; empty without curves."""
     columns = {head(result, name): curve for name, curve in result.curves().items()} | result.columns()
     return columns_csv(columns) if columns else ""
 

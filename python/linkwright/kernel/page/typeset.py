@@ -25,9 +25,7 @@ _WORDY = 30
 
 
 def pdf(content: Content) -> bytes:
-    """A report as a PDF file; the same content gives the same file. An `InputError` without Typst, or for a
-    logo that is no picture.
-    """
+    """A report as PDF, the same for the same content; `InputError` without Typst, or for a bad logo."""
     compiler = _compiler()
     files = {"main.typ": document(content).encode()}
     if content.heading.logo is not None:

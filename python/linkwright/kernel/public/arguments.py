@@ -66,10 +66,7 @@ _SHOWN = 60
 
 
 def number(name: str, value: Any, *, finite: bool = True, infinite: bool = False) -> float:
-    """A real number as a float; an `InputError` if it is none, not `finite`, or out of its range.
-
-    `infinite`: whether it may be infinite all the same.
-    """
+    """A real number in its range as a float, else an `InputError`; `infinite`: whether it may be infinite."""
     # Most are floats; whether a value is of an abstract class takes a microsecond to tell.
     real = value if type(value) is float else _real(name, value)
     if finite and (math.isnan(real) or (math.isinf(real) and not infinite)):

@@ -154,10 +154,7 @@ def _refuse(self: Any, name: str, *_: object) -> NoReturn:
 
 
 def refuse(of: object, name: str, copied: str) -> NoReturn:
-    """Refuse to set or delete an attribute of a description or a result.
-
-    `copied`: what makes a changed copy of it; empty if it has no such entry.
-    """
+    """Refuse to change an attribute; `copied`: what makes a changed copy, empty if it has no such entry."""
     remedies = [f"{copied} returns a changed copy"] if copied else []
     remedies.append("lw.replace(machine, {address: value}) returns a changed machine")
     raise FrozenError(
