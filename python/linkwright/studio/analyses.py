@@ -94,9 +94,7 @@ class Answers:
 
 
 def fast(machine: Machine, *, held: bool) -> Answers:
-    """What follows every change: scene, steady motion, forces, at fewer angles while a slider or joint is
-    `held`.
-    """
+    """What follows every change: scene, steady motion, forces; at fewer angles while something is `held`."""
     findings = Findings()
     train = findings.of(train_view, machine) if machine.twists else None
     views = () if train is None else (train,)

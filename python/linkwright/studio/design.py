@@ -98,9 +98,7 @@ _KINEMATIC = (
 def study_of(
     machine: Machine, response: str, entries: Mapping[str, Mapping[str, Any]], bounds: Bounds, **more: Any
 ) -> StudyPlan:
-    """The study that the page describes: the response ``y`` over entries, address → ``range``, ``steps``, and
-    what is bounded, ``b0``, ``b1``, ….
-    """
+    """The page's study: response ``y`` over entries (``range``, ``steps``), with bounds ``b0``, ``b1``, …."""
     if not entries:
         raise InputError("no entry varies; choose one")
     variables = {f"v{n}": {"address": address, **entry} for n, (address, entry) in enumerate(entries.items())}

@@ -66,9 +66,7 @@ class Folder:
             raise InputError(f"{name}: {error.strerror}") from None
 
     def write(self, name: str, text: str, *, replace: bool) -> None:
-        """Write a machine file, whole or not at all; an `InputError` if it cannot be written, or is there
-        unreplaced.
-        """
+        """Write a machine file whole or not at all; `InputError` if it cannot be, or is there unreplaced."""
         path = self.inside(name)
         if path.exists() and not (replace and path.is_file()):
             raise InputError(f"{name} exists already; choose another name")
@@ -113,20 +111,14 @@ def _title(path: Path) -> str:
 
 
 def gallery(folder: Folder) -> list[dict[str, str]]:
-    """All machines that can be opened, of library, templates and folder: ``place``, ``name`` and
-    ``title``.
-    """
+    """Machines of library, templates and folder: ``place``, ``name`` and ``title``."""
     kept = [{"place": "library", "name": name, "title": _title(library_path(name))} for name in library()]
     begun = [{"place": "template", "name": name, "title": title} for name, title in templates().items()]
     return [*begun, *kept, *folder.machines()]
 
 
 def opened(folder: Folder, place: str, name: str) -> str:
-    """The text of a machine of the gallery by place (``"library"``, ``"template"``, ``"folder"``) and name
-    there.
-
-    Raises `InputError` if there is none.
-    """
+    """Text of a machine of ``"library"``, ``"template"`` or ``"folder"``; `InputError` if there is none."""
     if place == "library":
         return text_of(library_path(name), FILE_BYTES)
     if place == "template":

@@ -139,10 +139,7 @@ def knife_view(study: Study) -> View | None:
 
 
 def thumbnail(folder: Folder, place: str, name: str) -> View:
-    """What the gallery shows of a machine: ``scene`` at constant speed, or ``view``.
-
-    Both are None where nothing moves, or the file is none.
-    """
+    """``scene`` at constant speed, or ``view``, of a machine; both None where nothing moves or is none."""
     try:
         machine = loads(opened(folder, place, name), path=base(folder, place, name))
         scene = moving_scene(machine, None) if machine.has_crank else None

@@ -27,9 +27,7 @@ class WireError(ValueError):
 
 
 def packed(number: int, body: Any) -> bytes:
-    """A message that answers a request: tables, lists, words, finite numbers and arrays of one or two
-    dimensions.
-    """
+    """An answer as a message: tables, lists, words, finite numbers, arrays of one or two dimensions."""
     arrays: list[Floats] = []
     size = 0
 
