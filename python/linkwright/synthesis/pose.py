@@ -112,10 +112,7 @@ def body_places(task: PoseTask, point: MovingPoint) -> Complexes:
 
 
 def with_moving_points(task: PoseTask) -> PoseTask:
-    """The task with points of the body in place of given fixed pivots.
-
-    Seen from the body a fixed pivot moves, and its three places lie on a circle about the pin.
-    """
+    """Points of the body for given pivots: seen from the body, three places of a pivot are on a circle."""
     points = {
         f"{name}_point": _pin_about(task, pivot, f"{name}_pivot")
         for name, pivot in (("crank", task.crank_pivot), ("rocker", task.rocker_pivot))

@@ -144,10 +144,7 @@ def straight_lines(length: float = 1.0) -> tuple[StraightLine, ...]:
 
 
 def narrowest_strip(x: Floats, y: Floats) -> tuple[float, float]:
-    """Width and direction of the narrowest strip that holds some points.
-
-    `x`, `y` (n,): the points [m]. Returns: width [m]; direction of the strip from 0 to π [rad].
-    """
+    """Width [m] and direction, 0 to π [rad], of the narrowest strip about points `x`, `y` (n,) [m]."""
     corners = _hull(x, y)
     if len(corners) < 3:
         along = corners[-1] - corners[0]

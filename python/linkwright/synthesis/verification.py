@@ -34,10 +34,7 @@ _SAME = 1e-6
 
 
 def transmission_warning(angle: float, remedy: str = "") -> tuple[str, ...]:
-    """What to know of a minimum transmission angle; nothing where it is good.
-
-    `angle`: minimum transmission angle in the motion that is used [rad].
-    """
+    """Warning of a small minimum transmission angle [rad]; empty where it is good."""
     if angle >= _GOOD - _SAME:
         return ()
     found = f"the transmission angle falls to {np.degrees(angle):.3g}°"
@@ -99,10 +96,7 @@ def require_met(
 
 
 def element_of(machine: Machine, output: str) -> ElementMotion:
-    """The motion of one output of a machine, by its analysis.
-
-    `output`: name of the link or slide.
-    """
+    """The motion of one output of a machine, by its analysis. `output`: name of the link or slide."""
     return next(element for element in linkage(machine).elements if element.output == output)
 
 
