@@ -165,10 +165,7 @@ def _sized_coefficient(one: Drive) -> float:
 
 
 def load_by_steps(reduced: Reduction, degrees: float) -> float:
-    """Mean load torque over one revolution, as a table by steps of an angle [°] gives it [N m].
-
-    The reduction has a whole number of intervals in a step.
-    """
+    """Mean load torque [N m] as a table by steps of an angle [°] gives it; a step has whole intervals."""
     every = round(degrees * (len(reduced.crank_angle) - 1) / 360)
     return float(reduced.torque_load[:-1:every].mean())
 
@@ -181,10 +178,7 @@ def _load_in_closed_form(two: Drive) -> float:
 
 
 def paper1() -> Paper1:
-    """Compute paper 1 anew.
-
-    Source: Paper 1, whole.
-    """
+    """Compute paper 1 anew. Source: Paper 1, whole."""
     drives = tuple(drive(given) for given in published_drives())
     two, four = drives[1], drives[3]
     return Paper1(

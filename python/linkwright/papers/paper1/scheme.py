@@ -138,10 +138,7 @@ def published_scheme(machine: Machine, *, step: float = np.radians(1.0)) -> Step
 
 
 def motor_torque(motor: InductionMotor, speed: float) -> float:
-    """Torque at a speed of the shaft [rad/s] as the published row shows it [N m].
-
-    Straight from the starting to the breakdown torque, then by Kloss's formula, paper 1 (8).
-    """
+    """Torque at a shaft speed [rad/s] as published [N m]: straight to breakdown, then Kloss, paper 1 (8)."""
     omega_0, omega_cr = motor.speed_synchronous, motor.speed_breakdown
     M_start, M_cr = motor.torque_start, motor.torque_breakdown
     assert omega_0 is not None

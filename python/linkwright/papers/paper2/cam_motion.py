@@ -200,10 +200,7 @@ def rollers(profile: CamProfile, machine: str, radius: float) -> Rollers:
 
 
 def centre_distance(profile: CamProfile, radius: float) -> Floats:
-    """Distance of a roller's centre from the cam's at equal angles of a revolution [m], on the profile.
-
-    Its radius [m] is below the minimum concave radius of the profile.
-    """
+    """Distance of a roller's centre from the cam's at equal angles [m]; radius [m] below the concave one."""
     x, y = profile.flanks[0].curve(radius).points(_angles()).T
     # The cam is seen as it stands at the start: the place of contact goes round it backwards.
     polar = np.unwrap(-np.arctan2(y, x))

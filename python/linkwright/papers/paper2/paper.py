@@ -123,10 +123,7 @@ def _fraction(value: float) -> str:
 
 
 def paper2() -> Paper2:
-    """Compute paper 2 anew.
-
-    Source: Paper 2, whole.
-    """
+    """Compute paper 2 anew. Source: Paper 2, whole."""
     data = printed_values(2)
     formulas, name = Formulas(data), data["given"]["machine"]
     drives = alternatives(formulas)

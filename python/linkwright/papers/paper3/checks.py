@@ -123,10 +123,7 @@ class UnevennessChecks:
 
 
 def unevenness_checks(trial: TrialEngine, factor: float) -> UnevennessChecks:
-    """Speed fluctuation along the shaft at the speed of service, sound and with each cylinder weak in turn.
-
-    A weak cylinder has the share ``factor`` of its combustion.
-    """
+    """δ along the shaft in service, sound and with each cylinder in turn at ``factor`` of its combustion."""
     machine, engine, speed = trial.machine, trial.engine, trial.service
     at = excited_train(machine, np.array([speed]))
     response = responded(at)

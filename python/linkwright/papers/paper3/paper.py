@@ -186,10 +186,7 @@ def _train(shift: Shift) -> dict[str, Any]:
 
 
 def paper3() -> Paper3:
-    """Compute paper 3 anew.
-
-    Source: Paper 3, equations (1) to (17).
-    """
+    """Compute paper 3 anew. Source: Paper 3, equations (1) to (17)."""
     data = printed_values(3)
     trial = TrialEngine(read(library_path(data["machine"])))
     printed, chosen = data["printed"], data["chosen"]

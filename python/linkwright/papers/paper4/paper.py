@@ -201,10 +201,7 @@ class Paper4(Paper):
 
 
 def paper4() -> Paper4:
-    """Compute paper 4 anew.
-
-    Source: Paper 4, whole.
-    """
+    """Compute paper 4 anew. Source: Paper 4, whole."""
     data = printed_values(4)
     places = recomputed_places(data)
     turning, rocking = (

@@ -271,10 +271,7 @@ def _angles(ends: tuple[float, float] | None) -> str:
 
 
 def paper5() -> Paper5:
-    """Compute paper 5 anew.
-
-    Source: Paper 5, (1) to (10), figure 3 and the result.
-    """
+    """Compute paper 5 anew. Source: Paper 5, (1) to (10), figure 3 and the result."""
     data = printed_values(5)
     chosen, verdict = data["chosen"], claim_verdict(data)
     return Paper5(
