@@ -70,9 +70,7 @@ def write_report(
 
 
 def report_html(study: Study, *, command: str = "") -> str:
-    """The report of a study as one HTML page that contains its style, figures and script, in the units of the
-    machine; `command`: the command line that made the study.
-    """
+    """Report of a study as one HTML page; `command`: the command line that made the study."""
     return html(content(study, command))
 
 
@@ -112,10 +110,7 @@ def _content(study: Study, command: str) -> Content:
 
 
 def machine_sections(machine: Machine, steady: SteadyState | None = None) -> dict[str, Any]:
-    """Sections of every report about a machine: source, drawing, data, assumptions, file.
-
-    `steady`: motion at whose speed the drawing moves.
-    """
+    """Sections of every report about a machine; `steady`: motion at whose speed the drawing moves."""
     drawn = scene(machine, steady)
     return {
         "source": machine.source or "",

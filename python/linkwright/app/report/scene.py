@@ -43,10 +43,7 @@ _FINENESS = 1e-5
 
 
 def scene(machine: Machine, steady: SteadyState | None = None) -> Scene | None:
-    """All that the sketch needs, ready for JSON: as of `moving_scene`, in lists, without the motion.
-
-    They have no more digits than can be seen.
-    """
+    """`moving_scene` as lists for JSON, without the motion, with no more digits than can be seen."""
     moving = moving_scene(machine, steady)
     if moving is None:
         return None
