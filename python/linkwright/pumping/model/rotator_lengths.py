@@ -254,10 +254,7 @@ def _false_position(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
 
 
 def turning_shares(unit: PumpingUnit, rotator: RodRotator, lever: float, excess: float) -> Floats:
-    """Shares of the way from bottom to top at which a lever that rocks turns back, 0 and 1 with them.
-
-    ``lever``, ``excess``: as of `LeverStroke.angle`.
-    """
+    """Shares of the stroke at which a rocking lever turns back, with 0 and 1; as of `LeverStroke.angle`."""
 
     def slope(share: Floats) -> Floats:
         stroke = LeverStroke.of(unit, rotator, TangentArray(share, np.ones((len(share), 1))))

@@ -50,9 +50,7 @@ class CatalogueUnit:
 
     @public
     def unit(self, hole: int = 1) -> PumpingUnit:
-        """The unit, of conventional geometry, with its crank pin in a hole, 1 the outermost; else an
-        `InputError`.
-        """
+        """The conventional unit with its crank pin in a hole, 1 the outermost; else an `InputError`."""
         if not 1 <= hole <= len(self.holes):
             raise InputError(
                 f"hole {hole}: {self.designation} has {len(self.holes)} crank holes; expected 1 (outermost) "
