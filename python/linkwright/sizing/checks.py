@@ -163,10 +163,7 @@ class MotorChecks:
 def rating_checks(
     known: CatalogueMotor, ratio: float, required: RequiredPower, reserve: float
 ) -> tuple[Check, ...]:
-    """Check what the rating of a motor tells by itself: speed and power.
-
-    `ratio`: of the gearbox [–]; `reserve`: rated power over required power that is asked for [–].
-    """
+    """Speed and power of a motor by its rating; `ratio` [–]; `reserve`: rated over required power [–]."""
     if known.kind == "servo":
         return _servo_rating(known, ratio, required, reserve)
     speed = known.speed_rated / ratio
