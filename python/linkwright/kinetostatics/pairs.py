@@ -216,10 +216,7 @@ def _sliding(scene: Scene, model: PairModel, push: Push) -> PairModel:
 
 
 def with_pulls(scene: Scene, models: list[PairModel], x: Floats) -> bool:
-    """Let second contacts of cams take over where the first would have to pull.
-
-    `x` (n, unknowns): values of all unknowns.
-    """
+    """Second contacts of cams take over where the first would have to pull; `x` (n, unknowns)."""
     at, changed = 0, False
     for model in models:
         force = x[:, at]

@@ -76,10 +76,7 @@ class Body(CheckedDescription):
 
 
 def body_faults(topology: Topology, bodies: object) -> Iterator[InitErrorDetails]:
-    """What is wrong between the bodies, checked or raw, and the mechanism.
-
-    Bodies on nothing or on the frame; entries on a point that only a link can have.
-    """
+    """Bodies on nothing or on the frame; entries on a point that only a link can have."""
     for name in keys(bodies):
         body = look(bodies, name)
         on = look(body, "on")

@@ -158,10 +158,7 @@ class FormulaLoad(Load):
 
 
 def variable_faults(key: str, text: object, known: frozenset[str], on: str) -> Iterator[tuple[str, str, str]]:
-    """Variables that what a load acts on does not have.
-
-    `on`: what the load acts on, in words. Returns: key, what is expected, and the remedy.
-    """
+    """Variables that the carrier `on` of a load does not have: key, what is expected, and the remedy."""
     used = used_names(text) if isinstance(text, str) else None
     for name, at in (used or {}).items():
         if name in VARIABLES and name not in known:
