@@ -60,10 +60,7 @@ FAST_STARTS = {
 
 
 def fast_starts(machine: Machine) -> int:
-    """What becomes of starts faster than the steady motion of a machine, a key of `FAST_STARTS` or 0.
-
-    0 as well if no analysis has solved its steady motion.
-    """
+    """Outcome of starts faster than steady motion, a key of `FAST_STARTS`; 0 if none, or none solved."""
     above = [limit.outcome for limit in known_start_limits(machine) if limit.side == "above"]
     return max((_OUTCOMES.index(outcome) + 1 for outcome in above), default=0)
 

@@ -49,9 +49,7 @@ def crank_speed(machine: Machine, asked: float | None) -> CrankSpeed:
 def speeds_of(
     speeds: Floats, machine: Machine, asked: float | None, *, is_pose: bool = False
 ) -> dict[str, Any]:
-    """The speeds (n,) [rad/s] at which something was computed along a motion, or in one pose, for JSON;
-    `asked`: that of ``--speed``.
-    """
+    """Speeds (n,) [rad/s] along a motion, or in one pose, for JSON; `asked`: that of ``--speed``."""
     has_motor = machine.drive is not None and machine.drive.motor is not None
     source = _OPTION if asked is not None else "steady motion" if has_motor and not is_pose else _DESIGN
     low, high = float(speeds.min()), float(speeds.max())

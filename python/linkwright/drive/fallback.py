@@ -17,10 +17,7 @@ _ADVICE = "simulate the machine in time (linkwright transient)"
 
 
 def in_time(machine: Machine, speed: float, turns: int) -> str:
-    """What the machine does in time from a speed at φ = 0 [rad/s], as a clause; else the advice to look.
-
-    ``turns``: revolutions of a cycle.
-    """
+    """What the machine does from a speed at φ = 0 [rad/s], as a clause, else advice; ``turns`` of a cycle."""
     try:
         first = transient(machine, speed=speed, turns=_CYCLES * turns)
         if first.end != End.TURNS:

@@ -63,10 +63,7 @@ def cycle_figures(motion: CycleMotion, linkage: Linkage) -> Iterator[CaptionedFi
 def cycle_figure(
     motion: CycleMotion, names: Sequence[str], quantities: Sequence[tuple[str, str, str]]
 ) -> Figure:
-    """Draw quantities of some outputs over the crank angle, a panel each; dots mark the extremes.
-
-    `quantities`: end of the name of the curve, word and symbol of each.
-    """
+    """Draw `quantities` (end of the curve's name, word, symbol) over the crank angle, extremes as dots."""
     figure, axes = panels(len(quantities), height=_HEIGHT + _PANEL * len(quantities))
     for panel, (ending, word, symbol) in zip(axes, quantities, strict=True):
         _panel(panel, motion, [name + ending for name in names], names)

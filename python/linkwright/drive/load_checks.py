@@ -27,10 +27,7 @@ _DOUBTFUL = (FormulaLoad, GasSpring, TorsionalSpring)
 
 
 def require_turn(machine: Machine) -> CompiledMachine:
-    """The machine over its cycle, if its crank rotates fully, with loads that have a value everywhere.
-
-    Raises `FindingError`: what does not close, or the load, and where.
-    """
+    """The machine over its cycle; `FindingError` if it does not close or a load has no value."""
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     require_same_turns(machine)

@@ -158,10 +158,7 @@ def motion_extremes(motion: Transient) -> tuple[MotionExtreme, ...]:
 
 
 def course(motion: Transient, intervals: int) -> tuple[Floats, Floats, Floats, Floats]:
-    """A motion at equal intervals of time: t [s], φ [rad], ω [rad/s], ε [rad/s²], (intervals + 1,) each.
-
-    One instant if it does not move.
-    """
+    """t [s], φ [rad], ω [rad/s], ε [rad/s²] at equal intervals, (intervals + 1,); one instant if at rest."""
     if len(motion.time) < 2:
         return motion.time, motion.crank_angle, motion.speed, motion.acceleration
     time = np.linspace(motion.time[0], motion.time[-1], intervals + 1)

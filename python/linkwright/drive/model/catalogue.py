@@ -111,10 +111,7 @@ class CatalogueMotor:
 
     @property
     def start(self) -> dict[str, float]:
-        """Entries of a motor: torque at standstill, and the pull-up point where the minimum counts.
-
-        Empty where neither the source nor a standard gives them.
-        """
+        """Torque at standstill and pull-up point where the minimum counts; empty if no source has them."""
         if self.torque_start is not None:
             return {"torque_start": self.torque_start}
         if self._design_n is None or self.speed_synchronous is None:

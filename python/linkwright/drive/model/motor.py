@@ -200,9 +200,7 @@ class InductionMotor(Motor):
 
     @property
     def start_is_minimum(self) -> bool:
-        """Whether neither file nor catalogue gives the starting torque, so that the minimum of standards
-        counts.
-        """
+        """Whether file and catalogue lack the starting torque, so that the minimum of standards counts."""
         from linkwright.drive.model import catalogue
 
         given = self.catalogue is None or any(name in self.model_fields_set for name in catalogue.START)
