@@ -269,10 +269,7 @@ def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
 
 
 def outside(machine: Machine, address: str, values: Floats) -> tuple[Bools, str]:
-    """Which numbers an entry cannot have by itself, (n,), and what it can have.
-
-    What an entry can have is a range: where both ends of the numbers are in it, all are.
-    """
+    """Which numbers (n,) an entry cannot have by itself, and the range that it can have."""
     mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
     if not isinstance(mark, Quantity) or not len(values):
         return np.zeros(len(values), dtype=bool), ""

@@ -85,10 +85,7 @@ KNOWN = "d to h, js, k, m, n, p, r, s of shafts or D to H, JS, K, M, N, P, R, S 
 
 
 def deviations(size: float, letter: str, grade: int) -> tuple[float, float] | None:
-    """Lower and upper deviation of a nominal size [m]; None of a class or a size that is not known here.
-
-    `size`: [m].
-    """
+    """Lower and upper deviation of a nominal `size` [m]; None of a class or size that is not known."""
     # Sizes belong to the range that they end, also when 18 mm is 17.999999999999996.
     millimetres = round(size * 1e3, 9)
     if not 5 <= grade <= max(GRADES) or not 0 < millimetres <= _SIZES[-1]:

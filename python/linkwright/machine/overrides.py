@@ -31,11 +31,7 @@ class Override:
 
 
 def parse_all(overrides: Sequence[str] | Mapping[str, Any]) -> list[Override]:
-    """Read overrides.
-
-    `overrides`: texts ``PATH=VALUE``, or path → value; values of a mapping are taken as they are. Raises
-    InputError: a text is no ``PATH=VALUE``.
-    """
+    """Overrides by texts ``PATH=VALUE``, else an `InputError`, or by path → value, taken as they are."""
     if isinstance(overrides, Mapping):
         return [_of(address, value) for address, value in overrides.items()]
     if isinstance(overrides, str):

@@ -233,10 +233,7 @@ class Derivatives:
 
 
 def spread(number: Any, known: Sequence[str], listed: Sequence[str], value: float | None = None) -> Tangent:
-    """A number with derivatives by `known` entries as one with those by the entries `listed`, zero by others.
-
-    `value`: that of the result, known to the last digit.
-    """
+    """`number` with derivatives by `known` entries as one by those `listed`; `value`: exact."""
     along = lifted(number, len(known))
     d = dict(zip(known, along.d, strict=True))
     row = np.array([d.get(name, 0.0) for name in listed])

@@ -29,10 +29,7 @@ Place = tuple[str, ...]
 
 
 def with_tolerances(tables: dict[str, Any]) -> dict[str, str]:
-    """Move tolerances from behind values into their table; keys there → addresses that they come from.
-
-    Only where a quantity stands: in a formula the same text is a sum.
-    """
+    """Move tolerances from behind values to their table, key → address; in a formula the text is a sum."""
     given = tables.get(TABLE, {})
     if not isinstance(given, Mapping):
         return {}  # the description says what is wrong
@@ -119,10 +116,7 @@ def require_limits(
 
 
 def tolerance_names(machine: Machine, taken: Collection[str] = ()) -> dict[str, str]:
-    """Names → addresses of entries with a tolerance: the last keys of the address, as many as it takes.
-
-    `taken`: names that none of them may have.
-    """
+    """Names → addresses of entries with a tolerance: as many last keys as it takes, none of `taken`."""
     places = {address: known_place(machine, address) for address in machine.tolerances}
     names: dict[str, str] = {}
     for address, place in places.items():

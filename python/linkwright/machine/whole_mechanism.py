@@ -25,10 +25,7 @@ if TYPE_CHECKING:
 
 
 def with_followers(own: Mechanism) -> Mechanism:
-    """A mechanism with a driver in place of each cam; the same mechanism gives the same.
-
-    `own`: what the file builds of elements.
-    """
+    """A mechanism with a driver for each cam, the same for the same one; `own`: elements of the file."""
     if not own.cams:
         return own
     return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))
@@ -51,10 +48,7 @@ def _driven(own: Mechanism) -> Mechanism:
 
 
 def merged(own: Mechanism, unit: PumpingUnit, rotator: RodRotator | None) -> Mechanism:
-    """A mechanism together with what a unit expands into; the same parts give the same mechanism.
-
-    `own`: what the file builds of elements.
-    """
+    """A mechanism with what a unit expands into, the same for the same parts; `own`: those of the file."""
     parts = (own, unit, rotator)
     return _kept(parts, partial(_merged, *parts), _has_arrays(unit, rotator))
 

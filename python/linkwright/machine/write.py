@@ -66,10 +66,7 @@ def dumps(machine: Machine) -> str:
 
 
 def in_own_units(machine: Machine) -> str:
-    """A machine as a TOML text in its units: those of its table ``[units]``, else as its file writes them.
-
-    What is neither in SI; it reads back as the same machine.
-    """
+    """A machine as TOML in its ``[units]`` or those of its file, else in SI; it reads back the same."""
     return _text(machine, OutUnits.of_table(machine.units))
 
 
