@@ -143,10 +143,7 @@ def chosen(listed: Collection[str], asked: str) -> list[str]:
 
 
 def analysis_of(response: str) -> str:
-    """The analysis that a response is from.
-
-    Raises InputError: none that can be differentiated.
-    """
+    """The analysis that a response is from. Raises InputError: none that can be differentiated."""
     name = response.partition(".")[0]
     if name not in SOURCES:
         expected = f"one with a derivative, of {', '.join(SOURCES)}"
