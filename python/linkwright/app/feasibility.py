@@ -16,9 +16,9 @@ from linkwright.machine.machine import Machine
 
 @dataclass(frozen=True)
 class Feasibility:
-    """What was looked at, and what was found."""
+    """What was examined, and what was found."""
 
-    looked_at: tuple[str, ...]  # what was looked at, in words
+    looked_at: tuple[str, ...]  # what was examined, in words
     findings: tuple[str, ...]  # what the machine cannot do, in sentences
     warnings: tuple[str, ...]  # what its designer should know although it moves, in sentences
 

@@ -1,7 +1,7 @@
 """Thousands to millions of cams that differ in law, radii, offset or lift: which keep their limits.
 
-Of two contacts the first counts. Each cam is looked at at the same angles, in SIMD lanes; what is chosen in
-the end is looked at exactly.
+Of two contacts the first counts. Each cam is examined at the same angles, in SIMD lanes; what is chosen in
+the end is examined exactly.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _SEARCHED = ("tan_pressure_angle", "soundness", "bend_max", "bend_min")
 
 _POSITIVE = ("base_radius", "roller_radius", "distance", "arm_length")
 
-# Angles per revolution at which cams are looked at. An extreme between them is missed by up to (step)²/8 of
+# Angles per revolution at which cams are examined. An extreme between them is missed by up to (step)²/8 of
 # its second derivative: some 1e-4 of pressure angles, up to 1e-3 of the size of the cam in radii of
 # curvature.
 PER_TURN = 360
@@ -122,7 +122,7 @@ def search_cams(
         Names of laws, one of which all moving sections of a cam follow; without them, the sections as they
         are.
     law : array_like of int, shape (n,), optional
-        Number of the law of each cam; without it each variant is looked at with every law, law after law.
+        Number of the law of each cam; without it each variant is examined with every law, law after law.
     per_turn : int
         Cam angles per revolution, at least 16.
 

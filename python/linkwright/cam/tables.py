@@ -116,7 +116,7 @@ def size_table(sizes: LeastSizes) -> Table:
 
 
 def section_table(profile: CamProfile) -> Table:
-    """What each section asks of the follower: the largest velocity, acceleration and jerk, in size."""
+    """What each section demands of the follower: peak absolute velocity, acceleration and jerk."""
     speed, length = profile.speed, "rad" if profile.cam.is_oscillating else "m"
     rows: list[Row] = []
     for count, section in enumerate(profile.sections, start=1):

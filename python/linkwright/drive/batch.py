@@ -234,7 +234,7 @@ def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Fl
 def _check(machine: Machine, columns: Mapping[str, Floats]) -> None:
     """Raise unless all values are finite, and rows with the extremes of entries are possible machines."""
     # Bounds of entries are intervals, so an impossible value is an extreme or lies beyond a possible one; of
-    # entries that depend on each other only these rows are looked at.
+    # entries that depend on each other only these rows are examined.
     for address, column in columns.items():
         get(machine, address)
         if not np.isfinite(column).all():

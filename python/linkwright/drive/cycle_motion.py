@@ -36,10 +36,10 @@ CrankMotion = Callable[[Floats], tuple[Floats, Floats, Floats]]
 # Intervals of a revolution: of the curves, a degree each, which no line can resolve; of the search.
 _DRAWN, _SEARCHED = 360, 1440
 
-# Distance from a kink at which each of its sides is looked at [rad]: of a smooth curve, 1e-9 of its slope.
+# Distance from a kink at which each of its sides is examined [rad]: of a smooth curve, 1e-9 of its slope.
 _BESIDE = 1e-9
 
-# A peak lower than another by more than this share of the span is not it: between two samples a quarter of a
+# A peak lower than another by more than this share of the span is not it: between samples a quarter of a
 # degree apart, the hundredth harmonic of the crank rises above them by less.
 _NEAR = 0.03
 
@@ -49,7 +49,7 @@ _POINTS, _ROUNDS = 9, 12
 # Two rounds agree when the peak changes by less than this share of the span.
 _AGREE = 1e-12
 
-# What changes less than this share of its size, or of those of its kind, is constant but for rounding;
+# What changes less than this share of its size, or of those of its kind, is constant within rounding;
 # accelerations beside a change point are known to some 1e-10.
 _CONSTANT, _CONSTANT_RATE = 1e-12, 1e-9
 

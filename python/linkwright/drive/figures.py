@@ -132,7 +132,7 @@ _AFTER = 1.0
 
 @styled
 def run_up_figure(run_up: RunUp, steady: SteadyState | None = None) -> Figure:
-    """Draw the speed during run-up over time and turns, with the band about `steady` motion."""
+    """Draw the speed during run-up over time and revolutions, with the band about `steady` motion."""
     figure, axes = panels(1, height=3.0, columns=2, shared=False)
     time, turns, speed = _fine(run_up.motion, run_up.turns + _AFTER)
     for panel, x in zip(axes, (time, turns), strict=True):
@@ -149,7 +149,7 @@ def run_up_figure(run_up: RunUp, steady: SteadyState | None = None) -> Figure:
 
 @styled
 def attempt_figure(motion: Transient) -> Figure:
-    """Draw the speed of a failed run-up, from the start to the stall, over time and turns."""
+    """Draw the speed of a failed run-up, from the start to the stall, over time and revolutions."""
     figure, axes = panels(1, height=3.0, columns=2, shared=False)
     time, turns, speed = _fine(motion, motion.turns)
     for panel, x in zip(axes, (time, turns), strict=True):

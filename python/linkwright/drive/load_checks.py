@@ -14,7 +14,7 @@ from linkwright.linkages.whole_cycle import cycle_of, over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
-# Angles at which loads are looked at; a hole narrower than half a degree is met by the solver, which says so.
+# Angles at which loads are examined; a hole narrower than half a degree is met by the solver, which says so.
 _ANGLES = 720
 
 

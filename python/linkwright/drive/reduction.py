@@ -34,7 +34,7 @@ NO_INERTIA = (
     "give motor, flywheel or bodies their inertia"
 )
 
-# Inertia that is a smaller share of the maximum is zero but for rounding.
+# Inertia that is a smaller share of the maximum is zero within rounding.
 _ROUNDING = 1e-12
 
 # Speeds at which laws are integrated together; more only take memory.

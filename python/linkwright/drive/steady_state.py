@@ -332,7 +332,7 @@ def require_accuracy(accuracy: float) -> None:
 def solved_state(
     machine: Machine, accuracy: float, at: Floats | int
 ) -> tuple[SteadyState, SteadySolution | None]:
-    """`steady_state` at crank angles or so many a revolution, and its solution; None for constant speed."""
+    """`steady_state` at crank angles or so many per revolution, and its solution; None for constant speed."""
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     require_accuracy(accuracy)

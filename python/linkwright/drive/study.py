@@ -45,7 +45,7 @@ INTERVALS = 1440
 # A run-up that failed is followed again for its curve alone: no line shows more than this.
 _ATTEMPT_ACCURACY = 1e-6
 
-# Speeds at which a motor's characteristic is looked at, up to one and a half times its speed without load.
+# Speeds at which a motor's characteristic is examined, up to one and a half times its speed without load.
 _SPEEDS = 200
 
 

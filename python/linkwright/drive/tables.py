@@ -160,7 +160,7 @@ def drive_headline(study: Results) -> Iterator[tuple[str, str, str]]:
         if not isinstance(motor, ConstantSpeedMotor):
             yield "speed fluctuation δ", number(steady.unevenness), ""
             yield "dynamic factor H", number(steady.dynamism), ""
-        # Without losses the mean is zero but for rounding.
+        # Without losses the mean is zero within rounding.
         power = steady.power_motor_mean if steady.power_motor_mean > 1e-9 * steady.power_motor_max else 0.0
         yield "mean motor power", *parted(power, "W")
         if motor.torque_rated is not None:

@@ -1,6 +1,6 @@
 """What the designer of a machine should know although it runs: sentences with numbers.
 
-Each function below looks at one thing and yields a sentence if there is something to say about it.
+Each function below examines one thing and yields a sentence if there is something to say about it.
 """
 
 from __future__ import annotations

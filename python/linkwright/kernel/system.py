@@ -33,7 +33,7 @@ _NEW_PROCESS_GROUP = 0x200
 # As the option -P of Python.
 _SAFE_PATH = "PYTHONSAFEPATH"
 
-# How often and how long to wait for a scanner or an indexer that looks at a new file [s].
+# How often and how long to wait for a scanner or an indexer that examines a new file [s].
 _TRIES, _PAUSE = 20, 0.05
 
 

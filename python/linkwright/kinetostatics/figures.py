@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 # Reactions drawn: the largest.
 _MOST = 4
-# Circles of a polar diagram, whose numbers do not overlap; and the angle [°] about them that is looked at.
+# Circles of a polar diagram, whose numbers do not overlap; and the angle [°] about them that is examined.
 _CIRCLES, _BESIDE = 4, 14
 
 

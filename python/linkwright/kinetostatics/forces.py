@@ -85,7 +85,7 @@ def forces(
     pressure_angle : float
         Of all teeth [rad].
     contributions : bool
-        Whether the share of each load is wanted too; it is worked out when it is looked at.
+        Whether the share of each load is wanted too; it is worked out when it is asked for.
 
     Returns
     -------

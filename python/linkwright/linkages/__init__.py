@@ -29,7 +29,7 @@
 | `scene` | Sketch of a mechanism: points, links, slides, gears, bodies, springs over the crank angle |
 | `straight_portion` | The longest portion of a path that is straight: that hardly leaves its chord |
 | `study` | Its part of the study of a machine |
-| `sweep` | A linkage swept over its cycle: what is looked at, curves, exact extremes |
+| `sweep` | A linkage swept over its cycle: crank angles, curves, exact extremes |
 | `tables` | A linkage as tables of text: travel, transmission angles, four-bar loops, dead points |
 | `whole_cycle` | After how many revolutions do masses, loads and forces repeat? |
 | `zero` | Crank angles counted from a dead centre |

@@ -25,7 +25,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Element
 
-# Dyads with two assemblies of which all combinations are looked at.
+# Dyads with two assemblies of which all combinations are examined.
 _DYADS_MAX = 8
 
 # Dyads whose sign tells which of two assemblies they have.
@@ -35,7 +35,7 @@ _SIGNED = Element.SliderRod | Element.Rocker | Element.GuidedRod | Element.Slott
 _MEET = 1e-6
 _TURN = 2 * np.pi
 
-# Revolutions and branches, over all assemblies, after which no further assembly is looked at.
+# Revolutions and branches, over all assemblies, after which no further assembly is examined.
 _TURNS_MAX, _BRANCHES_MAX = 1024, 4096
 
 
@@ -145,7 +145,7 @@ Ended = tuple[Branch, list[tuple[float, str]]]
 def _branches(
     compiled: CompiledMachine, slots: dict[str, int], signs: tuple[float, ...]
 ) -> tuple[list[Ended], int]:
-    """The branches of one choice of assemblies, and the revolutions that were looked at."""
+    """The branches of one choice of assemblies, and the revolutions that were examined."""
     q = compiled.parameters.copy()
     q[list(slots.values())] *= signs
     other = replace(compiled, parameters=q)

@@ -46,7 +46,7 @@ _REACH = 1e-4
 _FEW = 180
 _AMPLE = 0.02
 
-# Angles at which closure is looked at; gaps and openings between two of them are found by the minima and
+# Angles at which closure is examined; gaps and openings between two of them are found by the minima and
 # maxima that the parabolas through three angles promise.
 _ANGLES = 1440
 
@@ -59,7 +59,7 @@ _JUMP = 1e-3
 # pin's place, 1e-16 of the crank, makes 1e-16 over the cube of this of ψ″, a millionth.
 _OVER_PIVOT = 5e-4
 
-# Doublings of the revolutions looked at in a motion that never repeats: some 8000 revolutions either way.
+# Doublings of the revolutions examined in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
 
 
@@ -498,7 +498,7 @@ def _deg(angle: float) -> str:
 
 @lru_cache(maxsize=8)
 def turn_angles(n: int, turns: int = 1) -> Floats:
-    """Crank angles from 0, both ends included, ``n`` ≥ 1 intervals a revolution [rad]; shared, read-only."""
+    """Crank angles from 0, both ends included, ``n`` ≥ 1 intervals per revolution [rad]; read-only."""
     if n < 1:
         raise InputError(f"n = {n}: expected at least 1 interval of the revolution")
     angles = np.linspace(0.0, 2 * np.pi * turns, n * turns + 1)

@@ -49,7 +49,7 @@ class DoublePoint(NamedTuple):
 
 
 class Cusp(NamedTuple):
-    """Where the point stands still and turns back: place [m], and the crank angle [rad]."""
+    """Where the point is at rest and turns back: place [m], and the crank angle [rad]."""
 
     x: float
     y: float
@@ -117,7 +117,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
     -------
     CouplerCurve
         Over the period; of a mechanism with limits, over the first range in which it closes. Of a point that
-        stands still but for rounding: its place, length 0, and nothing else.
+        is at rest within rounding: its place, length 0, and nothing else.
 
     Raises
     ------
@@ -268,7 +268,7 @@ class _Path:
         ]
 
     def _stops(self) -> Floats:
-        """Crank angles at which the point stands still: minima of its speed that are zero."""
+        """Crank angles at which the point is at rest: minima of its speed that are zero."""
         speed = np.hypot(*self.motion.d1)
         inner = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
         inner = inner[speed[inner] < 0.1 * speed.max()]

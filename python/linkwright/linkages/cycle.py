@@ -9,7 +9,7 @@ Extremes are zeros of exact derivatives: bracketed on a grid, then located to ro
 
 Dead points are where a linkage stops, turns back or can branch. At a limit a radicand passes zero and the
 crank can go no farther. At a change point a radicand touches zero, a double root: both assemblies meet, and
-the motion goes on. At a reversal an output stands still; driven by that output, the mechanism is at a dead
+the motion goes on. At a reversal an output is at rest; driven by that output, the mechanism is at a dead
 point there.
 """
 

@@ -15,7 +15,7 @@ from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 
-# Crank angles that are looked at, a prime number, and rates that are rounding, as a share of the largest.
+# Crank angles that are examined, a prime number, and rates that are rounding, as a share of the largest.
 _LOOKS = 97
 _STILL = 1e-9
 

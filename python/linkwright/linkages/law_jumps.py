@@ -20,7 +20,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
-# Intervals of a revolution that are looked at, and how far a rise may differ from its slopes, as a share of
+# Intervals of a revolution that are examined, and how far a rise may differ from its slopes, as a share of
 # the largest rate: a smooth law differs by its third derivative times h³/12, some 1e-6 of it.
 _LOOK, _DIFFERS = 720, 1e-3
 

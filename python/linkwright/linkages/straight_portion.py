@@ -15,7 +15,7 @@ Places = Callable[[Floats], Floats]
 # Portions of the path between which all straight ones are looked for.
 _PORTIONS = 90
 
-# Points of a portion when it is looked at closely, and halvings when it is found not to be straight.
+# Points of a portion when it is examined closely, and halvings when it is found not to be straight.
 _CLOSELY = 65
 _HALVINGS = 40
 
@@ -23,7 +23,7 @@ _HALVINGS = 40
 def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float, float, float]:
     """The straight portion of a path with the longest chord.
 
-    All portions between every few samples are looked at, then those whose ends are moved by less.
+    All portions between every few samples are examined, then those whose ends are moved by less.
 
     `at`: gives places (n, 2) at crank angles (n,); `straight`: maximum distance from the chord
     over its length. Returns: crank angles at its ends [rad], its chord and the maximum distance from that
@@ -51,7 +51,7 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
 
 
 def _confirmed(at: Places, low: float, high: float, straight: float) -> tuple[float, float, float, float]:
-    """The portion looked at closely, and shrunk about its middle until it is straight there too."""
+    """The portion examined closely, and shrunk about its middle until it is straight there too."""
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     good, bad = 0.0, 2.0
     for share in (1.0, *[0.0] * _HALVINGS):

@@ -1,4 +1,4 @@
-"""The linkage in the study of a machine: what is made of it, looked at, and listed."""
+"""The linkage in the study of a machine: what is made of it, examined, and listed."""
 
 from __future__ import annotations
 

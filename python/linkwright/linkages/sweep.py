@@ -1,4 +1,4 @@
-"""A linkage swept over its cycle: what is looked at, curves, exact extremes."""
+"""A linkage swept over its cycle: crank angles, curves, exact extremes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _FLAT = 1e-11
 
 @dataclass(frozen=True)
 class Cycle:
-    """The crank angles that are looked at."""
+    """The crank angles that are examined."""
 
     angles: Floats  # (n,): [rad]
     ends: Floats  # (2,): the first and the last; of a linkage with limits those themselves [rad]
@@ -114,7 +114,7 @@ class LinkageSweep:
                 self.position[k] = np.unwrap(self.position[k])
         self.d1 = slopes[len(self.dyads) : len(self.dyads) + len(self.outputs)]
         self._zeros = self._locate(slopes)
-        # All extremes and ends are looked at once for all outputs.
+        # All extremes and ends are examined once for all outputs.
         changes = [np.array(dyad.change_points) for dyad in self.dyads]
         spots: list[Floats] = [*self._zeros, *changes, cycle.ends, cycle.angles[[0, -1]]]
         self._spots = np.array(sorted(set(np.concatenate(spots).tolist())))
@@ -271,7 +271,7 @@ def ways_between(at: Floats, values: Floats, span: float) -> tuple[Way, Way] | N
 def sweep(compiled: CompiledMachine, mechanism: Mechanism, cycle: Cycle) -> LinkageSweep:
     """Sweep a mechanism over a cycle.
 
-    `cycle`: where it is looked at.
+    `cycle`: where it is examined.
     """
     return LinkageSweep(compiled, mechanism, cycle)
 

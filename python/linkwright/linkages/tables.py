@@ -19,7 +19,7 @@ from linkwright.linkages.cycle import END, DeadPoint, ElementMotion, Linkage
 # More dead points than this are the regular ones of many outputs, and tell nothing.
 _DEAD_POINTS_MAX = 24
 
-# A transmission angle follows from a root: what changes less is constant but for rounding [rad].
+# A transmission angle follows from a root: what changes less is constant within rounding [rad].
 _CONSTANT = 1e-7
 
 
@@ -124,7 +124,7 @@ def _turning(point: DeadPoint, names: list[str]) -> str:
 # Outputs among the few numbers.
 _OUTPUTS = 2
 
-# Ways forth and back that take as long, but for rounding.
+# Ways forth and back that take as long, within rounding.
 _EVEN = 1e-6
 
 

@@ -85,7 +85,7 @@ class Analysis:
     `make` takes the `Results` of a study so far and its `Findings`, and gives the result, a function that
     gives it when it is asked for, results by the name of a part, or None; without it the `function` is called
     with the machine. `tangents` takes machine and addresses, and gives `Derivatives`. `check` takes machine
-    and `Findings`, and gives what it has looked at, in words. `obstacle` takes the machine. The others are of
+    and `Findings`, and gives what it has examined, in words. `obstacle` takes the machine. The others are of
     a study, see `Of`.
     """
 

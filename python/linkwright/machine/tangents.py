@@ -127,7 +127,7 @@ class Directions:
         object.__setattr__(self, "values", np.ascontiguousarray(self.values))
 
 
-# Numbers of one form agree but for rounding: to this share, or to this number in SI.
+# Numbers of one form agree within rounding: to this share, or to this number in SI.
 _ALIKE, _NOTHING = 1e-6, 1e-9
 
 _OTHER_FORM = (

@@ -20,7 +20,7 @@ from linkwright.pumping.model.rotator_lengths import Lengths, lengths
 from linkwright.pumping.model.unit import ROD, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, turn_extreme
 
-# Angles over which the motion of a stroke is looked at.
+# Angles over which the motion of a stroke is examined.
 _ANGLES = 1440
 
 # Difference of the way forward from the swing that is rounding [rad].

@@ -38,7 +38,7 @@ from linkwright.pumping.unit import PolishedRod, turn_extreme
 # Seconds of a day.
 _DAY = 86400.0
 
-# Angles of the revolution at which conditions are looked at, a quarter of a degree.
+# Angles of the revolution at which conditions are examined, a quarter of a degree.
 _ANGLES = 1440
 
 # Diagonals, and lengths, that differ by less than this share are the same: a hundred times rounding.
@@ -265,8 +265,8 @@ def verdict(known: Lengths, least: float, greatest: float) -> str:
 
     ``known``: l_4 and l_5 [m]; ``least``, ``greatest``: extremes m and M of the diagonal [m].
 
-    Grashof's rule speaks of four fixed lengths; here the diagonal changes, so the dyad must close at both of
-    its extremes. The paper's (18), l_5 + l_6 > l_3 + l_4, speaks of one position and is not sufficient.
+    Grashof's rule names four fixed lengths; here the diagonal changes, so the dyad must close at both of
+    its extremes. The paper's (18), l_5 + l_6 > l_3 + l_4, names one position and is not sufficient.
     """
     folded, stretched = abs(known.link - known.lever), known.link + known.lever
     close = 1e-9 * greatest

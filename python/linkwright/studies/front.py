@@ -2,7 +2,7 @@ r"""Two goals at once: the machines of which none is better in both, by ε-const
 
 The first goal is sought while the second is held to a limit, which goes in equal steps from what the best
 machine by the first goal has to what the best by the second has [1]_. That finds all of a front, also where
-it is hollow, where weighted sums do not. Where several machines are the best by one goal, the end of the
+it is concave, where weighted sums do not. Where several machines are the best by one goal, the end of the
 front is the best of these by the other.
 
 References

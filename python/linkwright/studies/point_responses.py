@@ -113,7 +113,7 @@ def why_open(asked: StudyResponse) -> str:
 
 
 def sampled_angles(asked: StudyResponse) -> Floats:
-    """Crank angles at which a motion is looked at, (n,) [rad]."""
+    """Crank angles at which a motion is examined, (n,) [rad]."""
     return np.linspace(0.0, 2 * np.pi, SAMPLES, endpoint=False) if asked.at is None else np.array([asked.at])
 
 

@@ -103,7 +103,7 @@ class Rows:
 
 
 def counted_fast_starts(numbers: NDArray[np.uint8]) -> dict[str, int]:
-    """What becomes of fast starts that do not settle → of how many rows, of numbers a row."""
+    """What becomes of fast starts that do not settle → of how many rows, of numbers per row."""
     counts = np.bincount(numbers, minlength=max(FAST_STARTS) + 1)
     return {text: int(counts[number]) for number, text in FAST_STARTS.items() if counts[number]}
 

@@ -35,7 +35,7 @@ from linkwright.studies.search_log import SearchLog
 
 Method = Literal["both", "global", "gradient"]
 
-# Places that are looked at for each start from which derivatives lead down.
+# Places that are examined for each start from which derivatives lead down.
 _LOOKED = 16
 
 # Share of the machines that is for the derivatives.

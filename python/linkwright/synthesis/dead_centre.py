@@ -38,7 +38,7 @@ from linkwright.synthesis.verification import (
     require_transmission,
 )
 
-# Values of the free parameter looked at before the best is refined; the transmission angle has one hill, or
+# Values of the free parameter examined before the best is refined; the transmission angle has one hill, or
 # two, over each family.
 _LOOKS = 2001
 

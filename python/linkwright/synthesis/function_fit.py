@@ -28,7 +28,7 @@ _BROKEN = 0.05
 _MOST = 60
 
 # Minima of least squares whose largest error is minimised, and intervals of the analysis over the range to
-# one of the points where it is looked at.
+# one of the points where it is examined.
 _LEVELLED = 12
 _EVERY = 12
 

@@ -270,7 +270,7 @@ class PathModel:
 
     def penalties(self, p: Floats, is_double: Bools, shift: Floats) -> tuple[Floats, Floats]:
         """What is broken of constraints that are shifted, and its derivatives, (m, c) and (m, c, 9)."""
-        # All steps at once: rows are few, so that what counts is how often they are looked at.
+        # All steps at once: rows are few, so that what counts is how often they are examined.
         beside = np.repeat(p[None], 10, axis=0)
         for i in range(9):
             beside[i + 1, :, i] += _STEP

@@ -28,7 +28,7 @@ from linkwright.machine.machine import Machine
 from linkwright.synthesis.four_bar import machine_of
 from linkwright.synthesis.line_kinds import KINDS, LineKind, Tables
 
-# Intervals of the crank's range at which the line is looked at.
+# Intervals of the crank's range at which the line is examined.
 _STEPS = 1440
 
 # Keys of a mechanism that are lengths.

@@ -110,7 +110,7 @@ def require_transmission(wanted: float, motion: ElementMotion) -> None:
     require_met("a minimum transmission angle", wanted, least, "rad", size=1.0)
 
 
-# Angles looked at between the first position and the last; a gap narrower than a quarter of a degree is found
+# Angles examined between the first position and the last; a gap narrower than a quarter of a degree is found
 # by the analysis that meets it.
 _STEPS = 1441
 

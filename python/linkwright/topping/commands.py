@@ -38,7 +38,7 @@ To = Annotated[
     FolderOutput, to_folder("Write results.json, curves as CSV, and figures as SVG and PNG there.")
 ]
 
-# Lengths at which the haulm that is left is looked at for its figure.
+# Lengths at which the haulm that is left is examined for its figure.
 _LENGTHS = 31
 
 

@@ -89,7 +89,7 @@ def coverage(
 
     `diameter`, `offset`, `phase`: array_like, shape (n,) or (1,): d of the discs [m], their centres to the
     left of the row [m], phase of the knife when the middle of the edge is abreast of the centre [rad].
-    `length`: of the edge [m]; without it, only what is needed is looked at. `fine`: stations per revolution
+    `length`: of the edge [m]; without it, only what is needed is examined. `fine`: stations per revolution
     of the law; an edge at a large angle takes more. Raises `InputError` for a negative diameter or a number
     that is not finite.
     """
@@ -153,7 +153,7 @@ def pass_over(
     fine: int = COARSE,
     watch: Watch | None = None,
 ) -> Pass:
-    """Let an edge pass over roots; ``length`` [m]: without it only what is needed is looked at."""
+    """Let an edge pass over roots; ``length`` [m]: without it only what is needed is examined."""
     require_advance(edges, roots)
     phase = roots.phase(edges[0].knife.rate, edges[0].forward_speed)
     diameter, missed = roots.diameter, roots.is_missed

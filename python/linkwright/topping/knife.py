@@ -376,7 +376,7 @@ def other_peaks(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[flo
 def _highest(
     machine: Machine, speed: float, angle: Floats, torque: Floats, sign: float
 ) -> tuple[float, float]:
-    """The maximum torque, times a sign, and its angle: looked at more closely about the highest so far."""
+    """The maximum torque, times a sign, and its angle: examined more closely about the highest so far."""
     step = 2 * np.pi / _DRIVE_ANGLES
     for _ in range(_LOOKS):
         at = int(np.nanargmax(sign * torque))

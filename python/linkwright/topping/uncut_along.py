@@ -39,7 +39,7 @@ from linkwright.topping.edge import Edge
 
 _TURN = 2 * np.pi
 
-# Places of a pass at which the ends of the edge are looked at: what enters and leaves between two of them is
+# Places of a pass at which the ends of the edge are examined: what enters and leaves between two of them is
 # some 1e-5 of a head.
 _PLACES = 160
 

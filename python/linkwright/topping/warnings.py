@@ -121,7 +121,7 @@ def _locked(field: RandomField, forward_speed: float, knife: Knife) -> Iterator[
             return
 
 
-# Heads that are looked at: phases, and offsets with both ends.
+# Heads that are examined: phases, and offsets with both ends.
 _PHASES, _OFFSETS = 24, 3
 
 # Share of a head that is certainly left: far above rounding.

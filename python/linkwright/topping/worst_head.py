@@ -13,7 +13,7 @@ from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 
-# What is looked at: of an edge, for offsets [m] and phases [rad] of heads, (n,).
+# What is examined: of an edge, for offsets [m] and phases [rad] of heads, (n,).
 Measure = Callable[[Edge, Floats, Floats], Floats]
 
 # First look at the worst head: phases, and offsets.
@@ -22,7 +22,7 @@ _PHASES, _OFFSETS = 360, 5
 # Then the look narrows: places to either side of the best, rounds, and by how much in each.
 _BESIDE, _ROUNDS, _NARROWER = 4, 20, 0.25
 
-# Of edges that retreat, which take some thousand times as long, so many times fewer heads are looked at, and
+# Of edges that retreat, which take some thousand times as long, so many times fewer heads are examined, and
 # places are narrowed to 1e-6.
 SPARING = 4
 
@@ -56,7 +56,7 @@ def worst_head(
     """The head at which a measure has its maximum, over offsets up to Δ [m] on both sides and over all
     phases.
 
-    `phase`: the only one [rad], None for all; `measure`: edge, offsets and phases (n,) → what is looked at,
+    `phase`: the only one [rad], None for all; `measure`: edge, offsets and phases (n,) → what is examined,
     (n,). A look at many heads, then a look about the best of them that narrows fourfold each round: tops may
     be smooth or edges.
     """
@@ -130,7 +130,7 @@ def _best(edge: Edge, phases: Floats, offsets: Floats, measure: Measure, same: f
     phi, delta = (values.ravel() for values in np.meshgrid(phases, offsets, indexing="ij"))
     values = measure(edge, delta, phi)
     most = values.max()
-    # Half a revolution later the mirror image of a head asks the same, but for rounding: the first of them.
+    # Half a revolution later the mirror image of a head asks the same, within rounding: the first of them.
     at = int(np.argmax(values if np.isnan(most) else values >= most * (1 - same)))
     return Worst(float(values[at]), float(phi[at]), float(delta[at]), edge)
 
@@ -187,7 +187,7 @@ def _left(described: Topper, edges: list[Edge], d: float) -> dict[str, Any]:
     worst = worst_head(edges, described.offset, described.motion.phase, left)
     there = coverage(worst.edge, d, worst.offset, worst.phase, length=length)
     return {
-        # All of it, but for rounding.
+        # All of it, within rounding.
         "uncut_share": min(worst.value, 1.0),
         "uncut_phase": worst.phase,
         "uncut_offset": worst.offset,

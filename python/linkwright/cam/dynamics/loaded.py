@@ -51,7 +51,7 @@ _NOTHING = 1e-9
 # Rounding of a force that is a difference of forces of this share.
 _ROUNDING = 1e-12
 
-# Distance from a joint at which its two sides are looked at [rad].
+# Distance from a joint at which its two sides are examined [rad].
 _BESIDE = 1e-9
 
 # Relative accuracy of the steady speed.
@@ -113,7 +113,7 @@ class LoadedCam(Result):
 
     @property
     def force_size(self) -> Annotated[float, Label("peak absolute normal force", "", "N")]:
-        """Largest normal force in size."""
+        """Largest normal force in magnitude."""
         return max(abs(self.force_max), abs(self.force_min))
 
 
@@ -207,7 +207,7 @@ def _pressed(machine: Machine, speed: float | None, angles: Floats) -> Forces:
 
 
 def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Floats) -> Extreme:
-    """The largest value of a function sampled at angles, looked at closer and closer about its place."""
+    """The largest value of a function sampled at angles, examined ever more closely about its place."""
     i = int(np.nanargmax(values))
     best = Extreme(float(angles[i]), float(values[i]))
     low, high = (float(angles[min(max(k, 0), len(angles) - 1)]) for k in (i - 1, i + 1))
@@ -329,7 +329,7 @@ def _inner(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
 
 
 def _outer(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
-    """The same at the outer flank of a groove, which is hollow where the pitch curve is convex."""
+    """The same at the outer flank of a groove, which is concave where the pitch curve is convex."""
     roller = flank.contact.sizes.roller_radius
     with np.errstate(divide="ignore"):
         return -(1.0 / rows["bend"] + roller), np.full_like(rows["bend"], roller)

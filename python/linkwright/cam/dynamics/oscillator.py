@@ -177,7 +177,7 @@ Ends = Literal["dwell", "turn"]
 # Share of a derivative's own size below which a jump is rounding of the law's coefficients.
 _ROUNDING = 1e-9
 
-# Highest order of a derivative that is looked at: a cam for a vibrating follower needs four.
+# Highest order of a derivative that is examined: a cam for a vibrating follower needs four.
 _ORDERS = 6
 
 

@@ -278,7 +278,7 @@ class MotionLaw:
         return [values[i].number() for i in range(len(places))]
 
     def peak(self, order: int = 0) -> Extreme:
-        """The value of a derivative that is largest in size."""
+        """The value of a derivative that is largest in magnitude."""
         return max(self.extremes(order)[::-1], key=lambda extreme: abs(extreme.value))
 
     def integral_of_square(self, order: int = 0) -> float:

@@ -1,7 +1,7 @@
 """The closed curve of a cam, and points on it by arc length.
 
 It is smooth over the cam angle from break to break. It may turn its direction suddenly at a break (a corner),
-and it may stand still over a whole stretch: a corner too. What it may not do is turn back on itself inside a
+and it may be at rest over a whole stretch: a corner too. What it may not do is turn back on itself inside a
 stretch: there a profile is undercut, and has no outline.
 
 With its standstills left out, each of its places has one angle.
@@ -79,7 +79,7 @@ class Stretch:
         return self._at("seconds", phi)
 
     def directions(self, phi: Floats) -> Floats:
-        """Unit tangents, (…, 2); where the curve stands still, those from inside."""
+        """Unit tangents, (…, 2); where the curve is at rest, those from inside."""
         t = self.tangents(phi)
         speed = np.linalg.norm(t, axis=-1)
         still = speed <= SAME * float(np.linalg.norm(self.tangents(self._middle), axis=-1))

@@ -4,7 +4,7 @@ The corners of the path are projected on the curve. They must follow one another
 each side of the path belongs to the part of the curve between its ends, and both are compared with each
 other: places of the side with the nearest of the curve, places of the curve with the nearest of the side.
 Where the distance is largest, it is looked for closer. The nearest is looked for between those ends only, so
-that at the places looked at the result is never less than the distance of the two sets (Hausdorff).
+that at the places examined the result is never less than the distance of the two sets (Hausdorff).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Distances = Callable[[Indices, Floats], tuple[Floats, Floats]]
 # smooth largest distance the error falls with the square: (1/16 · 1/8 · 1/8)² of the distance is left.
 _INTERVALS, _CLOSER = 16, 2
 
-# Sides are looked at closer whose largest distance found is at least this share of the largest of all:
+# Sides are examined closer whose largest distance found is at least this share of the largest of all:
 # between the samples of sides as smooth as arcs it is off by less.
 _WORTH = 0.9
 

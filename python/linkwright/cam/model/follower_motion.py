@@ -149,7 +149,7 @@ class FollowerMotion:
 
     @cached_property
     def peaks(self) -> tuple[float | None, ...]:
-        """Largest first, second and third derivative by the cam angle, in size; None where it is infinite."""
+        """Largest absolute first, second and third derivative by the cam angle; None where infinite."""
         smooth = min(joint.order for joint in self.joints)
         orders = range(1, 4)
         return tuple(abs(self.lift.peak(n).value) if n <= smooth + 1 else None for n in orders)

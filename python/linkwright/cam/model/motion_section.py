@@ -128,7 +128,7 @@ class MotionSection(Description):
 
     @property
     def is_dwell(self) -> bool:
-        """Whether the follower stands still."""
+        """Whether the follower is at rest."""
         return self.lift is None and self.swing is None and self.law is None
 
     @property

@@ -215,7 +215,7 @@ class Opposite:
 
     @property
     def is_constant(self) -> bool:
-        """Whether both touch at every angle, but for rounding."""
+        """Whether both touch at every angle, within rounding."""
         apart = max(abs(self.least.value - self.breadth), abs(self.greatest.value - self.breadth))
         return apart <= _CONSTANT * self.breadth
 

@@ -5,7 +5,7 @@ doubtful.
 | --- | --- |
 | undercut by the roller | 1 − r κ < 0: the roller is larger than the pitch curve's radius of curvature |
 | undercut under a flat face | ρ < 0: the face does not touch the cam there |
-| undercut in a groove | 1 + r κ < 0: the outer flank, where the pitch curve is hollow |
+| undercut in a groove | 1 + r κ < 0: the outer flank, where the pitch curve is concave |
 | arm as fast as the cam | β′ changes its sign: the face turns over the cam |
 | locked | d·n ≤ 0: pressure angle of 90° or more |
 | crossed | the profile crosses itself where it is nowhere undercut |
@@ -41,7 +41,7 @@ from linkwright.kernel.public import public
 # Angles that are named of many.
 _NAMED = 6
 
-# A soundness below this is a sharp point, but for rounding.
+# A soundness below this is a sharp point, within rounding.
 _SHARP = 1e-9
 
 

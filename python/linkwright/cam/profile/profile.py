@@ -28,7 +28,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
-# Angles per revolution at which a cam is looked at; between them extremes are found exactly.
+# Angles per revolution at which a cam is examined; between them extremes are found exactly.
 ANGLES = 720
 
 
@@ -58,7 +58,7 @@ class Flank:
 
     @property
     def steepest(self) -> Extreme:
-        """The pressure angle that is largest in size."""
+        """The pressure angle that is largest in magnitude."""
         both = (self.pressure_angle_max, self.pressure_angle_min)
         return max(both, key=lambda extreme: abs(extreme.value))
 

@@ -81,7 +81,7 @@ class Output:
 
 @dataclass(frozen=True)
 class FolderOutput(Output):
-    """The same with a folder for all files, which is looked at before anything is computed."""
+    """The same with a folder for all files, which is examined before anything is computed."""
 
     def __post_init__(self) -> None:
         output_folder(self.out, force=self.force)

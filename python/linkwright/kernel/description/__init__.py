@@ -9,7 +9,7 @@
 | `formula` | Formulas as texts |
 | `formula_faults` | What can be wrong with a formula in a file: its text, its names, its constants |
 | `place` | Places in a description: addresses as text, and what stands there, checked or raw |
-| `problems` | Errors of pydantic, told in the words of the file |
+| `problems` | Errors of pydantic, in the words of the file |
 | `schema_walk` | What belongs at an address, read from the annotations of the models |
 | `shown_units` | Units in which tables, figures and CSV of a machine show its numbers |
 """

@@ -1,4 +1,4 @@
-"""Errors of pydantic, told in the words of the file: which key, what is there, what belongs there."""
+"""Errors of pydantic, in the words of the file: which key, what is there, what belongs there."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The text of a file that a user names, read whole up to a limit, as UTF-8; and sizes of what it holds.
 
-Sizes are looked at before any of it is understood, by loops over the file: what is nested deeper than
+Sizes are examined before any of it is understood, by loops over the file: what is nested deeper than
 Python's stack, or longer than its patience, is reported like any other fault.
 """
 

@@ -255,7 +255,7 @@ def _complexes(name: str, value: Any) -> Any:
 
 
 def _mapping(name: str, value: Any) -> Any:
-    """Something by name; what it is the function looks at itself."""
+    """Something by name; what it is the function checks itself."""
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
         raise _wrong(name, value, "a dictionary with names")
     return value

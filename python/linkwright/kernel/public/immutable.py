@@ -32,7 +32,7 @@ class Table(dict[K, V]):
 
 
 class LazyTable(Mapping[K, V]):
-    """A table whose entries are made when they are looked at, and kept.
+    """A table whose entries are made when they are read, and kept.
 
     Parameters
     ----------

@@ -147,7 +147,7 @@ class Element:
         return tuple(self.name + ending for ending in endings)
 
 
-# Topologies of the mechanisms looked at last, which an analysis asks for a dozen times.
+# Topologies of the mechanisms asked for last, which an analysis asks for a dozen times.
 _KNOWN_MAX = 8
 _known: dict[int, tuple[object, Topology]] = {}
 

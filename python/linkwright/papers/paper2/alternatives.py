@@ -50,7 +50,7 @@ class Alternative:
     # (n,): on the cart, and from there on the shaft, in steady motion [N, N m].
     force: Floats
     torque: Floats
-    # Largest in size at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
+    # Largest in magnitude at the design speed, exact for a cam; largest step [m/s, m/s², m/s³].
     velocity_max: float
     acceleration_max: float
     jerk_max: float
@@ -62,7 +62,7 @@ class Alternative:
 
     @property
     def force_max(self) -> float:
-        """Largest in size in steady motion [N]."""
+        """Largest in magnitude in steady motion [N]."""
         return float(np.abs(self.force).max())
 
     @property

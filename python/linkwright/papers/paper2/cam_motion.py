@@ -57,7 +57,7 @@ class Start:
 
     @property
     def jerk_max(self) -> float:
-        """Largest in size, over v/t_p² [–]."""
+        """Largest in magnitude, over v/t_p² [–]."""
         return abs(self.law.peak(3).value)
 
     def over_stroke(self, share: float) -> float:
@@ -110,7 +110,7 @@ class Course:
 
     @property
     def deviation_max(self) -> float:
-        """Largest in size [–]."""
+        """Largest in magnitude [–]."""
         return float(np.abs(self.deviation).max())
 
     @property
@@ -164,7 +164,7 @@ _ANGLES = 1440
 class Rollers:
     """Rollers on the printed profile, and on a profile inside of it."""
 
-    # Of the rollers looked at; what a roller must stay below that runs on the printed profile, its minimum
+    # Of the rollers examined; what a roller must stay below that runs on the printed profile, its minimum
     # concave radius, and whose centre runs on it, its minimum convex radius [m].
     radius: float
     largest_in_hollow: float | None

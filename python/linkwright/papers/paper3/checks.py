@@ -26,7 +26,7 @@ class WeakChecks:
     """Shares of the combustion of all cylinders as they come out where one is weak."""
 
     cylinder: int  # the weak one, from 1
-    discs: tuple[str, ...]  # whose speed is looked at
+    discs: tuple[str, ...]  # whose speed is examined
     # (discs, cylinders): shares by least squares over the orders, with the elastic train, and with one taken
     # as rigid.
     elastic: Floats

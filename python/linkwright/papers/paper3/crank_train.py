@@ -35,7 +35,7 @@ from linkwright.torsion.model.engine.throw_compliance import compliances, restra
 from linkwright.torsion.model.engine.throw_inertia import published_inertia
 from linkwright.torsion.modes.free import FreeVibration, free_vibration
 
-# Modes that are looked at: that of the coupling, and the first two of the crankshaft.
+# Modes that are examined: that of the coupling, and the first two of the crankshaft.
 MODES = (1, 2, 3)
 
 

@@ -13,7 +13,7 @@ For v_h ≤ v, θ ≤ 45°, that is at least one: the printed length is too shor
 the more so the slower the knife. Equality needs a head of no size at α = 45° − θ; with no offset the bound is
 2 cos θ. Only a knife faster than the machine can make (10) long enough.
 
-The scan here looks at what is proved, and at the length by (4), for which there is no such short proof.
+The scan here examines what is proved, and the length by (4), for which there is no such short proof.
 
 (4) divided by cos α has :math:`S_x/\cos\alpha = d(1 + \tan\alpha\sin\alpha)` before :math:`v_h/v`; (5) has
 d cos α there. The first over the second is
@@ -141,7 +141,7 @@ def surfaces(data: dict[str, Any]) -> tuple[Surface, ...]:
     )
 
 
-# Angles at which identities are looked at: every half degree of what the formulas are good for.
+# Angles at which identities are examined: every half degree of what the formulas are good for.
 _STEP_ANGLES = np.radians(np.arange(0.5, 85.0, 0.5))
 
 # Share of a length by which an edge is made shorter and longer to see (1) break and hold.

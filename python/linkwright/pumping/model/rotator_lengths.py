@@ -44,7 +44,7 @@ from linkwright.pumping.model.unit import PumpingUnit
 
 P = TypeVar("P", bound=Description)
 
-# Places over the stroke at which the lever's angle is looked at; a parabola between them errs by 1e-13. A
+# Places over the stroke at which the lever's angle is examined; a parabola between them errs by 1e-13. A
 # first look takes every sixteenth: its error of 1e-8 only moves the ends of an interval that is searched.
 _SAMPLES = 2001
 _EVERY = 16

@@ -6,7 +6,7 @@ haulm has a limit, the edge is made longer until it is kept. The draw-cut ratio 
 So only α and v_h are sought, on a grid, and then on ever finer ones about the best:
 
 * robust against the steps of a sample, against locked phases, and against limits on whose edge the best lies;
-* the search looks at a part of the roots, the last rounds at all of them, and the verification at others,
+* the search examines a part of the roots, the last rounds all of them, and the verification others,
   drawn with another seed, with a finer look at each pass.
 
 Edges that run backwards at times are passed over: they push the head instead of cutting it. Without
@@ -43,7 +43,7 @@ from linkwright.topping.roots import draw_roots, field_of
 
 Objective = Literal["shortest", "fastest"]
 
-# Roots that the search looks at.
+# Roots that the search examines.
 _ROOTS = 4000
 
 # Verification draws its roots with a seed that far from the own.

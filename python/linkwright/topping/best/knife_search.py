@@ -19,14 +19,14 @@ MAP, _COARSE, _CLOSE = (25, 21), (13, 11), 7
 # a search with a part of the roots as many follow with all of them, of which the first are left out.
 _ROUNDS, _SKIPPED = 6, 2
 
-# Forward speeds that are looked at, and halvings between two of them: 1e-3 of such a step.
+# Forward speeds that are examined, and halvings between two of them: 1e-3 of such a step.
 _SPEEDS, _HALVINGS = 9, 10
 
 _EACH = _COARSE[0] * _COARSE[1] + _ROUNDS * _CLOSE**2
 _ONCE = MAP[0] * MAP[1] + (_ROUNDS - _SKIPPED) * _CLOSE**2
 _ALL = {"shortest": _ONCE + _ROUNDS * _CLOSE**2, "fastest": _ONCE + (_SPEEDS + _HALVINGS) * _EACH}
 
-# Share of the maximum speed at which the slowest knife on a mechanism is looked at.
+# Share of the maximum speed at which the slowest knife on a mechanism is examined.
 _SLOWEST = 0.01
 
 

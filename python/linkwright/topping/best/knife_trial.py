@@ -22,7 +22,7 @@ _HALVINGS = 14
 
 @dataclass(frozen=True)
 class Trial:
-    """A knife that was looked at."""
+    """A knife that was examined."""
 
     edge_angle: float  # α [rad]
     # knife_speed, forward_speed: v_h and v [m/s].

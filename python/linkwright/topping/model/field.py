@@ -88,7 +88,7 @@ def _below_zero(key: str, scatter: Scatter) -> InitErrorDetails:
 
 
 class MeasuredField(RootField):
-    """Roots that were measured; each is looked at in many phases of the knife."""
+    """Roots that were measured; each is examined in many phases of the knife."""
 
     kind: Literal["measured"] = Field(description="Measured roots.")
     file: str | None = Field(

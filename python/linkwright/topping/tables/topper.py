@@ -17,7 +17,7 @@ _HEADS = ("quantity", "", "value", "remark")
 # A length that exceeds the edge by less than this share is the edge's: rounding.
 _SAME = 1e-12
 
-# A draw-cut ratio beyond this is that of an edge that moves along itself, but for rounding.
+# A draw-cut ratio beyond this is that of an edge that moves along itself, within rounding.
 _NO_BOUND = 1e9
 
 
@@ -189,7 +189,7 @@ def _slicing(study: TopperStudy) -> Table:
 
 
 def _advance(study: TopperStudy) -> Row:
-    """Zero but for rounding where the edge moves along itself."""
+    """Zero within rounding where the edge moves along itself."""
     if abs(study.least_advance) * _NO_BOUND < study.cutting_speed_max:
         return _text_row("least_advance", "0 m/s", "it moves along itself")
     return row(
@@ -210,7 +210,7 @@ def _text_row(name: str, value: str, remark: str) -> Row:
 
 def _drive(study: TopperStudy) -> Table:
     rows = rows_in(study, "topper_drive", {"drive_torque_max": "at the crank"})
-    # Without losses the means are zero but for rounding.
+    # Without losses the means are zero within rounding.
     if abs(study.drive_torque_mean or 0.0) * _NO_BOUND < abs(study.drive_torque_max or 0.0):
         means = ("drive_torque_mean", "drive_power_mean")
         rows = rows_in(study, "topper_drive", {"drive_torque_max": "at the crank"}, without=means)

@@ -225,7 +225,7 @@ def _balance(parent: Integers, own: Complexes, k: Complexes, q: Complexes) -> Co
 def shaft_torques(
     referred: ReferredTrain, stiffness: Complexes, q: Complexes, forces: Complexes, size: Floats
 ) -> Complexes:
-    """Torques of the shafts: stiffness times twist, or, in shafts as good as rigid, by equilibrium.
+    """Torques of the shafts: stiffness times twist, or, in shafts practically rigid, by equilibrium.
 
     Rounding of the amplitudes times the stiffness is a torque, and so is that of the forces on one side of
     the shaft. Of both ways the one is taken that has less of it.

@@ -110,7 +110,7 @@ def short_circuit(
     One for three phases; two, of the simple and of the double frequency, for two. `torque`: apparent power
     over its speed [N m]; `speed`: [rad/s]; `decay`: time constant of the torque [s]; `start`, `end`: when it
     begins and is cleared [s]. All of the torque decays with one time constant, that of its part of mains
-    frequency; the part of double frequency lasts longer in truth, but passes most trains unfelt.
+    frequency; the part of double frequency lasts longer in reality, but passes most trains unfelt.
     """
     size = -torque / reactance
     first = DecayingTorque(start, end, 1.0 / decay, speed)

@@ -48,7 +48,7 @@ from linkwright.torsion.damper.damper_rules import (
 )
 from linkwright.torsion.modes.free import FreeVibration, free_vibration
 
-# Frequencies at which the response is looked at, closest about that of the mode: with a light ring and a
+# Frequencies at which the response is examined, closest about that of the mode: with a light ring and a
 # fluid the best peak is half as wide as the ratio of inertias, in shares of the frequency.
 _POINTS, _CLOSE = 1500, 0.5
 

@@ -38,7 +38,7 @@ from linkwright.torsion.diagnosis.engine_fit import ROUNDS, EngineFit
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 
-# Mean factors at which the best fit is looked at first; couplings bend over some tenths of them.
+# Mean factors at which the best fit is examined first; couplings bend over some tenths of them.
 _LOADS = np.linspace(0.0, 2.0, 201)
 # States at a time: enough for lanes, and little memory.
 _STATES = 256

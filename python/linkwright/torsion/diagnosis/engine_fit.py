@@ -26,7 +26,7 @@ ROUNDS = 100
 _SETTLED, _SETTLED_SHARE = 1e-9, 1e-2
 # Share of the combustion below which it has no time of its own.
 _HARDLY = 0.2
-# Deviations from a healthy value from which on it is looked at whether it might be one, and beyond which no
+# Deviations from a healthy value from which on it is examined whether it might be one, and beyond which no
 # curvature makes it so.
 _SUSPECT, _CERTAIN = 2.0, 12.0
 # A step that fits worse by more than this share is halved, at most so often: near the best fit, what is left

@@ -218,7 +218,7 @@ def _orders(orders: ArrayLike, turns: int) -> Floats:
 
 
 def _is_whole(values: Floats) -> Bools:
-    """Which numbers are whole but for rounding."""
+    """Which numbers are whole within rounding."""
     is_whole: Bools = np.abs(values - np.round(values)) <= _WHOLE * np.maximum(values, 1.0)
     return is_whole
 

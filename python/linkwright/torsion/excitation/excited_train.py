@@ -171,7 +171,7 @@ def _sources(
 
 
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
-    """Those at which the file looks at its train; of a driveline those about its steady speed."""
+    """Speeds of the run of the file; of a driveline those about its steady speed."""
     if machine.train is None:
         of_crank: Floats = np.linspace(*_ABOUT, _POINTS) * steady_speed(machine)
         return of_crank / float(turning[place[CRANK]])

@@ -27,7 +27,7 @@ from linkwright.kernel.limits import RESPONSE
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.model.train import Train
 
-# Orders that differ by a smaller share are one but for rounding of ratios.
+# Orders that differ by a smaller share are one within rounding of ratios.
 _EQUAL = 1e-9
 
 
@@ -146,7 +146,7 @@ def _load_harmonics(
 
 
 def _orders(listed: Iterable[Floats]) -> Floats:
-    """All orders, those equal but for rounding once."""
+    """All orders, those equal within rounding once."""
     every = np.sort(np.concatenate([np.empty(0), *listed]))
     apart = np.diff(every, prepend=-1.0) > _EQUAL * every
     return every[apart]
@@ -156,7 +156,7 @@ def _orders(listed: Iterable[Floats]) -> Floats:
 _TURNS = 60
 _HARMONICS = 512
 
-# Waves of the highest order beyond which less than a revolution is looked at where that will do: the work for
+# Waves of the highest order beyond which less than a revolution is examined where that will do: the work for
 # extremes grows by the square of their number.
 _WAVES = 128
 
@@ -183,7 +183,7 @@ def orders_together(values: Floats) -> Orders:
 
 @lru_cache(maxsize=32)
 def _together(listed: tuple[float, ...]) -> Orders:
-    """The same once for all speeds at which a train is looked at."""
+    """The same once for all speeds at which a train is examined."""
     values = np.array(listed)
     of_revolution = _counted(values, 1.0)
     # Orders behind a gear stage go by its ratio, which need be no fraction, and may be far above one wave per

@@ -165,7 +165,7 @@ class _RowSearch:
         line.low, line.high = min(line.low, x - self.room), max(line.high, x + self.room)
 
     def _rows(self) -> None:
-        """Give each line a near row in which it overlaps no other, crossing as little as may be."""
+        """Give each line a near row in which it overlaps no other, crossing as little as possible."""
         for n, line in enumerate(self.lines[1:], start=1):
             assert line.parent is not None
             base, others = self.lines[line.parent].row, self.lines[:n]

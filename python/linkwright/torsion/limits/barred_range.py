@@ -36,7 +36,7 @@ from linkwright.torsion.limits.criteria import (
 from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.model.permitted_stress import barred_speeds
 
-# Even speeds at which a range is looked at for the peaks in it.
+# Even speeds at which a range is examined for the peaks in it.
 _POINTS = 100
 
 
@@ -176,7 +176,7 @@ def barred_ranges(machine: Machine) -> tuple[BarredRange, ...]:
 
 
 def surveyed_ranges(seen: Survey) -> tuple[BarredRange, ...]:
-    """Barred ranges of a train that has been looked at."""
+    """Barred ranges of a train that has been examined."""
     rows = [(criterion.part, criterion.what) for criterion in seen.criteria]
     above = [exceedance for exceedance in seen.exceeded if rows[exceedance.row][1] == VIBRATORY_STRESS]
     if not above:

@@ -170,7 +170,7 @@ def crankshaft_fatigue(machine: Machine) -> tuple[CrankshaftFatigue, ...]:
 def surveyed_fatigue(
     seen: Survey, judged: Verdict, misfire: MisfireVerdict | None
 ) -> tuple[CrankshaftFatigue, ...]:
-    """Fatigue of the crankshafts of a train that has been looked at."""
+    """Fatigue of the crankshafts of a train that has been examined."""
     train = seen.machine.train
     installed = () if train is None else train.installed
     speeds = dict(zip(seen.at.referred.discs, seen.at.referred.speed.tolist(), strict=True))

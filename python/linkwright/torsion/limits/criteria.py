@@ -159,7 +159,7 @@ class Exceedance(NamedTuple):
     # `low`, `high`: bounds [rad/s].
     low: float
     high: float
-    # `open_low`, `open_high`: whether it goes on beyond the speeds looked at.
+    # `open_low`, `open_high`: whether it goes on beyond the speeds examined.
     open_low: bool
     open_high: bool
     peak: float  # speed of its highest value [rad/s]

@@ -36,15 +36,15 @@ from linkwright.torsion.response.stress import ShaftStress, shaft_stress, stress
 # Orders that differ by a smaller share are one.
 _EQUAL = 1e-9
 
-# Even speeds at which the response to an order is looked at, and shares of the distance between two speeds of
-# resonance at which it is looked at from both: peaks are as narrow as modes are lightly damped.
+# Even speeds at which the response to an order is examined, and shares of the distance between two speeds of
+# resonance at which it is examined from both: peaks are as narrow as modes are lightly damped.
 _POINTS = 200
 _SHARES = 0.5 * np.logspace(-4, 0, 16)
 
 # Share by which a response falls between two peaks, beyond what interpolated torques make.
 _DIP = 1e-6
 
-# Rounds in which a peak is closed in on: to some 10⁻⁶ of what it is apart from the next speed looked at.
+# Rounds in which a peak is closed in on: to some 10⁻⁶ of what it is apart from the next speed examined.
 _ROUNDS = 8
 
 # Share of a shaft's largest stress or torque below which an order alone is rounding.
@@ -95,7 +95,7 @@ _Score = tuple[int, float, float]
 
 
 class _Place(NamedTuple):
-    """Where a shaft is looked at for a critical speed."""
+    """Where a shaft is examined for a critical speed."""
 
     row: int  # of the shafts that count
     speed: float  # [rad/s]

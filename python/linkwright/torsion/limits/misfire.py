@@ -56,11 +56,11 @@ class MisfireJudgement(NamedTuple):
     permitted: float  # SI
     speed: float  # of the first disc [rad/s]
     cylinder: str  # that does not fire
-    above: tuple[float, float] | None  # lowest and highest speed looked at above the limit [rad/s]
+    above: tuple[float, float] | None  # lowest and highest speed examined above the limit [rad/s]
 
     @property
     def is_kept(self) -> bool:
-        """Whether the limit is kept at all speeds looked at."""
+        """Whether the limit is kept at all speeds examined."""
         return self.above is None
 
 

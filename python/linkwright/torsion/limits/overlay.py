@@ -45,7 +45,7 @@ _PEAK = 1 / 3
 # Share of its speed within which a measured peak is sought among the computed ones.
 _NEAR = 0.15
 
-# Even speeds at which the computed curve is looked at about a measured peak.
+# Even speeds at which the computed curve is examined about a measured peak.
 _POINTS = 60
 
 # Orders that differ by a smaller share are one.

@@ -1,4 +1,4 @@
-"""A train looked at closely: at the speeds of its run, at its resonances and peaks, and at any speed between.
+"""A train examined closely: at the speeds of its run, at its resonances and peaks, and at any speed between.
 
 Torques of an engine or of a mechanism take long to find and change little from speed to speed. Between the
 speeds of the run they are interpolated, by cubics through the four speeds about; the response to them is that
@@ -134,7 +134,7 @@ _NEAR = 0.8
 # Speeds whose damped natural frequencies are found, and cubes of sizes of their matrices: some 0.1 s.
 _COLUMNS, _EIGENVALUE_WORK = (3, 32), 3e6
 
-# Speeds that are looked at in one piece.
+# Speeds that are examined in one piece.
 _AT_ONCE = 256
 
 # Rounds in which a valley is closed in on, where two flanks meet: to 4⁻⁶ of what a limit changes by from
@@ -283,7 +283,7 @@ class Survey:
 
 
 def in_a_row(parts: Sequence[list[Criterion]]) -> list[Criterion]:
-    """Limits whose speeds were looked at in pieces."""
+    """Limits whose speeds were examined in pieces."""
     return [
         first._replace(
             found=np.concatenate([criterion.found for criterion in (first, *rest)]),

@@ -224,7 +224,7 @@ _RPM = math.pi / 30
 
 
 def operation(speeds: tuple[float, float], verdict: Verdict, misfire: MisfireVerdict | None) -> str:
-    """Restrictions of the operation in words. `speeds`: lowest and highest looked at [rad/s]."""
+    """Restrictions of the operation in words. `speeds`: lowest and highest examined [rad/s]."""
     if not verdict.judgements:
         return ""
     return " ".join((*_normal(speeds, verdict), *_misfiring(misfire)))

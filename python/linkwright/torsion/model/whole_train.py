@@ -125,7 +125,7 @@ def _spring(name: str, damper: Damper) -> Shaft:
 
 Node = TypeVar("Node", bound=Hashable)
 
-# Ratios that differ by less are the same but for rounding of what was typed.
+# Ratios that differ by less are the same within rounding of what was typed.
 _EQUAL = 1e-9
 
 

@@ -56,7 +56,7 @@ from linkwright.torsion.modes.modes_over_speed import ModesAt, constant, over_sp
 # Secant steps to a critical speed: from neighbours on a grid, or exact where frequencies do not change.
 _STEPS = 8
 
-# Share of a speed by which the growth of a torque is looked at: an order's torques are smooth.
+# Share of a speed by which the growth of a torque is examined: an order's torques are smooth.
 _ASIDE = 1e-3
 
 # Digits to which the growth of a torque is known.

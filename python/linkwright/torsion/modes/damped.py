@@ -166,7 +166,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         With a [train], or a [drive] that twists.
     speed : float, optional
         Of the first disc, at which the train runs: it sets the damping of loads, and the slope of couplings
-        under their mean torque. Default: the train stands still without torque [rad/s].
+        under their mean torque. Default: the train is at rest without torque [rad/s].
 
     Returns
     -------
@@ -192,7 +192,7 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
     shafts = _of_shafts(train, referred, size[:, None] * masses, eigenvalues.imag)
     discs = disc_damping * np.abs(shapes) ** 2
-    # Divided by their own sum, which σ is but for rounding.
+    # Divided by their own sum, which σ is within rounding.
     modal = np.einsum("ma,ab,mb->m", masses.conj(), referred.modal_damping, masses).real
     losses = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
     damped = (-eigenvalues.real * inertia)[:, None] > 0
@@ -239,7 +239,7 @@ _NEAR = 0.02
 # Newton steps to a damped mode of a train with distributed inertia, and the share of it that is none.
 _STEPS, _NO_STEP = 12, 1e-11
 
-# Share of an eigenvalue by which its derivative is looked at; it changes the way there, not the end.
+# Share of an eigenvalue by which its derivative is examined; it changes the way there, not the end.
 _ASIDE = 1e-6
 
 
@@ -275,7 +275,7 @@ def _dynamic_matrix(referred: ReferredTrain, s: complex) -> Complexes:
     return D
 
 
-# Share of the damping of its parts below which a motion as a whole is not damped but for rounding.
+# Share of the damping of its parts below which a motion as a whole is not damped within rounding.
 _UNDAMPED = 1e-12
 
 

@@ -346,7 +346,7 @@ def own_stiffness(referred: ReferredTrain) -> Floats:
 
 def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Floats]:
     """Angles of both ends of each shaft, that of the second disc of a mesh as seen from the first."""
-    # The ground is a last disc that stands still, HELD = −1.
+    # The ground is a last disc that is at rest, HELD = −1.
     angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
     speed = np.append(referred.speed, 1.0)
     first, second = referred.tip.T
@@ -357,7 +357,7 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
 def scaled(shapes: NDArray[Any]) -> NDArray[Any]:
     """Rows whose largest entry is 1, without phase."""
     size = np.abs(shapes)
-    # Of entries that are equal but for rounding the first counts.
+    # Of entries that are equal within rounding the first counts.
     largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
     return np.asarray(shapes / shapes[np.arange(len(shapes)), largest][:, None])
 

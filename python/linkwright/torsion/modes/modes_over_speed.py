@@ -18,7 +18,7 @@ from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, prepared
 from linkwright.torsion.modes.free import FreeVibration, modes_wanted, train_modes
 
-# Orders that differ by a smaller share are one but for rounding of ratios.
+# Orders that differ by a smaller share are one within rounding of ratios.
 _EQUAL = 1e-9
 
 

@@ -11,7 +11,7 @@ The speed fluctuation of a disc is :math:`\delta = (\omega_{max} - \omega_{min})
 part in which the train rotates as a rigid body, :math:`q_r = \sum J q/\sum J`, and the torsional rest; both
 have a δ of their own, and since they are not in phase the two do not add up.
 
-In a shaft as good as rigid the twist is rounding, and its torque that of all inertia, damping and torques on
+In a shaft practically rigid the twist is rounding, and its torque that of all inertia, damping and torques on
 one side of it.
 
 References

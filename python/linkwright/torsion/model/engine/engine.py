@@ -38,7 +38,7 @@ from linkwright.torsion.model.engine.throw import CrankThrow
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness
 
-# Angles that differ by less are the same but for rounding of what was typed [rad].
+# Angles that differ by less are the same within rounding of what was typed [rad].
 _EQUAL = 1e-6
 
 
@@ -88,7 +88,7 @@ def firing_angles(
 
 
 def _turn(angle: float) -> float:
-    """An angle from 0 up to a revolution; what is a revolution but for rounding is 0."""
+    """An angle from 0 up to a revolution; what is a revolution within rounding is 0."""
     turned = angle % (2 * math.pi)
     return 0.0 if turned < _EQUAL or 2 * math.pi - turned < _EQUAL else turned
 
