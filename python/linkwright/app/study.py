@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.table import Table
 
-_NAMES = {each.name for each in ANALYSES}
+_NAMES = {analysis.name for analysis in ANALYSES}
 
 # Name of a result before → its name.
-_FORMERLY = {each.formerly: each.name for each in ANALYSES if each.formerly}
+_FORMERLY = {analysis.formerly: analysis.name for analysis in ANALYSES if analysis.formerly}
 
 
 class Study(Results):

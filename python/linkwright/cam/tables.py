@@ -33,7 +33,7 @@ def cam_tables(
     cams: Sequence[CamProfile], sizes: Sequence[LeastSizes] = (), loaded: Sequence[LoadedCam] = ()
 ) -> Iterator[Table]:
     """The tables of all cams of a machine."""
-    borne = {cam.name: cam for cam in loaded}
+    loads = {cam.name: cam for cam in loaded}
     least = {size.name: size for size in sizes}
     for profile in cams:
         yield profile_table(profile)
@@ -41,8 +41,8 @@ def cam_tables(
             yield size_table(least[profile.name])
         yield section_table(profile)
         yield joint_table(profile)
-        if profile.name in borne:
-            yield force_table(borne[profile.name])
+        if profile.name in loads:
+            yield force_table(loads[profile.name])
         table = comparison_table(profile)
         if table.rows:
             yield table

@@ -28,8 +28,8 @@ def made_forces(known: Results, findings: Findings) -> Forces | None:
 
 def _forces(machine: Machine, steady: SteadyState) -> Forces:
     curves = (steady.crank_angle, steady.speed, steady.acceleration, steady.time)
-    borne = forces(machine, Motion(*(curve[::_EVERY] for curve in curves)))
-    return replace(borne, findings=tuple(text for text in borne.findings if not text.startswith(LEAVES)))
+    acting = forces(machine, Motion(*(curve[::_EVERY] for curve in curves)))
+    return replace(acting, findings=tuple(text for text in acting.findings if not text.startswith(LEAVES)))
 
 
 def look_for_losses(known: Results, findings: Findings) -> None:

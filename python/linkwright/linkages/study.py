@@ -42,11 +42,11 @@ def _has_outputs(machine: Machine, moved: Linkage) -> bool:
 def mechanism_summary(machine: Machine) -> Iterator[tuple[str, str]]:
     """Names of the elements, kind by kind, and the mobility."""
     # A cam is listed as such, not as the driver that it is in the complete mechanism.
-    cams, whole = machine.mechanism.cams, _whole(machine)
-    known = {table: [name for name in getattr(whole, table) if name not in cams] for table in TABLES}
+    cams, mechanism = machine.mechanism.cams, _whole(machine)
+    known = {table: [name for name in getattr(mechanism, table) if name not in cams] for table in TABLES}
     known["cams"] = list(cams)
     yield from ((table.replace("_", " "), ", ".join(names)) for table, names in known.items())
-    yield "mobility", str(mobility(whole))
+    yield "mobility", str(mobility(mechanism))
 
 
 def _whole(machine: Machine) -> Mechanism:

@@ -35,7 +35,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
 
 # Analyses whose results have derivatives, by name.
-SOURCES = {each.name: each for each in ANALYSES if each.tangents is not None}
+SOURCES = {analysis.name: analysis for analysis in ANALYSES if analysis.tangents is not None}
 
 
 @dataclass(frozen=True)

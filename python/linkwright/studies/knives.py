@@ -124,18 +124,18 @@ def sweep_field(
     axes = _axes(over)
     grid = np.meshgrid(*axes.values(), indexing="ij")
     columns = {name: values.ravel() for name, values in zip(axes, grid, strict=True)}
-    found = {name: np.full(columns[next(iter(axes))].size, np.nan) for name in FOUND}
-    watched, reasons = _Progress(watch, len(found[FOUND[0]])), Counter[str]()
+    answers = {name: np.full(columns[next(iter(axes))].size, np.nan) for name in FOUND}
+    watched, reasons = _Progress(watch, len(answers[FOUND[0]])), Counter[str]()
     for own, part in _by_rest(machine, axes):
         plan, knobs = _plan(own, part, seed, level)
         members = np.all([np.isin(columns[name], part[name]) for name in part], axis=0)
         values = {knob.variable: knob.values(columns[name][members]) for name, knob in knobs.items()}
-        answers = _evaluated(plan, values, watched, reasons)
+        responses = _evaluated(plan, values, watched, reasons)
         for name in FOUND:
-            found[name][members] = answers[name]
-    if np.isnan(found[FOUND[0]]).all():
+            answers[name][members] = responses[name]
+    if np.isnan(answers[FOUND[0]]).all():
         raise FindingError(next(iter(reasons)))
-    arrays: dict[str, Any] = found
+    arrays: dict[str, Any] = answers
     return FieldSweep(columns, tuple(len(axis) for axis in axes.values()), level=level, **arrays)
 
 

@@ -51,14 +51,14 @@ class LeastCost:
             alone = self._of_one(j)
             if self._used(alone).max() <= 1 + _ROUNDING:
                 return alone
-        found, message = self._of_many()
-        if self.gap(found) > _GAP:
+        factors, message = self._of_many()
+        if self.gap(factors) > _GAP:
             raise ConvergenceError(
-                f"the cheapest tolerances were not found ({message}; duality gap {self.gap(found):.1e})",
+                f"the cheapest tolerances were not found ({message}; duality gap {self.gap(factors):.1e})",
                 method="SLSQP",
                 iterations=_ITERATIONS,
             )
-        return found
+        return factors
 
     def gap(self, factors: Floats) -> float:
         """Cost above the lower bound of the dual problem, as a share of the cost."""

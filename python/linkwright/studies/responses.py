@@ -46,13 +46,13 @@ from linkwright.torsion.model.whole_train import whole_train
 from linkwright.torsion.response.stress import stressed
 
 # Analyses with a function of their own, by name.
-ANALYSES = {each.name: each for each in SUBJECTS if each.function is not None}
+ANALYSES = {analysis.name: analysis for analysis in SUBJECTS if analysis.function is not None}
 
 # Former names of analyses → today's.
-_FORMERLY = {each.formerly: each.name for each in SUBJECTS if each.formerly}
+_FORMERLY = {analysis.formerly: analysis.name for analysis in SUBJECTS if analysis.formerly}
 
 # What `run` calls a result within another → the analysis, and its name there.
-_WITHIN = {each.name: each.within.split(".") for each in SUBJECTS if each.within}
+_WITHIN = {analysis.name: analysis.within.split(".") for analysis in SUBJECTS if analysis.within}
 
 # The largest force of every pair, by its name.
 PAIRS = "forces.reaction_max"

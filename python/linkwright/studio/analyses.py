@@ -59,10 +59,10 @@ def chips(machine: Machine) -> list[dict[str, Any]]:
     Of each ``name``, ``word``, ``lane`` (``fast``, ``study`` or ``torsion``) and, where it is not ready,
     ``obstacle`` with ``mend`` and ``entries``.
     """
-    listed = [each for each in ANALYSES if each.words and each.applies(machine)]
+    listed = [analysis for analysis in ANALYSES if analysis.words and analysis.applies(machine)]
     return [
-        {"name": each.name, "word": each.words, "lane": each.lane, **_obstacle(each, machine)}
-        for each in sorted(listed, key=lambda each: _ORDER.index(each.lane))
+        {"name": analysis.name, "word": analysis.words, "lane": analysis.lane, **_obstacle(analysis, machine)}
+        for analysis in sorted(listed, key=lambda analysis: _ORDER.index(analysis.lane))
     ]
 
 

@@ -441,15 +441,17 @@ def added(text: str, kind: str, size: float, picked: str, path: str = "") -> str
     """
     if kind not in KINDS:
         raise InputError(f"{kind!r}: expected one of {', '.join(KINDS)}")
-    found, site = KINDS[kind], Site.of(text, size, picked)
+    element, site = KINDS[kind], Site.of(text, size, picked)
     try:
         loads(text, path=path)
         is_sound = True
     except LinkwrightError:
         # silent: a file that is not sound has its problems beside its entries
         is_sound = False
-    why = f"{found.word} needs {found.needs}" if found.needs else f"{found.word}: there is one already"
-    for _, (place, entries) in zip(range(_TRIES), found.made(site), strict=False):
+    why = (
+        f"{element.word} needs {element.needs}" if element.needs else f"{element.word}: there is one already"
+    )
+    for _, (place, entries) in zip(range(_TRIES), element.made(site), strict=False):
         parts = entries if place == ("mechanism",) else {"": entries}
         new = changed(text, {join(place) + (f".{key}" if key else ""): e for key, e in parts.items()})
         if not is_sound:
@@ -457,7 +459,7 @@ def added(text: str, kind: str, size: float, picked: str, path: str = "") -> str
         try:
             loads(new, path=path)
         except LinkwrightError as error:
-            why = f"{found.word} was not added: {error}"
+            why = f"{element.word} was not added: {error}"
             continue
         return new
     raise InputError(why)

@@ -97,8 +97,8 @@ def drag(
     ends = [_limits(machine, entry, size, limits) for entry in free]
     low, high = np.minimum(before, np.array(ends).T[0]), np.maximum(before, np.array(ends).T[1])
     search = _Search(machine, point, np.array(place), angle, free, before, low, high, size, closure(machine))
-    found = search.stopped(search.nearest())
-    return replaced(found, worth=search.worth(found.entries, pixel)) if pixel else found
+    pull = search.stopped(search.nearest())
+    return replaced(pull, worth=search.worth(pull.entries, pixel)) if pixel else pull
 
 
 def _limits(machine: Machine, entry: str, size: float, limits: Limits | None) -> tuple[float, float]:

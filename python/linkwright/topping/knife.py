@@ -369,8 +369,8 @@ def other_peaks(machine: Machine, knife_drive: KnifeDrive, end: str) -> list[flo
         return sign * torque.reshape(angles.shape)
 
     looked = DRIVE_ANGLES, read(DRIVE_ANGLES)
-    found = as_high(read, looked, top, _TURN, near=_TURN / _DRIVE_ANGLES, rounds=_ROUNDS)
-    return [angle for angle in found if angle != top[0]]
+    peaks = as_high(read, looked, top, _TURN, near=_TURN / _DRIVE_ANGLES, rounds=_ROUNDS)
+    return [angle for angle in peaks if angle != top[0]]
 
 
 def _highest(

@@ -57,7 +57,11 @@ def _parts(machine: Machine) -> Table:
 def _rows(machine: Machine) -> list[tuple[str, str]]:
     from linkwright.app.subjects import ANALYSES
 
-    summaries = [each.summary for each in ANALYSES if each.summary is not None and each.applies(machine)]
+    summaries = [
+        analysis.summary
+        for analysis in ANALYSES
+        if analysis.summary is not None and analysis.applies(machine)
+    ]
     return [(word, text) for summary in summaries for word, text in summary(machine) if text]
 
 

@@ -82,7 +82,7 @@ def content(study: Study, command: str = "") -> Content:
 
 def _content(study: Study, command: str) -> Content:
     machine = study.machine
-    motion, other = ([each for each in ANALYSES if each.is_motion is so] for so in (True, False))
+    motion, other = ([analysis for analysis in ANALYSES if analysis.is_motion is so] for so in (True, False))
     shown = study.shown
     parts = (
         Part("Motion", list(shown(motion, "tables")), list(shown(motion, "figures"))),
@@ -136,5 +136,9 @@ def _sketch(machine: Machine, steady: SteadyState | None) -> Callable[[], Figure
 
 def knife_scene(study: Study) -> dict[str, Any] | None:
     """Data of the moving view of a topper from above; None without one."""
-    own = [each.scene for each in ANALYSES if each.scene is not None and each.applies(study.machine)]
+    own = [
+        analysis.scene
+        for analysis in ANALYSES
+        if analysis.scene is not None and analysis.applies(study.machine)
+    ]
     return next((dict(scene) for one in own if (scene := one.shown(study))), None)

@@ -20,7 +20,7 @@ from linkwright.kernel.page.numbers import degrees, quantity
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[CaptionedFigure]:
     """The figures of all cams."""
-    borne = {cam.name: cam for cam in loaded}
+    loads = {cam.name: cam for cam in loaded}
     for profile in cams:
         name = profile.name
         yield CaptionedFigure(f"cam_{name}", f"Cam {name}", _cam_words(profile), cam_figure(profile))
@@ -35,11 +35,11 @@ def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) ->
         yield CaptionedFigure(f"cam_{name}_pressure_angle", f"Pressure angle of cam {name}", words, figure)
         figure, words = curvature_figure(profile), _curvature_words(profile)
         yield CaptionedFigure(f"cam_{name}_curvature", f"Curvature of cam {name}", words, figure)
-        if name in borne:
-            words = f"The peak contact force is {quantity(borne[name].force_size, 'N')}."
-            if borne[name].side_changes:
+        if name in loads:
+            words = f"The peak contact force is {quantity(loads[name].force_size, 'N')}."
+            if loads[name].side_changes:
                 words += " Where the force is negative, the other side is in contact."
-            figure = cam_force_figure(borne[name])
+            figure = cam_force_figure(loads[name])
             yield CaptionedFigure(f"cam_{name}_force", f"Contact force of cam {name}", words, figure)
 
 
