@@ -93,7 +93,7 @@ def below(referred: ReferredTrain, omega: Floats) -> NDArray[np.int64]:
 
 @dataclass(frozen=True)
 class _Same:
-    """A train by the numbers on which its modes rest."""
+    """Key of a cache: the numbers that determine the modes of a train."""
 
     key: tuple[bytes, ...]
     referred: ReferredTrain = field(compare=False)
@@ -113,7 +113,7 @@ def natural_frequencies(referred: ReferredTrain, count: int) -> Floats:
 
 @lru_cache(maxsize=16)
 def _natural_frequencies(same: _Same, count: int) -> Floats:
-    """The same once for all that ask for the modes of a train."""
+    """Cached: computed once for all that need the modes of a train."""
     referred = same.referred
     # Distributed or not, what turns without twisting anything is the same.
     lumped = referred.modes()[0]
@@ -161,7 +161,7 @@ def exact_modes(referred: ReferredTrain, count: int) -> tuple[ExactMode, ...]:
 
 @lru_cache(maxsize=16)
 def _exact_modes(same: _Same, count: int) -> tuple[ExactMode, ...]:
-    """The same once for all that ask for the modes of a train."""
+    """Cached: computed once for all that need the modes of a train."""
     referred, modes = same.referred, list[ExactMode]()
     omega = natural_frequencies(referred, count)
     rigid = iter(referred.modes()[1])
@@ -233,7 +233,7 @@ def solved(matrix: NDArray[Any], columns: NDArray[Any]) -> NDArray[Any]:
 def _normal(
     referred: ReferredTrain, omega: float, angles: Floats, fine: list[Rod]
 ) -> tuple[ExactMode, float]:
-    """A mode of masses, and of stations behind them, brought to its size; by what it was multiplied."""
+    """Normalise a mode of masses and stations; also gives the factor."""
     masses, after = angles[: len(referred.inertia)], len(referred.inertia)
     shapes, kinetic = [], float(bare_inertia(referred) @ masses**2)
     for rod in fine:

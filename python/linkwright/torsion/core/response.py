@@ -191,7 +191,7 @@ _CORRECTIONS = 3
 
 
 def _eliminated(parent: Integers, own: Complexes, k: Complexes, f: Complexes) -> tuple[Complexes, bool]:
-    """Amplitudes of a tree, (orders, masses, speeds), and whether a divisor was held off zero."""
+    """Amplitudes of a tree, (orders, masses, speeds), and whether a divisor was kept from zero."""
     # Masses in tune hold the one that they hang on still: that is no resonance, but divides by zero.
     own, f, is_held = own.copy(), f.copy(), False
     for row in range(len(parent) - 1, 0, -1):
@@ -212,7 +212,7 @@ def _eliminated(parent: Integers, own: Complexes, k: Complexes, f: Complexes) ->
 
 
 def _balance(parent: Integers, own: Complexes, k: Complexes, q: Complexes) -> Complexes:
-    """Torques that amplitudes ask for, (orders, masses, speeds)."""
+    """Torques that hold given amplitudes, (orders, masses, speeds)."""
     torques = own * q
     torques[:, 0] += k[:, 0] * q[:, 0]
     for row in range(1, len(parent)):
@@ -274,7 +274,7 @@ def by_equilibrium(
 
 
 def _below(tree: Tree, forces: NDArray[Any]) -> NDArray[Any]:
-    """Sums of what acts on each mass and on all that hang on it, in the order of the tree."""
+    """Sums of the forces on each mass and on its subtree, in the order of the tree."""
     below = in_order(tree, forces)
     for row in range(len(tree.order) - 1, 0, -1):
         below[:, tree.parent[row]] += below[:, row]
@@ -330,7 +330,7 @@ def _between(referred: ReferredTrain, of_shafts: Complexes | Floats) -> Complexe
 
 
 def _solved(matrix: Complexes, torque: Complexes) -> Complexes:
-    """Solutions one by one where one of them has none."""
+    """Solve one by one if a matrix of the batch is singular."""
     try:
         solution: Complexes = np.linalg.solve(matrix, torque[..., None])[..., 0].astype(complex, copy=False)
         return solution

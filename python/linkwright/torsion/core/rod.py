@@ -110,7 +110,7 @@ def _piece(k: Floats, j: Floats, omega: Floats | Complexes, lossy: Complexes) ->
 
 
 def _over(value: NDArray[Any], small: NDArray[Any]) -> Any:
-    """A function that goes as its argument, over it; 1 at zero."""
+    """A value that is proportional to its small argument, over it; 1 at zero."""
     return np.divide(value, small, out=np.ones_like(value), where=np.not_equal(small, 0))
 
 

@@ -125,7 +125,7 @@ class ReferredTrain:
         return omega[order], shapes[order]
 
     def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
-        """Modes of connected masses."""
+        """Modes of one connected part."""
         J = self.inertia[masses]
         scale = 1.0 / np.sqrt(J)
         K = self.stiffness_matrix[np.ix_(masses, masses)]

@@ -308,7 +308,7 @@ def core_system(train: MovingTrain) -> _core.TorsionSystem:
 
 
 class _SharedParts:
-    """Tables and curves as the core takes them, each once."""
+    """Tables and curves in the form of the core, each converted once."""
 
     def __init__(self) -> None:
         self._made: dict[int, Any] = {}
@@ -332,7 +332,7 @@ class _SharedParts:
 
 
 def _masses(train: MovingTrain) -> list[_core.TorsionMass]:
-    """Discs that move as one, at the speed of the first disc."""
+    """Rigidly connected discs as masses, at the speed of the first disc."""
     columns = np.zeros((3, train.masses))
     for column, own in zip(columns, (train.inertia, train.damping, train.swing_damping), strict=True):
         np.add.at(column, train.mass, train.speed**2 * own)
@@ -361,7 +361,7 @@ _ROUNDING = 1e-13
 
 
 def _modal_links(train: MovingTrain) -> list[_core.TorsionLink]:
-    """Dashpots between masses, and of each against the ground, that make the matrix of damping ratios."""
+    """Dashpots between masses and to ground that realise the matrix of damping ratios."""
     # A symmetric matrix is Σ c (e_i − e_j)(e_i − e_j)ᵀ of all pairs with c = −C_ij, but for what rows sum up
     # to; single dashpots may be negative, all together are not.
     C = train.modal_damping

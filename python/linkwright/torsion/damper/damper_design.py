@@ -145,7 +145,7 @@ def best_holding(train: RingOnTrain, first: RingSupport, *, free_loss: bool) -> 
 
 
 def _least(value: Callable[[float], float], reach: float) -> float:
-    """Where a function is smallest from −reach to reach: the best of some samples, then Brent's method."""
+    """Minimum of a function from −reach to reach: the best of some samples, refined by Brent's method."""
     from scipy.optimize import minimize_scalar
 
     samples = np.linspace(-reach, reach, 17)

@@ -233,7 +233,6 @@ class Diagnosis(Result):
         return self._below(self.compression - 1, self.compression_deviation, level)
 
     def _below(self, value: Floats, deviation: Floats, level: float) -> tuple[str, ...]:
-        """Cylinders whose intervals lie below 0, at a level for all intervals together."""
         intervals = len(self.cylinders) * (1 if self.delay is None else 3)
         single = 1 - (1 - level) / intervals
         below = value + self._coverage(single) * deviation < 0

@@ -123,7 +123,7 @@ def fitted(model: EngineSpeed, measured: MeasuredSpeed) -> Diagnosis:
 
 
 def _closest(best: EngineFit, starts: list[Floats]) -> tuple[Floats, bool]:
-    """Of the values that some first ones lead to those that fit best, and whether they settled."""
+    """Best fit from several starting values, and whether it converged."""
     tried = [best.settled(start) for start in starts]
     return min(tried, key=lambda fit: float(best.squares(fit[0][:, None])[0]))
 
@@ -179,7 +179,7 @@ def _taken_as_tight(measured: MeasuredSpeed, n: int) -> str:
 
 
 def _begun(best: EngineFit, factors: Floats) -> Floats:
-    """First values of combustion, delay and compression: as the lowest orders say, then more and more."""
+    """Starting values of combustion, delay and compression, from the lowest orders, then from more."""
     values = np.concatenate([factors, np.zeros(2 * len(factors))])
     for share in _BEGINNINGS:
         low = best.up_to(share * best.measured.orders.max(), np.repeat(_LIKELY, len(factors)))
@@ -188,7 +188,6 @@ def _begun(best: EngineFit, factors: Floats) -> Floats:
 
 
 def _apart(starts: list[Floats]) -> list[Floats]:
-    """Those that differ from all before."""
     kept: list[Floats] = []
     for start in starts:
         if all(np.abs(start - other).max() > _SAME for other in kept):

@@ -81,7 +81,7 @@ class EngineFit:
         return values, False
 
     def _share(self, values: Floats, step: Floats) -> float:
-        """Share of a step, halved until the speed fits no worse than before."""
+        """Step length, halved until the speed fits no worse than before."""
         shares = 0.5 ** np.arange(_HALVINGS)
         size = self.squares(values[:, None] + step[:, None] * np.append(0.0, shares))
         fits = np.flatnonzero(size[1:] <= size[0] * (1 + _WORSE))
@@ -123,5 +123,5 @@ class EngineFit:
 
 
 def _without_delay(values: Floats, n: int) -> Indices:
-    """Delays of cylinders that hardly burn, which mean nothing and stay as they are."""
+    """Delays of cylinders that hardly burn: undetermined, and therefore held."""
     return n + np.flatnonzero(values[:n] < _HARDLY - 1) if len(values) > n else np.empty(0, np.intp)

@@ -177,7 +177,7 @@ def mechanism_alone(machine: Machine) -> CompiledMachine:
 
 
 def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) -> Complexes:
-    """Mean of what resists at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
+    """Mean resistance at constant speeds, inertia included, times e^{−iνφ}, (orders, speeds) [N m]."""
     turn = turn_curve(lambda phi: _parts(compiled, phi), compiled.kinks(), "torque of the mechanism")
     # Each part has its power of the speed.
     M: Complexes = turn.harmonics(nu).T @ np.array([omega**0, omega, omega**2])
@@ -186,13 +186,13 @@ def _resistance_harmonics(compiled: CompiledMachine, nu: Floats, omega: Floats) 
 
 
 def _parts(compiled: CompiledMachine, phi: Floats) -> Floats:
-    """Torques at speed 0, per speed and per square of the speed, (3, n)."""
+    """Torque coefficients of speed to the power of 0, 1 and 2, (3, n)."""
     at = compiled.reductions(phi)
     return np.stack([at.load + at.dry, at.viscous, 0.5 * at.inertia_slope])
 
 
 def _resistance(compiled: CompiledMachine, omega: Floats) -> Floats:
-    """Mean torque of all loads over the speed but the viscous ones [N m]."""
+    """Mean torque of all but the viscous loads over the speed [N m]."""
     return mean_laws(compiled, omega) + compiled.speed_load(omega)
 
 

@@ -131,7 +131,7 @@ def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats)
 def _load_harmonics(
     train: Train, place: dict[str, int], turning: Floats, speeds: Floats, factor: Floats
 ) -> list[Source]:
-    """Pulsation of the loads: of each its shares of what it resists, times the factor of all loads."""
+    """Pulsation of each load: its shares times its resistance times the common load factor."""
     sources = []
     for load in train.loads.values():
         if load.harmonics:
@@ -183,7 +183,7 @@ def orders_together(values: Floats) -> Orders:
 
 @lru_cache(maxsize=32)
 def _together(listed: tuple[float, ...]) -> Orders:
-    """The same once for all speeds at which a train is examined."""
+    """Cached: computed once for all speeds of a train."""
     values = np.array(listed)
     of_revolution = _counted(values, 1.0)
     # Orders behind a gear stage go by its ratio, which need be no fraction, and may be far above one wave per

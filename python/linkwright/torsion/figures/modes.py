@@ -236,7 +236,7 @@ def _write_labels(axes: Axes, listed: list[tuple[float, float, float, float]]) -
 
 
 def _severity(diagram: CampbellDiagram) -> tuple[Floats, str]:
-    """How severe critical speeds are, and by what; infinite ones as twice the largest that is not."""
+    """Severity of critical speeds and its measure; infinite values at twice the largest finite one."""
     for entry, name in (
         (
             "resonance_amplitude",

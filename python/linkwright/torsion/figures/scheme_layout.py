@@ -67,7 +67,7 @@ class Layout:
 
 @dataclass
 class _Line:
-    """Discs and shafts in one row, that hang on an earlier line."""
+    """Discs and shafts in one row, connected to an earlier line."""
 
     x: float
     parent: int | None = None
@@ -79,7 +79,7 @@ class _Line:
 
 
 class _Edge(NamedTuple):
-    """A connection seen from one of its discs; what ends at the ground ends at a place of its own."""
+    """A connection seen from one of its discs; an end at the ground has a place of its own."""
 
     part: Connection
     other: str
@@ -120,7 +120,7 @@ class _RowSearch:
         return self._layout()
 
     def _children(self, at: str) -> Iterator[str]:
-        """Place what hangs on a disc: shafts first, of which the heaviest goes straight on; then gears."""
+        """Place the children of a disc: shafts first, the heaviest straight on; then gears."""
         edges = sorted(
             self.below.get(at, []), key=lambda edge: (_geared(edge.part), -self.weight[edge.other])
         )
@@ -174,7 +174,7 @@ class _RowSearch:
             line.row = min(fits, key=lambda row: (self._cost(base, row, line, others), near.index(row)))
 
     def _cost(self, base: int, row: int, line: _Line, others: Sequence[_Line]) -> int:
-        """What speaks against a row: crossings most, then the way there, then another row for the drawing."""
+        """Cost of a row: crossings first, then the distance, then one more row of the drawing."""
         rows = [other.row for other in others]
         new = max(row - max(rows), min(rows) - row, 0)
         return 4 * self._crossed(base, row, line, others) + abs(row - base) + new
@@ -232,7 +232,7 @@ _AT_GROUND = " ground of "
 def _spanning(
     discs: Sequence[str], parts: Sequence[Connection]
 ) -> tuple[dict[str, list[_Edge]], list[Connection]]:
-    """What hangs on each disc, going deep first so that rings become chains, and what closes loops."""
+    """Spanning tree, depth first so that rings become chains, and the connections that close loops."""
     about: dict[str, list[_Edge]] = {name: [] for name in discs}
     for part in parts:
         for at, other in ((part.first, part.second), (part.second, part.first)):

@@ -103,7 +103,7 @@ def _resistance(compiled: CompiledMachine, crank: int, guess: float) -> Iterator
 
 
 def _laws(compiled: CompiledMachine, phi: Floats, crank: int, guess: float) -> Iterator[TrainTorque]:
-    """Loads of angle and speed together: the curve of each speed counts up to the speeds beside it."""
+    """Loads of angle and speed, interpolated between the curves of neighbouring speeds."""
     speeds = np.linspace(0.0, 2 * guess, _SPEEDS)
     # At rest a law may jump: that just above counts.
     asked = np.maximum(speeds, _AT_REST * guess)
@@ -114,7 +114,7 @@ def _laws(compiled: CompiledMachine, phi: Floats, crank: int, guess: float) -> I
 
 
 def _through_rest(speeds: object, torque: object, guess: float) -> Curve:
-    """A resistance over speed that opposes both senses, straight through zero at rest."""
+    """A resistance over speed that opposes both directions, linear through zero at rest."""
     x, y = np.asarray(speeds, dtype=float), np.asarray(torque, dtype=float)
     near = _AT_REST * guess
     ahead = np.append(near, x[x > near])

@@ -93,7 +93,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
 
 
 def _ratios(referred: ReferredTrain, *, by_mode: bool) -> Floats:
-    """Damping ratio of each mode of vibration: that given, with that of its hysteresis."""
+    """Damping ratio of each mode: the given one and that of its hysteresis."""
     given = referred.ratios if len(referred.ratios) else np.zeros(len(referred.inertia))
     if not by_mode:
         return given
@@ -136,7 +136,7 @@ def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[
 
 
 def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats, str]:
-    """Frequency at which each shaft shall lose what its hysteresis does [rad/s], and in words."""
+    """Frequency at which viscous damping equals the hysteresis of each shaft [rad/s], and in words."""
     omega, shapes = referred.modes()
     twisting = omega > 1e-6 * omega[-1]
     omega, shapes = omega[twisting], shapes[twisting]

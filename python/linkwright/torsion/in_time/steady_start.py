@@ -96,7 +96,7 @@ def _size(moving: MovingTrain, speed: float, angle: float) -> float:
 
 
 def _at_steady_speed(moving: MovingTrain, manoeuvre: TrainTransient) -> tuple[MovingTrain, float, str]:
-    """The speed next to that given at which torques balance, and to which the train comes back."""
+    """The stable equilibrium speed nearest to the given one."""
     given, angle = manoeuvre.speed, manoeuvre.angle
     speeds = given * np.linspace(_LEAST, _MOST, _SPEEDS)
     left = np.array([_left(moving, speed, angle) for speed in speeds.tolist()])
@@ -213,7 +213,7 @@ def _steepest(train: MovingTrain) -> Floats:
 
 
 def _stiffness(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
-    """What turning each mass takes, (masses, masses) [N m/rad]."""
+    """Stiffness matrix of the masses, (masses, masses) [N m/rad]."""
     n = len(angle)
     # Both sides of the angle, so that bends of curves cancel.
     rows = np.concatenate([angle + _STEP * np.eye(n), angle - _STEP * np.eye(n)])

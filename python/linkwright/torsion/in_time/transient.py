@@ -266,7 +266,6 @@ def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:
 
 
 def _moved_with(train: Train, manoeuvre: TrainTransient, ice: IceStarts, duration: float) -> TorsionTransient:
-    """The motion for some time with the ice that is known."""
     moving, speed, balance = balanced_start(moving_train(train, manoeuvre, ice), train, manoeuvre)
     moved = _followed(moving, manoeuvre.model_copy(update={"duration": duration}), speed)
     if duration < manoeuvre.duration or not train.gears:

@@ -254,7 +254,7 @@ def _range(
 
 
 def _peaks(seen: Survey, above: list[Exceedance]) -> list[list[float]]:
-    """Speeds at which the stress peaks in each range; not its ratio to a limit that falls with the speed."""
+    """Speeds at which the stress peaks in each range, not those of its ratio to a falling limit."""
 
     def sizes(at: Floats) -> Floats:
         return np.array([_size(criterion) for criterion in seen.criteria_at(at)])
@@ -269,12 +269,12 @@ def _grid(seen: Survey, exceedance: Exceedance) -> Floats:
 
 
 def _size(criterion: Criterion) -> Floats:
-    """What was found, infinite at a resonance that nothing damps."""
+    """The value found; infinite at an undamped resonance."""
     return np.where(np.isfinite(criterion.found), criterion.found, np.inf)
 
 
 def _critical(seen: Survey, row: int, peaks: list[float]) -> tuple[float | None, float | None]:
-    """Of the peaks in a range the highest, and the order that is largest there; None without any."""
+    """Highest peak in a range, with its dominant order; None without a peak."""
     if not peaks:
         return None, None
     at = np.array(peaks)

@@ -189,7 +189,6 @@ def _judged(
     judged: Verdict,
     misfire: MisfireVerdict | None,
 ) -> CrankshaftFatigue:
-    """One engine. `speed`: of its crank in service [rad/s]."""
     engine, throw = one.engine, one.engine.throw
     assert throw is not None
     torque, shaft, at, cylinder = _torsion(one, seen, judged, misfire)

@@ -276,7 +276,7 @@ def peaks_on(
 
 
 def _maxima(values: Floats, dip: float) -> list[int]:
-    """Places that are no lower than both their neighbours and higher than one, with dips between them."""
+    """Local maxima above 1, separated by dips."""
     here, before, after = values[1:-1], values[:-2], values[2:]
     inside = (1 + np.flatnonzero((here > before) & (here >= after))).tolist()
     if dip == 0:

@@ -118,7 +118,7 @@ def critical_responses(seen: Survey, diagram: CampbellDiagram) -> tuple[Critical
 
 @dataclass(frozen=True)
 class _Loads:
-    """What is compared at the critical speeds: stresses that are limited, else torques."""
+    """Quantity compared at critical speeds: stresses with a limit, else torques."""
 
     seen: Survey
 
@@ -178,7 +178,7 @@ def _one_order(at: ExcitedTrain, order: float) -> ExcitedTrain:
 
 
 def _places(loads: _Loads, order: float, critical: Sequence[CriticalSpeed]) -> list[list[_Place]]:
-    """For each critical speed of an order the shafts in which it peaks, with the peak; all if in none."""
+    """Shafts that peak at each critical speed of an order, with the peak; all if none does."""
     alone = loads.alone(order)
 
     def curves(speeds: Floats) -> Floats:
@@ -213,7 +213,7 @@ def _places(loads: _Loads, order: float, critical: Sequence[CriticalSpeed]) -> l
 
 
 def _grid(seen: Survey, order: float, critical: Sequence[CriticalSpeed]) -> Floats:
-    """Speeds close enough to show the peaks of an order: even ones, and closer ones about resonances."""
+    """Speeds fine enough for the peaks of an order: even, and denser about resonances."""
     run = seen.at.torques.speeds
     low, high = float(run.min()), float(run.max())
     moved, orders = seen.damped_resonances
@@ -240,7 +240,7 @@ def _grid(seen: Survey, order: float, critical: Sequence[CriticalSpeed]) -> Floa
 
 
 def _beside(one: CriticalSpeed, grid: Floats) -> float:
-    """A critical speed, or one beside it where there is no solution at it."""
+    """A critical speed, or one next to it where there is no solution."""
     if one.damping_ratio != 0:
         return one.speed
     above = one.speed * (1 + _BESIDE)
@@ -248,14 +248,14 @@ def _beside(one: CriticalSpeed, grid: Floats) -> float:
 
 
 def _bounded(one: CriticalSpeed, speed: float, size: float) -> tuple[float, bool, float]:
-    """A peak, whether it is one, and its height: without bounds where nothing damps the mode."""
+    """A peak, whether it is one, and its height; unbounded where nothing damps the mode."""
     if one.damping_ratio == 0 and abs(speed - one.speed) < _BESIDE * one.speed:
         return one.speed, True, math.inf
     return speed, True, size
 
 
 def _owned(critical: Sequence[float], peaks: Sequence[tuple[float, float]]) -> list[int | None]:
-    """Which of the peaks, by speed with their height, belongs to each critical speed, if any does."""
+    """The peak, by speed and height, that belongs to each critical speed, if any."""
     # Each lies between the critical speeds next to its own. Of all such choices that with most peaks, then
     # with the highest, then with the nearest ones. The best choice so far by the last peak that it uses:
     best: dict[int, tuple[_Score, list[int | None]]] = {-1: ((0, 0.0, 0.0), [])}
@@ -279,7 +279,7 @@ def _owned(critical: Sequence[float], peaks: Sequence[tuple[float, float]]) -> l
 
 
 def _height(size: float) -> float:
-    """A height on the scale on which heights are compared, in steps below which they are equal."""
+    """Height in steps, so that nearly equal heights compare as equal."""
     return round(math.log(min(size, 1e300)), 9)
 
 

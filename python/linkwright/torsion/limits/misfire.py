@@ -205,7 +205,7 @@ def _worse(one: MisfireGear, other: MisfireGear) -> MisfireGear:
 
 
 def _judged(criterion: Criterion, speeds: Floats, cylinder: str) -> MisfireJudgement:
-    """One limit where found over permitted is largest."""
+    """A limit at its largest utilisation."""
     ratio = criterion.ratio
     n = int(ratio.argmax())
     over = speeds[ratio > 1]

@@ -308,7 +308,6 @@ def _kind(entry: object, name: str, path: Path, line: int) -> str:
 
 
 def _part(name: str) -> tuple[str, float | None]:
-    """Shaft or disc, and the order, of a column."""
     match = _ORDER.fullmatch(name)
     if match is None:
         return name, None

@@ -103,7 +103,7 @@ def _has_viscous_damping(at: ExcitedTrain) -> bool:
 
 
 def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
-    """Damped natural frequencies [rad/s] at a speed, farther from undamped ones than their peaks are wide."""
+    """Damped natural frequencies [rad/s] farther from the undamped ones than their peaks are wide."""
     stiffness, damping = at.operating.stiffness[:, place], at.operating.disc_damping[:, place]
     train = replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
     if train.rods:
@@ -203,7 +203,7 @@ class Survey:
         return self._joined(speeds, limits, np.setdiff1d(self._valleys(speeds, limits, peaks), speeds))
 
     def _valleys(self, speeds: Floats, limits: list[Criterion], peaks: list[float]) -> list[float]:
-        """Speeds of the lowest values between resonances and peaks, where a limit is exceeded all along."""
+        """Speeds of the minima between peaks where a limit is exceeded throughout."""
         tops = np.unique(np.concatenate([self.resonant_speeds, peaks]))
         places = np.searchsorted(speeds, tops[(tops >= speeds[0]) & (tops <= speeds[-1])])
         spans = [(low, high) for low, high in itertools.pairwise(places.tolist()) if low < high]
@@ -237,7 +237,7 @@ class Survey:
         ]
 
     def _ratios(self, speeds: Floats) -> Floats:
-        """Found over permitted at any speeds, (limits, speeds)."""
+        """Utilisation, value over limit, at any speeds, (limits, speeds)."""
         return np.array([criterion.ratio for criterion in self.criteria_at(speeds)])
 
     @cached_property
@@ -294,7 +294,7 @@ def in_a_row(parts: Sequence[list[Criterion]]) -> list[Criterion]:
 
 
 def _highest(ratio: Floats) -> list[int]:
-    """Places of the highest value, and of all maxima that might pass the limit between the speeds."""
+    """Indices of the maximum, and of all maxima that might exceed the limit between the speeds."""
     inside = np.concatenate([[False], (ratio[1:-1] >= ratio[:-2]) & (ratio[1:-1] >= ratio[2:]), [False]])
     near = np.flatnonzero(inside & (ratio > _NEAR)).tolist()
     return sorted({int(np.argmax(ratio)), *near}) if ratio.max(initial=0.0) > 0 else []
@@ -338,7 +338,7 @@ def between(machine: Machine, at: ExcitedTrain, speeds: Floats) -> ExcitedTrain:
 
 
 def _about(known: Floats, wanted: Floats) -> tuple[Indices, Floats]:
-    """Places of four known speeds about each wanted one, and what they count, (4, wanted): Lagrange's."""
+    """Indices of four known speeds about each wanted one, and their Lagrange weights, (4, wanted)."""
     first = np.clip(np.searchsorted(known, wanted) - _ABOUT // 2, 0, len(known) - _ABOUT)
     about = first + np.arange(_ABOUT)[:, None]
     x = known[about]
@@ -391,5 +391,5 @@ def torque_peaks(seen: Survey) -> TorquePeaks:
 
 
 def _finite(torque: Floats) -> Floats:
-    """Torques, infinite at a resonance that nothing damps."""
+    """Torques; infinite at an undamped resonance."""
     return np.where(np.isfinite(torque), torque, np.inf)

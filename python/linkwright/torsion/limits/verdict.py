@@ -141,7 +141,6 @@ def verdict(machine: Machine, seen: Survey | None = None) -> Verdict:
 
 
 def _rule(seen: Survey, criterion: Criterion) -> str:
-    """Where a limit comes from."""
     if criterion.what == CONTACT:
         return ""
     shaft = seen.at.train.shafts.get(criterion.part)
@@ -152,7 +151,7 @@ def _rule(seen: Survey, criterion: Criterion) -> str:
 def _worst(
     criterion: Criterion, speeds: Floats, places: list[int] | None = None
 ) -> tuple[float, float, float]:
-    """Found, permitted and speed where found over permitted is largest, of some places."""
+    """Value, limit and speed of the largest utilisation at some indices."""
     at = np.arange(len(speeds)) if places is None else np.array(places)
     n = int(at[np.argmax(criterion.ratio[at])])
     # Orders without any bound have no sum either: NaN.
@@ -266,7 +265,6 @@ def _listed(ranges: Iterable[tuple[float, float]]) -> str:
 
 
 def _between(low: float, high: float) -> str:
-    """A range of speeds."""
     if high == low:
         return f"{low / _RPM:.5g} rpm"
     return f"{low / _RPM:.5g} to {high / _RPM:.5g} rpm"

@@ -111,7 +111,6 @@ def _share_of_wheel(drive: Drive) -> float:
 
 
 def _places(drive: Drive) -> dict[str, str]:
-    """Disc that each station belongs to, or the ground."""
     held = isinstance(drive.motor, ConstantSpeedMotor)
     motor = GROUND if held else MOTOR
     gearbox = motor if drive.motor_shaft is None else GEARBOX

@@ -78,7 +78,6 @@ def cone_place(
 
 
 def _at(ends: tuple[float, float], share: float) -> float:
-    """A diameter at a share of the length."""
     return ends[0] + share * (ends[1] - ends[0])
 
 
@@ -102,7 +101,7 @@ def _rule(diameters: tuple[float, float], bores: tuple[float, float], start: flo
 def _over_share(
     diameters: tuple[float, float], bores: tuple[float, float], start: float, end: float, depth: int
 ) -> float:
-    """The integral over shares of the length, halved where one rule is not enough."""
+    """Integral over shares of the length, bisected where one rule is not accurate enough."""
     middle = (start + end) / 2
     full = _rule(diameters, bores, start, end)
     halves = _rule(diameters, bores, start, middle) + _rule(diameters, bores, middle, end)

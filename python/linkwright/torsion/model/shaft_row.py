@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def _step(first: ShaftSection, second: ShaftSection) -> tuple[float, float]:
-    """Flexibility that a step adds to the section before it and to the one after it [1/m³]."""
+    """Flexibility that a step adds to the sections on both sides [1/m³]."""
     if first.fillet is None:
         return 0.0, 0.0
     (d, bore), (D, other) = (first.diameters[1], first.bores[1]), (second.diameters[0], second.bores[0])
@@ -64,7 +64,7 @@ def fillet_faults(sections: Sequence[ShaftSection]) -> Iterator[InitErrorDetails
 
 
 def _largest_fillet(first: ShaftSection, second: ShaftSection) -> float:
-    """Radius that a step has room for, and that its closed form holds for [m]."""
+    """Largest fillet that fits the step and for which its closed form holds [m]."""
     d, D = first.diameters[1], second.diameters[0]
     thin = first if d <= D else second
     return min(abs(D - d) / 2, min(d, D) / 4, thin.length)

@@ -183,7 +183,6 @@ def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDeta
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Names in a row, not too many."""
     return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
 
 

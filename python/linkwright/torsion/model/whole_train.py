@@ -74,7 +74,7 @@ def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Di
 
 
 def _end_inertias(shaft: Shaft) -> tuple[float, float]:
-    """What a shaft with an inertia of its own gives to the discs at its ends [kg m²]."""
+    """Inertia that a shaft contributes to the discs at its ends [kg m²]."""
     if shaft.own_inertia is not None:
         return shaft.own_inertia / 2, shaft.own_inertia / 2
     if shaft.density is None or shaft.sections is None:

@@ -185,7 +185,6 @@ def campbell(
 
 
 def _range(given: tuple[float, float] | None) -> tuple[float, float] | None:
-    """Two speeds, checked."""
     in_range(speed_range=(given, positive(SPEED)))
     if given is not None and not given[0] < given[1]:
         found = f"{given[0]:g} to {given[1]:g} rad/s"
@@ -244,7 +243,7 @@ def _judged(
     given: Complexes | None,
     ratios: Floats | None,
 ) -> list[CriticalSpeed]:
-    """Critical speeds with how severe they are, under given torques (n, discs) or those of the machine."""
+    """Critical speeds with their severity under given torques (n, discs) or those of the machine."""
     if not len(at):
         return []
     mode_shapes = modes.shapes(at, mode)
@@ -274,7 +273,7 @@ def _judged(
 
 
 def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Floats:
-    """Power of the speed with which the work of each order in a mode grows about a speed, (n,)."""
+    """Exponent of the speed with which the work of each order in a mode grows, (n,)."""
     sizes = []
     for speeds in (at * (1 - _ASIDE), at * (1 + _ASIDE)):
         torques = modes.torques(speeds, orders)
@@ -286,7 +285,7 @@ def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Float
 
 
 def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
-    """Speed of the largest amplitude of the mode alone near a crossing."""
+    """Speed of the resonance peak of the mode alone near a crossing."""
     if ratio is None:
         return None
     # What rounding leaves of a whole power would have the amplitude peak at no speed, or at any.
@@ -298,7 +297,7 @@ def _peak(speed: float, ratio: float | None, growth: float) -> float | None:
 
 
 def _resonance(static: float | None, ratio: float | None) -> float | None:
-    """Amplitude that damping allows."""
+    """Resonance amplitude limited by damping."""
     if static is None or ratio is None:
         return None
     if ratio == 0:

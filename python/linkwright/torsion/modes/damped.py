@@ -219,7 +219,7 @@ def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats]:
 
 
 def _of_shafts(train: ReferredTrain, referred: ReferredTrain, masses: Complexes, omega: Floats) -> Floats:
-    """What shafts add to 2σ Σ J|θ|², (modes, shafts); of a shaft in pieces all of them."""
+    """Contributions of shafts to 2σ Σ J|θ|², (modes, shafts); of a shaft in pieces all of them."""
     square = np.abs(masses @ referred.joins.T) ** 2
     loss = referred.loss_factor * referred.stiffness
     hysteresis = np.divide(loss, omega[:, None], out=np.zeros(square.shape), where=omega[:, None] > 0)
@@ -305,7 +305,7 @@ def _undamped(Q: Floats, C: Floats) -> float:
 
 
 def _apart(Q: Floats, C: Floats) -> Floats:
-    """Motions without stiffness, turned so that none damps another."""
+    """Motions without stiffness, rotated so that damping does not couple them."""
     turned: Floats = np.linalg.eigh(Q @ C @ Q.T)[1].T @ Q
     return turned if len(Q) > 1 else Q
 
@@ -343,7 +343,7 @@ def _pairs(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
 
 
 def _at_rest(omega: Floats, C: Floats, vectors: Complexes) -> Complexes:
-    """p of eigenvalues that rounding left at zero: stiffness gives the elastic part, damping the free one."""
+    """p of eigenvalues that are zero within rounding: elastic part by stiffness, free part by damping."""
     # Where s is zero, so are the velocities s p, and p = y/ω of the elastic motions; those without stiffness
     # follow in the limit of (s + C_ff) p_f = -C_fe p_e, since each of them is damped and none damps another.
     n, m = len(omega), len(C)

@@ -278,7 +278,7 @@ def train_modes(referred: ReferredTrain, count: int) -> TrainModes:
 
 
 def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
-    """Shapes of the discs, the largest amplitude 1, and what each mode was multiplied by."""
+    """Shapes of the discs with a largest amplitude of 1, and the factor of each mode."""
     angles = referred.speed * modes.masses[:, referred.mass]
     if not modes.exact:
         return scaled(angles), np.ones(len(angles))
@@ -363,7 +363,7 @@ def scaled(shapes: NDArray[Any]) -> NDArray[Any]:
 
 
 def _nodes(train: Train, referred: ReferredTrain, shape: Floats, modes: TrainModes, k: int) -> Iterator[Node]:
-    """Places at rest: discs, places between ends that swing against each other, places along rods."""
+    """Nodes: discs, points between ends that swing in antiphase, points along rods."""
     for name, amplitude in zip(referred.discs, shape, strict=True):
         if abs(amplitude) < _AT_REST:
             yield Node(name, 0.0, None)

@@ -195,7 +195,7 @@ def _hertz(text: str) -> float:
 
 
 def _last(train: Train) -> str:
-    """The last disc of a file; rings that only a fluid holds do not count, none follows from them."""
+    """Last disc of a file; rings held by a fluid alone do not count, since nothing follows from them."""
     loose = {end for shaft in train.shafts.values() if shaft.stiffness == 0 for end in shaft.between[1:]}
     return [name for name in train.discs if name not in loose][-1]
 

@@ -73,8 +73,6 @@ def over_speed(machine: Machine) -> ModesAt:
 
 @dataclass(frozen=True)
 class _Constant(ModesAt):
-    """Given modes."""
-
     free: FreeVibration
 
     @property
@@ -105,8 +103,6 @@ class _Constant(ModesAt):
 
 
 class _OfMachine(ModesAt):
-    """Modes of a machine."""
-
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
         # At the speeds that were asked for last: frequencies, shapes and torques of the same follow.

@@ -91,7 +91,7 @@ def station_torques(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> 
 
 
 def _severity(shaft: Shaft, piece: RodPiece) -> float:
-    """How much of what a piece bears a torque is, but for a factor; alike for all where it is not known."""
+    """Utilisation of a piece per torque, up to a factor; equal for all where it is not known."""
     limit = shaft.limit
     if piece.section_modulus is None or (limit is not None and limit.has_section):
         return 1.0

@@ -225,7 +225,7 @@ def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Co
 
 
 def _mean_outside(at: ExcitedTrain, J: Floats) -> Floats:
-    """Mean torques on the discs, less what speeds the train up if they do not balance."""
+    """Mean torques on the discs, less the accelerating part if they do not balance."""
     mean, n = at.torques.mean, at.referred.speed[:, None]
     if at.referred.is_free:
         mean = mean - J * n * (n * mean).sum(axis=0) / at.referred.inertia.sum()

@@ -123,7 +123,6 @@ def unevenness_along(
 
 
 def _mean(shares: Floats) -> Floats:
-    """Mean over the cylinders."""
     mean: Floats = shares.mean(axis=1)
     return mean
 
@@ -154,14 +153,14 @@ def _as_a_whole(at: ExcitedTrain, relative: Complexes) -> Complexes:
 
 
 def _shares(orders: Floats, waves: Complexes, firing: Floats, turns: int) -> Floats:
-    """Largest less minimum value in each interval, (discs, cylinders)."""
+    """Peak-to-peak value in each interval, (discs, cylinders)."""
     ends = np.append(firing[1:], firing[0] + 2 * np.pi * turns)
     swings = [_span(orders, waves, *interval) for interval in zip(firing, ends, strict=True)]
     return np.array(swings).reshape(len(firing), -1).T
 
 
 def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
-    """Largest less minimum value of sums of harmonics on an interval, ends included, (discs,)."""
+    """Peak-to-peak value of sums of harmonics on an interval, ends included, (discs,)."""
     if not len(orders):
         return np.zeros(waves.shape[1])
     points = max(int(np.ceil((end - start) * orders.max() / (2 * np.pi) * _POINTS)), 2) + 1
@@ -182,7 +181,7 @@ def _span(orders: Floats, waves: Complexes, start: float, end: float) -> Floats:
 
 
 def _flat(orders: Floats, waves: Complexes, x: Floats, low: Floats, high: Floats) -> Floats:
-    """Where the slope is zero next to an angle, (discs,), by Newton between two bounds."""
+    """Stationary point next to an angle, (discs,), by Newton between two bounds."""
     for _ in range(_NEWTON):
         slope, bend = (_wave(orders, (1j * orders[:, None]) ** k * waves, x) for k in (1, 2))
         step = np.divide(slope, bend, out=np.zeros_like(slope), where=bend != 0)

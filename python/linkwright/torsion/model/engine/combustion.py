@@ -192,7 +192,6 @@ class Combustion(Gas):
         return float(cycle.mean_effective(fired)[0, 0])
 
     def _rule(self, cycle: WorkingCycle, wanted: Floats | None) -> Rule:
-        """How the heat of a cycle follows."""
         if wanted is not None:
             return cycle.heat_for_load(wanted)
         if self.mean_effective_pressure is not None:
@@ -272,7 +271,7 @@ def speed_points(speeds: Floats, kinks: tuple[float, ...]) -> tuple[Floats, Floa
 
 
 def _between(start: float, end: float, unit: Floats) -> Floats:
-    """Chebyshev's points of a piece, with its very ends."""
+    """Chebyshev points of a piece, with its exact ends."""
     return np.asarray(np.r_[start, (start + end) / 2 + (end - start) / 2 * unit[1:-1], end])
 
 

@@ -80,7 +80,7 @@ class ThrowRatios(NamedTuple):
 
 
 def _sum(x: float, *factors: float) -> float:
-    """A polynomial by its coefficients from the constant on."""
+    """Value of a polynomial by its coefficients, the constant first."""
     return float(sum(factor * x**n for n, factor in enumerate(factors)))
 
 

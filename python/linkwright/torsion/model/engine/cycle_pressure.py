@@ -95,7 +95,7 @@ def _even(start: float, end: float, width: float) -> Floats:
 
 
 def _apart(edges: Floats, corners: set[float]) -> Floats:
-    """The edges without those that lie close before another and are no corner."""
+    """Edges without those close before another, corners excepted."""
     keep = np.r_[np.diff(edges) > 0.05 * _CLOSED, True]
     first_of_release = np.isin(edges, list(corners))
     return np.asarray(edges[keep | first_of_release])

@@ -71,7 +71,7 @@ class Cylinder:
 
     @cached_property
     def _series(self) -> Complexes:
-        """The coefficients up to the last that is more than rounding."""
+        """Coefficients down to rounding."""
         c = self._spectrum
         kept = np.flatnonzero(np.abs(c) > _NEGLIGIBLE * np.abs(c[1:]).max())
         return c[: kept[-1] + 1]

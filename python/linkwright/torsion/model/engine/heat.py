@@ -86,7 +86,7 @@ class Wiebe(Description):
         return np.asarray(inside * scale * y**m * np.exp(-a * y ** (m + 1)))
 
     def _progress(self, angle: Floats) -> Floats:
-        """y, held before the start and after the end."""
+        """y, constant before the start and after the end."""
         return np.clip((angle - self.start) / self.duration, 0.0, 1.0)
 
 

@@ -81,7 +81,7 @@ def _meet(a: Point, b: Point, c: Point, d: Point) -> bool:
 
 
 def _folds(before: Point, corner: Point, after: Point) -> bool:
-    """Whether the side after a corner lies on the side before it, or one of them has no length."""
+    """Whether the side after a corner folds back onto the side before it, or one has no length."""
     ahead = (before[0] - corner[0]) * (after[0] - corner[0]) + (before[1] - corner[1]) * (
         after[1] - corner[1]
     )

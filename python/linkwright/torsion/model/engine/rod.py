@@ -148,7 +148,6 @@ class Rod(CheckedDescription):
             yield fault(self._way, found=found, expected=expected, remedy=remedy)
 
     def _too_small(self, J: float) -> InitErrorDetails:
-        """The fault of a moment of inertia about the centre of mass that is not positive."""
         found = f"{J:.6g} kg m^2 about the centre of mass"
         least = self.mass * (self.length - (self.centre or 0.0)) ** 2
         if self._way == "inertia_small_end":
@@ -168,7 +167,6 @@ class Rod(CheckedDescription):
 
     @property
     def _way(self) -> str:
-        """The entry that spreads the mass."""
         return next(key for key in _WAYS if getattr(self, key) is not None)
 
     @property
@@ -213,7 +211,7 @@ class Rod(CheckedDescription):
 
     @property
     def _moment(self) -> float | None:
-        """J_w as it was given, itself or by k; None if it follows from something else."""
+        """J_w, given directly or by k; None if it follows otherwise."""
         if self.distribution is not None:
             return self.distribution * self.mass * self.length**2
         return self.inertia_small_end

@@ -181,7 +181,7 @@ def dead_centres(crank_radius: float, gears: Sequence[RunningGear]) -> tuple[Dea
 
 
 def _refined(crank_radius: float, gears: Sequence[RunningGear], start: Floats) -> tuple[Floats, Floats]:
-    """Angles where the pistons rest, and their places there, (gears, 2); Newton within a sample's reach."""
+    """Angles of the dead centres and piston positions there, (gears, 2); Newton within a sample's reach."""
     angle, reach = start, 2.0 * math.pi / _SAMPLES
     for _ in range(_STEPS):
         piston, d1, d2 = _own_rows(crank_radius, gears, angle)

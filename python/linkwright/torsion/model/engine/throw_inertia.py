@@ -95,7 +95,7 @@ def _parts(throw: CrankThrow) -> Iterator[ThrowPart]:
 
 
 def _round(name: str, diameter: float, length: float, density: float, at: float) -> ThrowPart:
-    """A cylinder along the shaft; of negative density if it is a hole."""
+    """A cylinder along the shaft; of negative density for a hole."""
     mass = density * _volume(diameter, length)
     return ThrowPart(name, mass, (at, 0.0), mass * diameter**2 / 8)
 
@@ -168,11 +168,9 @@ def published_inertia(throw: CrankThrow) -> float:
 
 
 def _volume(diameter: float, length: float) -> float:
-    """Volume of a cylinder [m³]."""
     return math.pi / 4 * diameter**2 * length
 
 
 def _ring_volume(journal: Journal) -> float:
-    """Volume of a hollow cylinder [m³]."""
     d, bore = journal.diameter, journal.inner_diameter
     return math.pi / 4 * (d - bore) * (d + bore) * journal.length

@@ -84,7 +84,7 @@ class Timing:
 
 
 def _rise(angle: Floats, start: float, end: float) -> Floats:
-    """From 0 to 1 in the course of a cosine."""
+    """Half-cosine rise from 0 to 1."""
     return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.clip((angle - start) / (end - start), 0.0, 1.0)))
 
 
@@ -139,7 +139,6 @@ class Valves(Description):
 
 
 def _outside(name: str, found: float, low: float, high: float) -> Iterator[InitErrorDetails]:
-    """The fault of an angle [deg] outside its range."""
     if not low < found <= high:
         expected = f"between {low:.6g} and {high:.6g} deg after the dead centre of firing"
         yield fault(name, found=f"{found:.6g} deg", expected=expected)
