@@ -107,7 +107,6 @@ class CamKernel:
         return variables_of((*self.sizes, angle)) or self.law.variables
 
     def _along(self, rows: dict[str, Floats], angle: Any, before: bool) -> dict[str, Any]:
-        """Rows with derivatives."""
         n = self._variables(angle) or 0
         sizes = np.stack([lifted(size, n).d for size in self.sizes])
         angles = lifted(angle, n).reshape(-1)

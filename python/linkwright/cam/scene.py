@@ -111,7 +111,7 @@ def _cam(name: str, cam: Cam, contact: Contact, series: int, *, second: bool) ->
 
 
 def _follower(machine: Machine, name: str, cam: Cam, contact: Contact, series: int, *, second: bool) -> Scene:
-    """What touches the cam: on a slide at the place of the follower, or on its arm about the pivot."""
+    """What touches the cam: at the place of the follower on a slide, or on its arm about the pivot."""
     look: Scene = {"name": name, "at": name, "link": None, "series": series, "rod": [0.0, 0.0]}
     if cam.is_oscillating:
         return _on_arm(name, cam, contact, look, second=second)

@@ -109,7 +109,7 @@ def cam_file(
 
 
 def _formats(by: str, form: str, formats: str) -> tuple[str, ...]:
-    """The formats of the drawings; what makes no sense is reported before anything is computed."""
+    """Formats of the drawings; invalid options are reported before anything is computed."""
     from linkwright.cam.manufacture.fit import FORMS
     from linkwright.cam.manufacture.write import ALL_FORMATS
 
@@ -125,7 +125,7 @@ def _formats(by: str, form: str, formats: str) -> tuple[str, ...]:
 
 
 class _Drawing(NamedTuple):
-    """A drawing that was written and read back: its bytes, and what was measured in them."""
+    """A drawing written and read back: its bytes, and what was measured in them."""
 
     data: bytes
     outlines: tuple[MeasuredOutline, ...]

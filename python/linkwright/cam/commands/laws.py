@@ -60,7 +60,7 @@ def laws(law: Names = None, *, to: To) -> None:
 
 
 class _LawChoice(NamedTuple):
-    """A law that is asked for: in what words, its name, and its parameters that are not the usual ones."""
+    """A requested law: its words, its name, and the parameters that differ from the usual ones."""
 
     words: str
     name: str

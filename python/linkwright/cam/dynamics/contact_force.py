@@ -219,7 +219,7 @@ def contact_force(
 
 
 def _held(course: CamCourse, bearing: Bearing, friction: float, side: Floats) -> tuple[BearingReaction, Push]:
-    """What a normal force of one on the flank that carries does, and how the bearing answers."""
+    """Effect of a unit normal force on the carrying flank, and the reaction of the bearing."""
     still = np.abs(course.lift_d1) <= _REST * np.abs(course.lift_d1).max(initial=0.0)
     moving = np.where(still, 0.0, np.sign(course.lift_d1))
     push = pushes(course, friction, side, moving)
@@ -231,14 +231,13 @@ def _without_friction(bearing: Bearing) -> Bearing:
 
 
 def _over(what: object, values: Floats) -> float:
-    """Extreme of the values that there are."""
     assert callable(what)
     there = values[np.isfinite(values)]
     return float(what(there)) if len(there) else math.nan
 
 
 def _mean(course: CamCourse, follower: FollowerLoad, torque: Floats) -> tuple[float, float]:
-    """Mean torque over the angle, and its difference to that of every second angle; NaN if some lack."""
+    """Mean torque over the angle, and its change with every second angle; NaN if values are missing."""
     # The work of inertia at constant speed, spring and constant load is that of their energies at the ends.
     angle = course.cam_angle
     span = float(angle[-1] - angle[0])
@@ -252,7 +251,7 @@ def _mean(course: CamCourse, follower: FollowerLoad, torque: Floats) -> tuple[fl
 
 
 def _energy(course: CamCourse, follower: FollowerLoad) -> tuple[Floats, Floats]:
-    """Energy of a follower [J], and the force along its way whose work it is [N]."""
+    """Energy of a follower [J], and the force along its path that does this work [N]."""
     s, d1 = course.lift, course.lift_d1
     load = float(np.asarray(follower.load).flat[0]) if np.ndim(follower.load) == 0 else 0.0
     energy = 0.5 * follower.spring_rate * s**2 + (follower.preload + load) * s
@@ -288,7 +287,7 @@ def _from_to(course: CamCourse, low: int, high: int) -> str:
 
 
 def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, jammed: Bools) -> Iterator[str]:
-    """Where friction locks the follower, and how much smaller the pressure angle must be."""
+    """Where friction jams the follower, and by how much the pressure angle must decrease."""
     for low, high in _stretches(jammed):
         gamma = course.pressure_angle[low : high + 1]
         k = low + int(np.argmax(np.abs(gamma)))
@@ -302,7 +301,7 @@ def _jams(course: CamCourse, bearing: Bearing, friction: float, side: Floats, ja
 
 
 def _limit(course: CamCourse, bearing: Bearing, friction: float, side: Floats, row: int) -> float:
-    """The pressure angle, of the same sign, from which on the follower jams at one row."""
+    """Pressure angle, of the same sign, beyond which the follower jams at one row."""
     sign = math.copysign(1.0, course.pressure_angle[row])
     if isinstance(bearing, ArmPivot) and np.ndim(bearing.arm):
         bearing = replace(bearing, arm=np.asarray(bearing.arm)[row])
@@ -316,7 +315,7 @@ def _limit(course: CamCourse, bearing: Bearing, friction: float, side: Floats, r
 def _gain(
     course: CamCourse, bearing: Bearing, friction: float, side: Floats, row: int, gamma: float
 ) -> float:
-    """What is left along the way of a normal force of one, at one row with another pressure angle."""
+    """Component along the path of a unit normal force, at one row with another pressure angle."""
     one = slice(row, row + 1)
     values = {name: getattr(course, name)[one] for name in CamCourse.__dataclass_fields__}
     there = CamCourse(**(values | {"pressure_angle": np.array([gamma])}))

@@ -111,7 +111,6 @@ class Train:
         self.departure: Oscillation = oscillation(drive, mu, -kappa * self.steps, periodic=ends == "turn")
 
     def _lift(self, order: int, step: Indices, phi: Floats) -> Floats:
-        """The lift or a derivative in given steps."""
         return in_pieces(self.lift.derivative(order), self.departure.pieces[step], phi)
 
     def motion(self, step: Indices, phi: Floats) -> Derivatives:
@@ -228,7 +227,7 @@ def follower_vibration(lift: MotionLaw, model: OneMass, speed: float, n: int = 7
 
 
 def _size(extremes: tuple[Extreme, Extreme]) -> float:
-    """The larger size of minimum and maximum."""
+    """Larger absolute value of minimum and maximum."""
     return max(abs(extreme.value) for extreme in extremes)
 
 

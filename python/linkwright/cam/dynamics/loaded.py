@@ -188,7 +188,7 @@ def loaded_cam(machine: Machine, profile: CamProfile, speed: float | None = None
 
 
 def _angles(profile: CamProfile) -> Floats:
-    """Crank angles of the profile within a revolution, increasing; joints from before and from after."""
+    """Increasing crank angles of the profile within a revolution; joints from both sides."""
     cam_angles = profile.angle.copy()
     twice = np.flatnonzero(np.diff(cam_angles) == 0)
     cam_angles[twice] -= _BESIDE
@@ -222,7 +222,7 @@ def _largest(function: Callable[[Floats], Floats], angles: Floats, values: Float
 
 
 def _vertex(places: Floats, values: Floats, best: Extreme) -> Extreme:
-    """The extreme of the parabola through the last look; at a corner the best of the look."""
+    """Vertex of the parabola through the last samples; at a corner the best sample."""
     middle, half = 0.5 * (places[0] + places[-1]), 0.5 * (places[-1] - places[0])
     if not (half > 0 and np.isfinite(values).all()):
         return best
@@ -238,7 +238,6 @@ def _vertex(places: Floats, values: Floats, best: Extreme) -> Extreme:
 
 
 def _left(profile: CamProfile, least: float, at: float, size: float, acting: Forces) -> tuple[str, ...]:
-    """A follower that nothing keeps on its cam."""
     if profile.cam.closure != "spring" or least >= -_NOTHING * size:
         return ()
     return (
@@ -276,7 +275,6 @@ def _speeds_lost(machine: Machine, name: str, angles: Floats) -> Floats:
 
 
 def _rows(profile: CamProfile, angles: Floats) -> list[dict[str, Floats]]:
-    """What is known of each contact at crank angles."""
     cam_angles = np.mod(angles - profile.cam.phase, 2 * np.pi)
     return [flank.contact.kernel.rows(cam_angles) for flank in profile.flanks]
 
@@ -284,7 +282,7 @@ def _rows(profile: CamProfile, angles: Floats) -> list[dict[str, Floats]]:
 def _hardest(
     profile: CamProfile, pressed: Callable[[Floats], Forces], angles: Floats, hertz: LineContact
 ) -> tuple[float, LineContact] | None:
-    """Where the pressure is largest, and the contact there; None where some angle beside it does not fit."""
+    """Largest contact pressure and its place; None where the contact at a neighbouring angle does not fit."""
 
     def at(phi: Floats) -> LineContact | None:
         return _hertz(profile, _rows(profile, phi), pressed(phi).drives[profile.name])[0]
@@ -301,7 +299,7 @@ def _hardest(
 def _hertz(
     profile: CamProfile, rows: list[dict[str, Floats]], force: Floats
 ) -> tuple[LineContact | None, tuple[str, ...]]:
-    """Pressure at the contact that carries, and what does not fit; None without a width or for an edge."""
+    """Pressure of the carrying contact, and what does not fit; None without a width or for an edge."""
     cam = profile.cam
     if cam.width is None or cam.contact == "point":
         return None, ()

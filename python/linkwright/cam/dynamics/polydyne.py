@@ -105,7 +105,6 @@ def polydyne(wanted: MotionLaw, model: OneMass, speed: float, ends: Ends = "dwel
 
 
 def _jump(wanted: MotionLaw, ends: Ends, order: int) -> str:
-    """Where a derivative jumps, that must not."""
     jumps = steps(wanted, order, ends)
     k = int(np.argmax(np.abs(jumps)))
     return (

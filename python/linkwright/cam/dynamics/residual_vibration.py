@@ -213,7 +213,7 @@ def _primary(course: MotionLaw, unit: OneMass, tau: float) -> tuple[float, float
 
 
 class _Kernel:
-    """The amplitude that a rise leaves, for many τ at once."""
+    """Residual amplitude of a rise, for many τ at once."""
 
     def __init__(self, course: MotionLaw, unit: OneMass) -> None:
         self.course, self.unit = course, unit
@@ -246,7 +246,7 @@ class _Kernel:
         return amplitude / scale, found_d1 / scale - amplitude / (scale * tau)
 
     def _nodes(self, tau: float) -> tuple[Floats, Floats, Floats]:
-        """Places, and s″ and s′ there times the weights; jumps of s′ are places too."""
+        """Nodes, with s″ and s′ there times the weights; jumps of s′ are nodes too."""
         law = self.course.derivative(2)
         starts, x, w, pieces = nodes_for(law, 2 * np.pi * tau)
         length = np.diff(starts)[:, None]

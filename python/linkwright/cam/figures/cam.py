@@ -156,7 +156,7 @@ def _curvature_limits(profile: CamProfile) -> list[Level]:
 
 
 def _near(limits: list[Level], drawn: Floats) -> list[Level]:
-    """Limits that do not press the curve flat; those far away are kept with ease."""
+    """Limits that do not flatten the curve; those far away are easily kept."""
     reach = _FAR * float(np.abs(drawn).max(initial=0.0))
     return [limit for limit in limits if abs(limit.height) <= reach]
 
@@ -173,7 +173,6 @@ def _parts(profile: CamProfile) -> Sequence[Flank]:
 
 
 def _course(curve: CamCurve) -> Floats:
-    """Places along a curve, from joint to joint, (n, 2) [mm]."""
     course = []
     for low, high in zip(curve.breaks, curve.breaks[1:], strict=False):
         n = max(9, int(_POINTS * (high - low) / (2 * math.pi)))

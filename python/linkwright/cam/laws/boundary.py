@@ -87,7 +87,6 @@ def with_boundary(law: MotionLaw, task: Boundary) -> MotionLaw:
 
 
 def _moved(law: MotionLaw, task: Boundary) -> MotionLaw:
-    """The sum that meets lift and velocities."""
     v_0, change = task.velocity_start, task.velocity_end - task.velocity_start
     G = half_law(law)
     left = task.lift - v_0 - change * G.value(1.0)

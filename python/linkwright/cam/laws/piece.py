@@ -59,7 +59,7 @@ def _series(function: Callable[[Floats], Floats], n: int) -> Floats:
 
 
 def _last(series: Floats) -> int:
-    """Place of the last coefficient that is more than rounding; -1 if none is."""
+    """Index of the last coefficient above rounding; -1 if none is."""
     kept = np.flatnonzero(np.abs(series) > _ROUNDING * float(np.abs(series).max()))
     return int(kept[-1]) if len(kept) else -1
 

@@ -40,7 +40,7 @@ def solve(
 
 
 def _without(row: Row, other: Row, i: int) -> Row:
-    """The row less so much of the other that its entry i vanishes."""
+    """Eliminate entry i of a row by another row."""
     return [a - row[i] * b for a, b in zip(row, other, strict=True)] if row[i] else row
 
 

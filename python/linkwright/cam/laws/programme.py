@@ -187,12 +187,12 @@ def _ends(before: Section, after: Section) -> tuple[tuple[str, Section, str], ..
 
 
 def _said(own: float | None, other: float | None) -> float | None:
-    """What a section says of its end, else what its neighbour says."""
+    """A section's own end condition, else that of its neighbour."""
     return other if own is None else own
 
 
 def _closed(sections: Sequence[Section]) -> list[Section]:
-    """The sections with what rounding leaves of revolution and lift shared out."""
+    """Sections among which the rounding errors of revolution and lift are distributed."""
     turn = total(section.angle for section in sections)
     left = total(section.lift for section in sections)
     largest = max(range(len(sections)), key=lambda i: abs(sections[i].lift))

@@ -98,7 +98,7 @@ def osculating(function: Callable[[Floats], Floats], text: str) -> MotionLaw:
 
 
 def _with_pieces(function: Callable[[Floats], Floats], n: int, text: str) -> tuple[MotionLaw, float]:
-    """The law in n pieces, and how far its second derivative is off between their ends, over the largest."""
+    """The law in n pieces, and the largest relative error of its second derivative between their ends."""
     z = np.linspace(0.0, 1.0, n + 1)
     ends = function(z)
     if not np.isfinite(ends).all():

@@ -64,7 +64,7 @@ def equal_errors(
 
 
 def _fewer(errors: Callable[[Floats], Floats], cuts: Floats, order: float, tolerance: float) -> Floats:
-    """Cuts of fewer pieces that keep the tolerance too, by bisection from what the errors say is needed."""
+    """Cuts of fewer pieces that keep the tolerance, by bisection from the estimate by the errors."""
     least = max(math.ceil(((errors(cuts) / tolerance) ** (1 / order)).sum()), 1)
     while least < len(cuts) - 1:
         middle = (least + len(cuts) - 1) // 2

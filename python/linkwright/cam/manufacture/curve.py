@@ -95,7 +95,6 @@ class Stretch:
         return np.array(0.5 * (self.low + self.high))
 
     def _at(self, what: str, phi: Floats) -> Floats:
-        """Values seen from inside the stretch, also at its ends."""
         phi = np.asarray(phi, dtype=float)
         flat = np.clip(phi.ravel(), self.low, self.high)
         values = np.asarray(getattr(self.curve, what)(flat, side="after"))
@@ -227,7 +226,6 @@ class Track:
         return np.asarray(low[index] + inside - self.ends[index] + TURN * turns)
 
     def _at(self, what: str, tau: Floats, end: Floats | float) -> Floats:
-        """Values of the stretch in which each τ lies."""
         before = tau >= end
         wrapped = tau % self.period
         wrapped = np.where(before & (wrapped == 0), self.period, wrapped)

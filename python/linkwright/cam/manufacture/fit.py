@@ -206,7 +206,6 @@ def _path(track: Track, form: Form, tolerance: float) -> Outline | Spline:
 
 
 def _refuse(form: Form, tolerance: float, extent: float) -> None:
-    """What cannot be asked for."""
     if form not in FORMS:
         raise InputError(f'form "{form}": expected {", ".join(FORMS)}')
     finest = _FINEST * extent

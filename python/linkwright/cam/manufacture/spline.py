@@ -177,7 +177,7 @@ def _blossom(points: Floats, shares: list[Floats]) -> Floats:
 
 
 def _smoothness(before: Stretch, after: Stretch) -> int:
-    """How many derivatives by the cam angle go on where one stretch meets the next: 0, 1 or 2 and more."""
+    """Derivatives by the cam angle that are continuous where stretches meet: 0, 1, or 2 and more."""
     end, start = np.array([before.high]), np.array([after.low])
     speed = np.linalg.norm(before.tangents(end))
     for order, (left, right) in enumerate(

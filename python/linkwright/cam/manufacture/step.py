@@ -71,7 +71,7 @@ def _edge(path: Spline) -> Any:
 
 
 def _filled(kind: Any, values: list[Any]) -> Any:
-    """An array of the kernel, which counts from 1."""
+    """An array of Open CASCADE, whose indices begin at 1."""
     array = kind(1, len(values))
     for i, value in enumerate(values, start=1):
         array.SetValue(i, value)

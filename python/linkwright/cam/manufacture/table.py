@@ -86,7 +86,7 @@ def _count(step: float) -> int:
 
 
 def _at_polar_angles(track: Track, angles: Floats) -> Floats:
-    """τ of polar angles, by Newton from samples; rows against the run of the curve go backwards in τ."""
+    """τ of polar angles, by Newton from samples; decreasing where rows run against the curve."""
     tau, place = track.sampled
     polar = np.unwrap(np.arctan2(place[:, 1], place[:, 0]))
     is_round = abs(abs(polar[-1] - polar[0]) - 2 * math.pi) < _ROUNDING

@@ -230,7 +230,6 @@ def _svg(place: File, drawing: Drawing, form: Form, tolerance: float) -> Written
 
 
 def _step(place: File, drawing: Drawing, form: Form, tolerance: float) -> WrittenFile:
-    """The profile as a solid."""
     if drawing.width is None or PROFILE not in drawing.tracks:
         raise InputError(
             f"{drawing.name}: a STEP file is a solid: give the cam a width, and the layer {PROFILE}"

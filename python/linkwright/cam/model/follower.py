@@ -118,7 +118,6 @@ def cam_place_faults(mechanism: Mechanism) -> Iterator[InitErrorDetails]:
 
 
 def _unreached(name: str, cam: Cam, size: Sizes) -> Iterator[InitErrorDetails]:
-    """A follower that has no place on the base circle."""
     if not cam.is_oscillating:
         prime = size.base_radius + size.roller_radius
         least = np.max(np.abs(size.offset) - size.roller_radius)

@@ -49,7 +49,6 @@ class PointLaw(Law):
         return values[-1] - values[0] if values else None
 
     def _values(self, swing: bool) -> tuple[float, ...] | None:
-        """The values of one kind of follower."""
         return self.swing if swing else self.lift
 
     def _faults(self) -> Iterator[InitErrorDetails]:

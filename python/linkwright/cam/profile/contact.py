@@ -168,7 +168,7 @@ def _contact(
 
 
 def _conjugate(cam: Cam, first: Contact, name: str) -> Contact:
-    """The second cam of a conjugate pair, whose base circle follows from the distance of the followers."""
+    """Second cam of a conjugate pair; its base circle follows from the distance of the followers."""
     second = cam.second
     assert second is not None
     roller = second.roller_radius or first.sizes.roller_radius

@@ -88,7 +88,7 @@ def _degrees(angle: float) -> str:
 
 
 def _theta(angle: float) -> str:
-    """A cam angle, which counts from the start of the programme and not as the crank angle φ does."""
+    """A cam angle θ, counted from the start of the programme, unlike the crank angle φ."""
     return f"cam angle θ = {_degrees(angle)}"
 
 
@@ -164,7 +164,7 @@ def _turns_over(cam: Cam, flank: Flank) -> bool:
 
 
 def _size_for(profile: CamProfile, flank: Flank, base: float | None, more: str = "") -> str:
-    """What the base radius of a contact asks of the keys of the file; nothing if there is no such radius."""
+    """Keys of the file by which a contact has a base radius; empty if there is no such radius."""
     cam, contact = profile.cam, flank.contact
     if base is None:
         return ""
@@ -278,7 +278,6 @@ def _tight(profile: CamProfile) -> Iterator[str]:
 
 
 def _places(angles: list[float]) -> str:
-    """Some cam angles, the first of many."""
     more = f" and {len(angles) - _NAMED} more" if len(angles) > _NAMED else ""
     return "cam angle θ = " + ", ".join(_degrees(angle) for angle in angles[:_NAMED]) + more
 

@@ -106,7 +106,7 @@ def _first(
     coarse: Callable[[CamSearch], Floats],
     exact: Callable[[Contact], float],
 ) -> float | None:
-    """The smallest base radius for which a margin is not negative, by a scan and halving."""
+    """Smallest base radius with a margin that is not negative, by a scan and bisection."""
     size = contact.sizes
     scale = max(
         size.base_radius,

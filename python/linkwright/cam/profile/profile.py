@@ -364,7 +364,6 @@ def profile_of(name: str, cam: Cam, touching: tuple[Contact, ...], speed: float 
 
 
 def _least(extremes: list[Extreme | None]) -> Extreme | None:
-    """The minimum of those that there are."""
     return min(
         (extreme for extreme in extremes if extreme is not None),
         key=lambda extreme: extreme.value,
