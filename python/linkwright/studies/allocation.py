@@ -152,7 +152,7 @@ def _check(wanted: float, power: float, rows: int) -> None:
 
 
 class _Yields:
-    """Yields of tolerances that are wider by factors, with the same random numbers each time."""
+    """Yields with tolerances widened by factors, with the same random numbers each time."""
 
     def __init__(self, plan: StudyPlan, shares: Floats) -> None:
         self.plan, self.shares = plan, shares
@@ -211,7 +211,7 @@ class _Problem:
         return float(self.costs @ factors**-self.power)
 
     def factors(self, z: float) -> Floats:
-        """The cheapest ones that keep all limits by z deviations; the narrowest if none do, (variables,)."""
+        """Cheapest factors that keep all limits by z deviations, else the narrowest, (variables,)."""
         factors = np.ones(len(self.costs))
         own, fixed = self.table[:, self.free], np.delete(self.table, self.free, axis=1).sum(axis=1)
         room = z**-2.0 - fixed
@@ -236,6 +236,5 @@ def _widened(axis: Axis, factor: float) -> Axis:
 
 
 def _about(plan: StudyPlan, axis: Axis) -> tuple[float, float]:
-    """Limits about the value of the machine."""
     value = float(get(plan.machine, axis.addresses[0]))
     return axis.low - value, axis.high - value

@@ -179,7 +179,7 @@ def axis(machine: Machine, name: str, variable: Variable) -> Axis:
 
 
 def _made(machine: Machine, named: Axis, variable: Variable, kind: Kind) -> Axis:
-    """A size as it is made: within its tolerance, with the clearance of a joint, or both."""
+    """A size as manufactured: within its tolerance, with the clearance of a joint, or both."""
     name, value = named.name, get(machine, variable.address[0])
     key, play = f"variables.{name}", 0.0
     if variable.clearance is not None:
@@ -208,7 +208,7 @@ def _require_possible_truncation(machine: Machine, cut: Axis, given: Distributio
 
 
 def _impossible(machine: Machine, axis: Axis, values: list[float]) -> str:
-    """What an entry of a variable can have instead of one of these values; empty if all can have all."""
+    """Admissible values of an entry in place of impossible ones; empty if all are possible."""
     for address in axis.addresses:
         wrong, expected = outside(machine, address, np.array(values))
         if wrong.any():
@@ -227,7 +227,6 @@ def _common_kind(machine: Machine, name: str, variable: Variable) -> Kind | None
 
 
 def _kind(machine: Machine, name: str, address: str) -> Kind | None:
-    """The quantity at an address; None for what is no number."""
     try:
         known_place(machine, address)
     except MachineError as error:
@@ -267,7 +266,7 @@ def _choices(machine: Machine, name: str, variable: Variable, kind: Kind | None)
 
 
 def _require_possible(machine: Machine, name: str, variable: Variable, nth: int, value: object) -> None:
-    """Refuse what its own entry does not take; what other entries do not go with, is a row that fails."""
+    """Refuse values that their own entry does not admit; conflicts with other entries are failed rows."""
     try:
         variant(machine, [(address, value) for address in variable.address])
     except MachineError as error:

@@ -78,7 +78,6 @@ def _speeds(knob: Knob, low: float, high: float) -> dict[str, Any]:
 
 
 def _between(address: str, low: float, high: float) -> dict[str, Any]:
-    """A variable within its ends."""
     return {"address": address, **between(float(low), float(high))}
 
 

@@ -62,7 +62,7 @@ def normal_shares(kind: str, mean: float, deviation: float, low: float, high: fl
 
 
 def _bell(kind: str, mean: float, deviation: float) -> tuple[float, float]:
-    """Mean and deviation of what is normal: the value, or its logarithm."""
+    """Mean and deviation of the normal variable: the value, or its logarithm."""
     # Johnson, Kotz, Balakrishnan, *Continuous Univariate Distributions*, vol. 1, 2nd ed. 1994, chapter 14.
     if kind == "normal":
         return mean, deviation

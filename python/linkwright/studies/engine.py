@@ -163,8 +163,6 @@ def _with_first(machine: Machine, entries: Mapping[str, Floats]) -> dict[str, Fl
 
 @dataclass(frozen=True)
 class _Members:
-    """Rows of one machine."""
-
     machine: Machine
     entries: dict[str, Floats]  # address → its values in these rows
     rows: Rows
@@ -180,7 +178,7 @@ class _Members:
             self.rows.fail(self.members[status == code], FAILED, STATUS[int(code)])
 
     def points(self, wanted: list[StudyResponse]) -> None:
-        """Points of all rows at once, so many at a time as fit into memory."""
+        """Points of all rows at once, in blocks that fit into memory."""
         for start in range(0, len(self.members), _TOGETHER):
             part = slice(start, start + _TOGETHER)
             own = {address: column[part] for address, column in self.entries.items()}
@@ -191,7 +189,6 @@ class _Members:
                 self.rows.fail(self.members[part][~np.isfinite(values)], FAILED, why_open(asked))
 
     def entry_numbers(self, wanted: list[StudyResponse]) -> None:
-        """Entries of all rows at once."""
         for asked in wanted:
             (address,) = asked.of
             varied = self.entries.get(address)
@@ -263,7 +260,7 @@ def _add_formulas(rows: Rows, formulas: tuple[Formula, ...], status: int) -> Non
 
 
 def _require_finite(rows: Rows, plan: StudyPlan) -> None:
-    """Let rows fail whose response is neither a number nor what stands for one: NaN is never an answer."""
+    """Let rows fail whose response is neither a number nor its substitute: NaN is never an answer."""
     for asked in plan.asked:
         column = rows.columns[asked.name]
         is_number = np.isfinite(column)

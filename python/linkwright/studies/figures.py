@@ -242,7 +242,7 @@ def _chosen(shown: StudyRows) -> Sequence[str]:
 
 
 def _drawn(shown: StudyRows, rows: Indices, most: int) -> Indices:
-    """So many of some rows, drawn without order, and those with the extremes of each column."""
+    """A sample of the rows in random order, with those of the extremes of each column."""
     if len(rows) <= most:
         return rows
     some = np.random.default_rng(0).choice(rows, most, replace=False)
@@ -262,7 +262,6 @@ def _say_how_many(figure: Figure, shown: StudyRows, n: int) -> None:
 
 
 def _scaled(values: Floats) -> Floats:
-    """Values from 0 to 1."""
     span = np.ptp(values)
     return (values - values.min()) / span if span > 0 else np.full(len(values), 0.5)
 

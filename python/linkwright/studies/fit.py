@@ -234,7 +234,7 @@ class _FitJudgement:
         return sentences
 
     def _curved(self, names: list[str]) -> list[str]:
-        """Numbers at whose intervals' ends the sum of squares is not that of the linear approximation."""
+        """Numbers at whose intervals' ends the sum of squares departs from its linear approximation."""
         sentences = []
         measured = self.model.record.stacked
         least = (((self.model.at(self.x) - measured) * self.weight) ** 2).sum()

@@ -76,7 +76,7 @@ def _within_revolution(model: RecordModel, x: Floats) -> Floats:
 
 
 def _left(model: RecordModel, x: Floats) -> Floats:
-    """What is left over, (channels, n)."""
+    """Residuals, (channels, n)."""
     return (model.at(x) - model.record.stacked).reshape(len(model.record.channels), -1)
 
 

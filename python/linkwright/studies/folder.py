@@ -255,7 +255,7 @@ def _require_same(folder: SweepFolder, wanted: SweepFolder) -> None:
 
 
 def _is_ours(path: Path) -> bool:
-    """What a run that was killed at its very beginning leaves behind."""
+    """Whether a file is what a run that was killed at its very beginning leaves behind."""
     return path.name == _LOCK or path.name.startswith(".linkwright-part-")
 
 

@@ -143,7 +143,7 @@ def front(
 def _end(
     sought: Callable[[str, str, float | None], Optimum], goal: str, other: str, signs: Mapping[str, float]
 ) -> Optimum:
-    """The best by one goal, and of those that are as good the best by the other."""
+    """Best by one goal; of equally good machines the best by the other."""
     best = sought(goal, other, None)
     value = best.responses[goal]
     try:

@@ -88,7 +88,6 @@ def singular_directions(J: Floats, numbers: Sequence[Number], rounding: float) -
 
 
 def _words(numbers: Sequence[Number], parts: dict[str, float], deviation: float, effect: float) -> str:
-    """One sentence."""
     scales = {number.name: number for number in numbers}
     listed = " and ".join(
         f"{_change(scales[name], share)} {'more' if share > 0 else 'less'} {name}"

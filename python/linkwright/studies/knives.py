@@ -154,7 +154,7 @@ class _Progress:
 def _evaluated(
     plan: StudyPlan, values: Mapping[str, Floats], watched: _Progress, reasons: Counter[str]
 ) -> dict[str, Floats]:
-    """Responses of variants in portions; counts why some have none."""
+    """Responses of variants in blocks; counts the reasons of failures."""
     total = len(next(iter(values.values())))
     parts = []
     for start in range(0, total, _PORTION):
@@ -256,7 +256,6 @@ def _axis(name: str, values: ArrayLike) -> Floats:
 
 
 def _beyond(name: str, axis: Floats) -> float | None:
-    """A value that the entry cannot have."""
     if name == "edge_angle":
         off = np.abs(axis) >= np.pi / 2
     elif name in _SIGNED:

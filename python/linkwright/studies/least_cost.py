@@ -89,7 +89,7 @@ class LeastCost:
         return np.clip(free, 1 / self.most, self.most)
 
     def _of_one(self, j: int) -> Floats:
-        """Factors that keep limit j at minimum cost, the others left aside, (n,)."""
+        """Factors that keep limit j alone at minimum cost, (n,)."""
         most = np.full(len(self.costs), self.most)
         if self._used(most)[j] <= 1:
             return most
@@ -108,7 +108,7 @@ class LeastCost:
         )
 
     def _of_many(self) -> tuple[Floats, str]:
-        """Factors by SLSQP, within all limits, (n,), and its message, which alone does not judge them."""
+        """Factors by SLSQP, within all limits, (n,), and its message, which alone is no verdict."""
         from scipy.optimize import minimize
 
         edge, n = np.log(self.most), len(self.costs)

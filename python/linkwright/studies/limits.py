@@ -70,7 +70,6 @@ def touched(plan: StudyPlan, responses: dict[str, float], shares: Floats) -> tup
 
 
 def _is_at(limit: float, value: float) -> bool:
-    """Whether a response is at its limit."""
     return abs(value - limit) <= _ACTIVE * max(abs(limit), abs(value))
 
 
@@ -112,7 +111,7 @@ def prices(plan: StudyPlan, goal: str, sign: float, share: Floats, log: SearchLo
 
 
 def _beside(share: Floats, places: list[int]) -> Iterator[Floats]:
-    """Places all round one, within the ranges: both ways along each variable and in random directions."""
+    """Neighbours within the ranges: both ways along each variable and in random directions."""
     n = len(places)
     random = np.random.default_rng(0).standard_normal((_ROUND * n if n > 1 else 0, n))
     ways = np.concatenate([np.eye(n), random / np.abs(random).max(axis=1, keepdims=True, initial=1e-300)])

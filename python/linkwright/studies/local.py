@@ -130,7 +130,7 @@ class Descent:
         )
 
     def _slsqp(self, start: Floats) -> _Place:
-        """The best place on the way of SLSQP."""
+        """Best place on the path of SLSQP."""
         from scipy.optimize import minimize
 
         kept = {
@@ -157,11 +157,10 @@ class Descent:
         return self._least()
 
     def _least(self) -> _Place:
-        """The best place so far."""
         return min(self._known.values(), key=lambda point: point.merit)
 
     def _planes(self, best: _Place) -> tuple[_Place, bool]:
-        """The best place by cutting planes about one, and whether they only creep on from there."""
+        """Best place by cutting planes about one, and whether they merely creep on from there."""
         near, radius, merits = [best], _FIRST, [best.merit]
         while radius > _LAST:
             trial, gain = self._lowest(near, best, radius)

@@ -69,7 +69,7 @@ def _by_motion(machine: Machine, asked: StudyResponse, ways: Directions) -> Floa
 
 
 def _by_path(machine: Machine, asked: StudyResponse, ways: Directions) -> Floats:
-    """Derivatives of distances from a path, (variables,); NaN where only differences tell."""
+    """Derivatives of distances from a path, (variables,); NaN where only differences can tell."""
     path = asked.path
     assert path is not None
     off, angles = _off(machine, path)
@@ -120,7 +120,6 @@ def _weights(asked: StudyResponse, curve: Floats) -> Floats:
 
 
 def _ends(extreme: str, curve: Floats) -> Iterator[tuple[int, float]]:
-    """Places of the extremes of a curve, with their signs."""
     if extreme in ("max", "range"):
         yield int(curve.argmax()), 1.0
     if extreme in ("min", "range"):
@@ -128,7 +127,7 @@ def _ends(extreme: str, curve: Floats) -> Iterator[tuple[int, float]]:
 
 
 def _kink(machine: Machine, asked: StudyResponse, path: StudyPath) -> str:
-    """Why a distance from a path has only one-sided derivatives; empty if it has one."""
+    """Why a distance from a path has only one-sided derivatives; empty otherwise."""
     distances = np.abs(_off(machine, path)[0])
     if asked.extreme is None:
         distances = distances[[asked.index or 0]]

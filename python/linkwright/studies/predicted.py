@@ -125,7 +125,7 @@ class RecordModel:
         return {name: value for name, value in given.items() if value is not None} | fitted
 
     def _in_time(self, machine: Machine, angle: float, speed: float) -> dict[str, Floats]:
-        """Channels of a motion in time; once it has come to rest, it stands."""
+        """Channels of a motion in time, constant after it has come to rest."""
         motor, brake = self.options.motion == "run_up", self.options.motion == "run_down"
         span = float(self.record.at[-1] - self.record.at[0])
         duration, turns = (span, np.inf) if self.record.over == "time" else (np.inf, span / (2 * np.pi))
@@ -220,7 +220,6 @@ class RecordModel:
         return self._with_own(x, table, slopes)
 
     def _with_own(self, x: Floats, table: dict[str, Floats], slopes: dict[str, Floats]) -> Floats:
-        """Derivatives of all channels, also by torque over current."""
         per = self._of_record(x).get("torque_per_current", np.nan)
         extra = np.zeros((len(self.record.at), len(self.own)))
         columns = []

@@ -129,7 +129,7 @@ _OF_SHAFTS = ("forced_vibration.shaft_torque_vibratory", "forced_vibration.shaft
 
 
 class _AskedFor(NamedTuple):
-    """What a name asks of a result."""
+    """What the name of a response refers to in a result."""
 
     of: list[str]  # keys of the name of a part
     quantity: str
@@ -139,7 +139,7 @@ class _AskedFor(NamedTuple):
 
 
 def _asked_for(first: str, owner: type, rest: list[str], response: Response) -> _AskedFor:
-    """What the keys of a name ask: the quantity stands last, or, as in `linkwright.sensitivity`, first."""
+    """Parse the keys of a name: the quantity is last or, as in `linkwright.sensitivity`, first."""
     head, *place = rest
     picked, is_curve = (response.extreme, response.index), response.curve is not None
     *of, quantity = rest

@@ -133,7 +133,7 @@ class Search:
             used += many
 
     def _sound(self, given: Floats | None) -> list[Floats]:
-        """The machine of the study itself, if it is one of those sought and has an answer."""
+        """The machine of the study itself, if it is among those sought and has an answer."""
         return [given] if given is not None and self._ranked(given[None])[0][0] < 2 else []
 
     def _started(self, shares: Floats, free: list[int], seed: int, starts: int) -> list[Floats]:
@@ -144,7 +144,7 @@ class Search:
         return [points[i] for i in order[:starts] if keys[i][0] < 2]
 
     def _descend(self, starts: list[Floats], last: float = math.inf) -> None:
-        """Derivatives lead down from each start, as long as the log has no more than `last` machines."""
+        """Descend by derivatives from each start until the log has `last` machines."""
         for start in starts:
             plan, kept = numbers_alone(self.plan, start)
             if not any(axis.is_continuous for axis in plan.axes):
@@ -162,7 +162,7 @@ class Search:
                 self._ranked(point[None])
 
     def _ranked(self, points: Floats) -> list[tuple[int, float]]:
-        """How good machines are, the smaller the better: by limits kept, then by goal or violation."""
+        """Rank of machines, smaller is better: by limits kept, then by goal or violation."""
         rows = self.log.evaluate(self.plan, self.plan.values(points))
         self.reasons.update(rows.failures())
         self.one_by_one.update(rows.one_by_one)
@@ -189,7 +189,7 @@ class Search:
         return (1, beyond) if beyond > 0 else (0, self.sign * float(rows.columns[self.goal][row]))
 
     def _against(self, best: tuple[tuple[int, float], Floats] | None) -> str | None:
-        """Why no machine of a combination of choices serves; None if one does."""
+        """Why no machine of a combination of choices is feasible; None if one is."""
         if best is None:
             return "no machine was computed"
         (rank, _), shares = best
@@ -213,5 +213,5 @@ def population(n: int) -> int:
 
 
 def _step(axis: Axis) -> float:
-    """Distance of whole numbers as a share of their range; 0 for what may have any value."""
+    """Step of whole numbers as a share of their range; 0 for real ones."""
     return 1.0 / (axis.high - axis.low) if axis.is_whole else 0.0

@@ -229,7 +229,6 @@ def _motors(machine: Machine, power: float) -> list[CatalogueMotor]:
 
 
 def _one(name: str | None, known: Collection[str], what: str) -> str:
-    """The part of a name, or the only one."""
     if name is None and len(known) == 1:
         return next(iter(known))
     if name is None or name not in known:

@@ -119,12 +119,11 @@ def _entries(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _tangent(x: Any, n: int) -> Tangent:
-    """A number as one with derivatives."""
     return x if isinstance(x, Tangent) else Tangent(float(x), np.zeros(n))
 
 
 def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
-    """The value of a formula with its derivatives; None if a function in it has no rule for them."""
+    """Value of a formula with its derivatives; None if one of its functions has no rule for them."""
     try:
         with np.errstate(all="ignore"):
             tangent = value(formula.tree, {**NUMBERS, **known})
@@ -134,7 +133,6 @@ def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
 
 
 def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | None:
-    """All formulas of a study; None if one has no derivatives."""
     worked_all = dict(known)
     for formula in plan.formulas:
         worked_all[formula.name] = _worked(formula, worked_all)
@@ -144,7 +142,7 @@ def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | N
 
 
 def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tangent], dict[str, str]]:
-    """Responses of analyses that have exact derivatives, NaN by what has none, and which of them tie."""
+    """Responses of analyses with exact derivatives, NaN where there is none, and which of them tie."""
     entries = _entries(plan, known)
     machine = machine_at(plan, entries)
     sources: dict[str, Source | None] = {}
@@ -228,7 +226,7 @@ def n_beside(plan: StudyPlan) -> int:
 
 
 def _differences(plan: StudyPlan, at: Floats, steps: Floats, by: Indices) -> dict[str, Tangent]:
-    """All responses with differences of fourth order [1] by some variables, and 0 by the others."""
+    """Fourth-order differences [1] of all responses by some variables, and 0 by the others."""
     # [1] Fornberg, Generation of finite difference formulas on arbitrarily spaced grids, Math. Comput. 51
     # (1988) 699, tables 1 and 3.
     n, h = len(by), steps[by]
@@ -251,7 +249,7 @@ def _differences(plan: StudyPlan, at: Floats, steps: Floats, by: Indices) -> dic
 
 
 def _side(axis: Axis, value: float, step: float) -> int:
-    """To which side of a value differences are taken: 0 to both, as far as its range goes."""
+    """Side of a value on which differences are taken: 0 for both, as far as its range goes."""
     if axis.low <= value - 2 * step and value + 2 * step <= axis.high:
         return 0
     return 1 if value + 4 * step <= axis.high else -1

@@ -161,7 +161,6 @@ def _try(plan: StudyPlan) -> None:
 
 
 def _share(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[int, int]:
-    """First number of the files to compute, and the one after the last."""
     first, last = chunks or (0, folder.n_parts)
     if not 0 <= first < last or first >= folder.n_parts:
         raise InputError(
@@ -171,7 +170,7 @@ def _share(folder: SweepFolder, chunks: tuple[int, int] | None) -> tuple[int, in
 
 
 def _missing(folder: SweepFolder, first: int, last: int) -> tuple[list[int], tuple[str, ...]]:
-    """Numbers of the files to compute, and names of those that are there but cut off."""
+    """Numbers of missing files, and names of those that are truncated."""
     numbers = [number for number in range(first, last) if not folder.is_done(number)]
     return numbers, tuple(folder.part(number).name for number in numbers if folder.part(number).exists())
 

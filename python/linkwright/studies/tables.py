@@ -123,7 +123,6 @@ def optimum_tables(optimum: Optimum, units: dict[str, str]) -> list[Table]:
 
 
 def _cell(value: Any, unit: str) -> str:
-    """A number with its unit, a text, or a table of them as it stands in a machine file."""
     if value is None or isinstance(value, float):
         return measured(value, unit)
     if isinstance(value, Mapping):

@@ -274,7 +274,6 @@ def _bends(plan: StudyPlan, scatters: _Scatters) -> tuple[dict[str, float], dict
 def _row(
     scatters: _Scatters, drawn: Floats, middle: float, slopes: Floats, bends: Floats, worst: WorstCase
 ) -> dict[str, float]:
-    """What is known of the scatter of a response."""
     low, high = np.quantile(drawn, _BAND)
     return {
         "middle": middle,

@@ -87,7 +87,7 @@ def _round(ready: StudyPlan, folder: SweepFolder, numbers: list[int], workers: i
 
 
 def _begin(path: Path, manifest: dict[str, Any], listed: Floats | None, workers: int) -> None:
-    """What a process does first: the study from its description, and its share of the processors."""
+    """Initialise a process: the study from its description, and its share of the processors."""
     global _own
     _end_with_parent()
     # Read by the core when it starts its threads, which is after this.
@@ -215,12 +215,10 @@ def _ahead(client: Client) -> int:
 
 
 def _first(numbers: Iterator[int], n: int) -> list[int]:
-    """The next n, as far as there are."""
     return [number for _, number in zip(range(n), numbers, strict=False)]
 
 
 def _part(about: bytes, listed: Floats | None, number: int) -> bytes:
-    """A file of rows, at a worker."""
     folder, ready = _study(about)
     if listed is not None:
         ready = plan(ready.machine, ready.study, listed)
