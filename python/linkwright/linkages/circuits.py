@@ -129,7 +129,6 @@ def _is_tied(element: Element) -> bool:
 
 
 def _tied(compiled: CompiledMachine) -> str:
-    """What keeps assemblies from being exchanged, change points with their crank angles."""
     points = [
         f"a change point of {dyad.name} at {', '.join(f'{np.degrees(x):.4g}°' for x in dyad.change_points)}"
         for dyad in dyads_of(compiled)
@@ -145,7 +144,6 @@ Ended = tuple[Branch, list[tuple[float, str]]]
 def _branches(
     compiled: CompiledMachine, slots: dict[str, int], signs: tuple[float, ...]
 ) -> tuple[list[Ended], int]:
-    """The branches of one choice of assemblies, and the revolutions that were examined."""
     q = compiled.parameters.copy()
     q[list(slots.values())] *= signs
     other = replace(compiled, parameters=q)

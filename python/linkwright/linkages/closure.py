@@ -195,7 +195,7 @@ def limiters_at(compiled: CompiledMachine, angles: Iterable[float]) -> list[str]
 
 
 class _Search:
-    """The angles of a fine look over the period, with those added where something happens between them."""
+    """Angles of a fine scan over the period, with further ones where something happens between them."""
 
     def __init__(self, compiled: CompiledMachine, turns: int) -> None:
         self.compiled, self.turns = compiled, turns
@@ -279,7 +279,6 @@ class _Search:
         return any(abs((at - point + np.pi) % turn - np.pi) < _BESIDE for point in known)
 
     def _element(self, closes: Bools) -> str:
-        """The first dyad in build order that does not close somewhere."""
         gaps = _gaps(self.compiled, self.angles[~closes])
         fails = (_shares(self.compiled, gaps, self.sizes) < -_ZERO).any(axis=1)
         return _parts(self.compiled)[int(np.argmax(fails))]
@@ -299,7 +298,7 @@ class _Search:
             yield float(low), float(high if high >= low else high + self.period)
 
     def _edges(self, inside: Floats, outside: Floats) -> Floats:
-        """Where the ranges end, between angles that close and their neighbours that do not."""
+        """Ends of the ranges, between angles that close and their neighbours that do not."""
         near, far = zeros(self.spare, inside, outside)
         edges = np.where(self.spare(near) >= 0, near, far)
         # An angle that closes by rounding alone is the edge itself.

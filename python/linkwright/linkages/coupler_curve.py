@@ -142,7 +142,7 @@ def coupler_curve(machine: Machine, point: str, *, straight: float = _STRAIGHT) 
 
 
 class _Path:
-    """A path with what is looked for on it."""
+    """A path with its special points."""
 
     def __init__(self, compiled: CompiledMachine, index: int, cycle: Cycle) -> None:
         self.compiled, self.index, self.cycle = compiled, index, cycle
@@ -209,7 +209,7 @@ class _Path:
         )
 
     def _length(self) -> float:
-        """Gauss–Legendre from sample to sample, and to where the point stands: there its speed has a kink."""
+        """Gauss–Legendre between samples and points of rest, where the speed has a kink."""
         nodes, weights = np.polynomial.legendre.leggauss(4)
         ends = np.union1d(self.cycle.angles, self._stops())
         low, high = ends[:-1, None], ends[1:, None]

@@ -137,7 +137,6 @@ def _directions(q: Floats, dyad: Dyad, values: Sequence[Rows]) -> list[tuple[Flo
 
 
 def _carrier(line: Line) -> list[Channel]:
-    """The link that carries a guide; the frame is at rest."""
     return [] if line.link is None else [Channel.Link(line.link)]
 
 

@@ -170,7 +170,6 @@ def _bodies_moved(machine: Machine, corner: LawJump) -> list[str]:
 
 
 def _places(machine: Machine) -> dict[str, Floats]:
-    """Places of points and directions of links at some crank angles, by name."""
     compiled = compile_machine(machine).first()
     phi = 0.317 + np.linspace(0.0, 2 * np.pi, _PLACES, endpoint=False)
     points = {name: compiled.point_motion(index, phi).place for name, index in compiled.points.items()}

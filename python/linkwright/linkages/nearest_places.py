@@ -180,7 +180,7 @@ def _in_steps(squares: Floats) -> Floats:
 
 
 def _settled(curve: ClosedCurves, targets: Complexes, phi: Floats, rolled: int = 0) -> Floats:
-    """Crank angles (n,) after Newton's method, in which points that would pass each other share an angle."""
+    """Crank angles (n,) by Newton's method; points that would overtake each other share an angle."""
     n = len(targets)
     group = np.arange(n)
     for _ in range(n):

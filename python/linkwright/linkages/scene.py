@@ -64,7 +64,7 @@ def arc_end(cable: str) -> str:
 
 
 def _series(mechanism: Mechanism) -> dict[str, int]:
-    """Number of the driver that moves each element, so that what moves together looks alike."""
+    """Number of the driver of each element, so that what moves together has one colour."""
     topology = Topology.of(mechanism)
     makers = {name: name for name in topology.moving_points} | topology.links
     references = {element.name: element.references.values() for element in topology.elements}

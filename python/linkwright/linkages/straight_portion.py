@@ -51,7 +51,7 @@ def straightest(at: Places, cycle: Cycle, straight: float) -> tuple[float, float
 
 
 def _confirmed(at: Places, low: float, high: float, straight: float) -> tuple[float, float, float, float]:
-    """The portion examined closely, and shrunk about its middle until it is straight there too."""
+    """The portion examined closely, and shrunk about its middle until it is straight."""
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     good, bad = 0.0, 2.0
     for share in (1.0, *[0.0] * _HALVINGS):

@@ -33,7 +33,6 @@ def made_linkage(known: Results, findings: Findings) -> Linkage | None:
 
 
 def _has_outputs(machine: Machine, moved: Linkage) -> bool:
-    """Whether anything moves that does not turn with the crankshaft: dyads, or a driver such as a cam's."""
     own = machine.linkage
     laws = any(crank.follows() is not None or crank.law is not None for crank in own.cranks.values())
     return bool(moved.elements or own.linear_drivers or laws)

@@ -292,8 +292,6 @@ def outputs_of(compiled: CompiledMachine, mechanism: Mechanism) -> list[Output]:
 
 
 class _Names:
-    """Names of links and slides by the core's index."""
-
     def __init__(self, compiled: CompiledMachine, mechanism: Mechanism) -> None:
         self.compiled, self.mechanism = compiled, mechanism
         self.links = {index: name for name, index in compiled.links.items()}
@@ -327,7 +325,7 @@ class _Names:
         return Output(element, name, "swing", Channel.Link(self.compiled.links[name]))
 
     def _hung(self, dyad: Element.Rocker) -> int:
-        """The link of a dyad RRR that hangs on a fixed point, the second if both or none do."""
+        """The link of an RRR dyad that is on a fixed pivot, the second if both or none are."""
         first = dyad.pin in self.grounds and dyad.pivot not in self.grounds
         return dyad.coupler_link if first else dyad.rocker_link
 

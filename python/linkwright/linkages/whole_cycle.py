@@ -138,14 +138,13 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
 
 
 def _repeats(compiled: CompiledMachine) -> bool:
-    """Whether the crank feels the same inertia and load in the next cycle of the loads."""
     looks = turn_angles(16, compiled.turns)
     first, next_ = (_felt(compiled.first(), looks + cycle) for cycle in (0.0, compiled.cycle))
     return bool((np.abs(next_ - first) <= _SAME * np.abs(first).max(axis=1, keepdims=True)).all())
 
 
 def _felt(compiled: CompiledMachine, angles: Floats) -> Floats:
-    """What the crank feels at crank angles, (quantities, n)."""
+    """Inertia and loads at the crank, (quantities, n)."""
     at = compiled.reductions(angles)
     laws = compiled.law_torques(angles, compiled.speed_guess)
     return np.stack([at.inertia, at.inertia_slope, at.load, at.dry, at.viscous, laws[0]])

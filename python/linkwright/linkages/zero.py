@@ -88,7 +88,6 @@ def _require_dead_centre(closed: Closure, angle: float, what: str) -> None:
 
 
 def _parts(where: str) -> tuple[str, str]:
-    """The output that is named, if any, and the end."""
     name, _, end = where.strip().rpartition(" ")
     if end not in ENDS:
         expected = f"one of {', '.join(ENDS)}, with the name of an output before it if there are several"
@@ -114,7 +113,6 @@ def _output(cycle: Linkage, name: str) -> ElementMotion:
 
 
 def _end_at(machine: Machine, output: ElementMotion, end: str) -> str:
-    """Which end is the higher or the lower one."""
     compiled = compile_machine(machine).first()
     name = next((name for name in (output.output, output.element) if name in compiled.points), None)
     if name is None:

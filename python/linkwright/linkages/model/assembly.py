@@ -83,7 +83,7 @@ class _Builder:
     # -- joints ------------------------------------------------------------------------------------------
 
     def _together(self) -> bool:
-        """Solves the first group of joints that hangs only on what is placed."""
+        """Solve the first group of joints that depends on placed elements alone."""
         system = self._system()
         matched = _matching(system)
         joints = {joint for joint, _ in matched.values()}
@@ -100,7 +100,7 @@ class _Builder:
         return False
 
     def _system(self) -> dict[str, set[str]]:
-        """Condition → the joints that it holds; not those that hang on something else that is open."""
+        """Condition → the joints that it holds, without those that depend on other open elements."""
         system: dict[str, set[str]] = {}
         for name, part in self.parts.items():
             if name in self.ignored or part.role not in ("bar", "joint"):
@@ -116,7 +116,7 @@ class _Builder:
         return system
 
     def _joints_of(self, need: str, depth: int = 0) -> set[str] | None:
-        """The open joints that a point or link hangs on; None if it hangs on something else that is open."""
+        """Open joints that a point or link depends on; None if it depends on other open elements."""
         if need in self.placed:
             return set()
         maker = next((name for name, part in self.parts.items() if need in part.makes), None)
@@ -171,7 +171,7 @@ def _matching(system: Mapping[str, set[str]]) -> dict[str, tuple[str, int]]:
 
 
 def _smallest(depends: Mapping[str, set[str]], full: set[str]) -> Iterator[set[str]]:
-    """Sets of joints that depend on nothing but themselves, all of them fully held; the smallest first."""
+    """Smallest sets of joints that depend on themselves alone and are fully held, in ascending order."""
     reach = {joint: _reach(joint, depends) for joint in depends}
     for joint in sorted(reach, key=lambda group: (len(reach[group]), group)):
         if reach[joint] <= full:

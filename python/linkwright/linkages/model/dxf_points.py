@@ -64,7 +64,6 @@ def _places(path: Path, unit: Any) -> Layers:
 
 
 def _apart(group: list[tuple[float, float]], same: float) -> Iterator[tuple[float, float]]:
-    """The first place, and those that are not there."""
     yield group[0]
     yield from (place for place in group if math.dist(place, group[0]) > same)
 

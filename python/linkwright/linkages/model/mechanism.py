@@ -82,7 +82,6 @@ class Mechanism(Description):
     @model_validator(mode="wrap")
     @classmethod
     def _names_fit(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Report wrong values and wrong names together."""
         try:
             mechanism = handler(data)
         except ValidationError as error:

@@ -222,7 +222,6 @@ class Topology:
         return build(parts, self.fixed_points, ignored)
 
     def _part(self, element: Element) -> Part:
-        """An element as the assembly sees it."""
         roles: dict[str, Literal["joint", "bar", "carried"]] = {
             "joints": "joint",
             "bars": "bar",
@@ -294,7 +293,7 @@ class Topology:
         )
 
     def _needs(self) -> dict[str, list[str]]:
-        """Each element → the moving elements that it hangs on, joints by the bars that hold them."""
+        """Each element → the moving elements that it depends on, joints by the bars that hold them."""
         makers = {point: point for point in self.moving_points} | self.links
         needs = {e.name: [makers[n] for n in e.references.values() if n in makers] for e in self.elements}
         for bar in (
@@ -313,7 +312,7 @@ class Topology:
         return [name for name in self.names(*DRIVERS) if name in drivers]
 
     def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
-        """A circle from a joint through an element that waits for it; empty if there is none."""
+        """A circle from a joint through an element that depends on it; empty without one."""
         joints = set(self.names("joints"))
         waiting = {name: [n for n in needs if n in stuck] for name, needs in self._needs().items()}
         # Joints that hold each other are no circle: they are found together.
@@ -333,7 +332,6 @@ class Topology:
                 )
 
     def _unknown(self) -> Iterator[InitErrorDetails]:
-        """References to names that do not exist or are something else."""
         for element in self.elements:
             for key, wanted in element.kind.references.items():
                 name = element.references.get(key)
@@ -355,7 +353,7 @@ class Topology:
         return f'"{name}" is a {word}' if word else ""
 
     def _graph(self) -> dict[str, list[str]]:
-        """Each moving element → the moving elements that it is built on; joints hang on their bars."""
+        """Each moving element → the moving elements that it is built on; joints depend on their bars."""
         makers = {name: name for name in self.moving_points} | self.links
         for element in self.elements:
             makers.update(dict.fromkeys(element.made(element.kind.points), element.name))
