@@ -257,7 +257,6 @@ def field_result(
 
 
 def _named(name: str, interval: Interval) -> dict[str, Any]:
-    """An estimate and the ends of its interval as entries."""
     keys = (name, f"{name}_low", f"{name}_high")
     return {key: float(np.squeeze(value)) for key, value in zip(keys, interval, strict=True)}
 

@@ -116,7 +116,7 @@ class Clusters:
         return self._wilson(counts, float(len(self.of)))
 
     def _wilson(self, sums: Floats, most: float) -> Interval:
-        """Wilson's interval with the number of pieces that the variance is worth, at most so many."""
+        """Wilson's interval with the effective sample size of the variance, at most `most`."""
         p, worth = self._worth(sums, most)
         spread = p * (1 - p)
         square = self.factor**2 / np.where(spread > 0, worth, self._at_ends)
@@ -135,13 +135,13 @@ class Clusters:
 
     @property
     def _at_ends(self) -> float:
-        """Number of pieces that shares of 0 and 1 are worth."""
+        """Effective sample size for shares of 0 and 1."""
         if self.are_free:
             return float(len(self.of))
         return float(self.count) if self.worth is None else self.worth
 
     def _worth(self, sums: Floats, most: float) -> tuple[Floats, Floats]:
-        """Shares, and the number of pieces that each is worth, at most so many."""
+        """Shares, and the effective sample size of each, at most `most`."""
         p, variance = self._moments(sums, self.sizes)
         # A mean of ones may be off by rounding.
         p = np.clip(p, 0.0, 1.0)

@@ -160,7 +160,6 @@ def _still() -> MotionLaw:
 
 
 def _one_way(speed: float) -> tuple[Knife, ...]:
-    """To the left, then to the right."""
     return tuple(Knife(_still(), np.zeros((1, 2)), (), 0.0, way * speed) for way in (1, -1))
 
 
@@ -179,7 +178,6 @@ def _smooth(harmonics: Floats, rate: float) -> Knife:
 
 
 def _moved(machine: Machine, member: str) -> Knife:
-    """A knife on a slide of the mechanism."""
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     rate = machine.drive.speed if machine.drive and machine.drive.speed else 0.0

@@ -125,12 +125,10 @@ def _lift(number: Any, n: int) -> Any:
 
 
 def _apart(one: float, other: float) -> float:
-    """How far two phases are apart."""
     return float(abs((one - other + np.pi) % _TURN - np.pi))
 
 
 def _at_end(needs: Needs, side: float) -> Any:
-    """The largest offset on a side."""
     return _lift(needs.topper.offset * float(side), needs.n)
 
 

@@ -132,6 +132,6 @@ def _box(
 
 
 def _rounded(values: Floats, fineness: float) -> list[float]:
-    """Values with no more digits than can be seen."""
+    """Values rounded to the digits that can be seen."""
     digits = max(0, math.ceil(-math.log10(fineness)))
     return [round(float(value), digits) for value in values]

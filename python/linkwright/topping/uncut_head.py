@@ -72,7 +72,6 @@ def worst_left_along(
 
 
 def _place(study: TopperStudy) -> tuple[Floats, Floats]:
-    """Offset and phase of the worst head, (1,) each."""
     return np.array([study.uncut_offset]), np.array([study.uncut_phase])
 
 
@@ -138,7 +137,6 @@ class _Worst:
         return areas
 
     def _values(self) -> Floats:
-        """Areas on the right and on the left."""
         cut = coverage(self.edge, 2 * self.radius, self.offset, self.phase, length=2 * self.half)
         return np.array([cut.uncut_right[0], cut.uncut_left[0]])
 

@@ -251,7 +251,7 @@ def _verified(trials: Trials, chosen: Trial, search: KnifeGrid, seed: int | None
 
 
 def _holds(own: TopperField, check: TopperField, limits: TopperLimits) -> bool:
-    """Whether other roots keep the limits but for chance, which both samples have their part in."""
+    """Whether other roots keep the limits within the sampling errors of both samples."""
     most = math.inf if limits.haulm_max is None else max(limits.haulm_max, own.haulm_mean_high)
     least = min(limits.complete_min, own.share_complete_low)
     return check.haulm_mean_low <= most and check.share_complete_high >= least

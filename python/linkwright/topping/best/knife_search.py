@@ -123,7 +123,7 @@ class KnifeGrid:
         return long_enough and trial.lack(self._slicing) == 0
 
     def _order(self, trial: Trial) -> tuple[float, float]:
-        """Less is better: first what it lacks, then its length."""
+        """Sort key, less is better: first the shortfall, then the length."""
         lack = trial.lack(self._slicing)
         return lack, math.inf if math.isnan(trial.length) else trial.length
 

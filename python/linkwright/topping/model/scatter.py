@@ -190,7 +190,6 @@ class BellScatter(Scatter):
                 yield fault(key, found=end, expected=expected)
 
     def _left(self) -> float:
-        """Share of the distribution between the ends."""
         low, high = self._scores
         sign = -1.0 if low > 0 else 1.0
         return abs(_normal().cdf(sign * high) - _normal().cdf(sign * low))

@@ -189,7 +189,6 @@ def _slicing(study: TopperStudy) -> Table:
 
 
 def _advance(study: TopperStudy) -> Row:
-    """Zero within rounding where the edge moves along itself."""
     if abs(study.least_advance) * _NO_BOUND < study.cutting_speed_max:
         return _text_row("least_advance", "0 m/s", "it moves along itself")
     return row(
