@@ -151,7 +151,7 @@ def reports_errors(
 
 
 def _require_out(out: object = None, force: object = False, **_: object) -> None:
-    """Refuse a file of ``--out`` that cannot be written, before the command computes what belongs there."""
+    """Refuse a file of ``--out`` that cannot be written, before the command computes its content."""
     context = click.get_current_context(silent=True)
     options = context.command.params if context else []
     is_file = any(option.name == "out" and option.metavar == "FILE" for option in options)

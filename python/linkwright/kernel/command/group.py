@@ -33,7 +33,7 @@ class Entry(NamedTuple):
 
 
 class _FileContext(click.Context):
-    """Of a default command, which has no word of its own in its usage."""
+    """Context of a default command, which has no name of its own in its usage."""
 
     @property
     def command_path(self) -> str:

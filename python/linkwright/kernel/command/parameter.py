@@ -250,8 +250,6 @@ def _converter(kind: Any, low: int | None) -> Any:
 
 
 class _Real(click.types.FloatParamType):
-    """A finite number."""
-
     # In the sentence of click on a word that is none.
     name = "number"
 

@@ -87,7 +87,7 @@ def product(first: Curve, second: Curve) -> Curve:
 
 
 def _at(curve: Curve, places: Floats, side: Literal["left", "right"]) -> Floats:
-    """Values of straight lines and steps at one side of places, the ends held."""
+    """Piecewise linear or constant values on one side of places, constant beyond the ends."""
     place = np.searchsorted(curve.x, places, side=side)
     a, b = np.clip(place - 1, 0, None), np.clip(place, None, len(curve.x) - 1)
     width = curve.x[b] - curve.x[a]

@@ -74,7 +74,7 @@ def fault(*place: str | int, found: object = None, expected: str, remedy: str = 
 
 
 def _whole(value: object) -> object:
-    """Neither true nor "3" is a whole number, though pydantic would make one of it."""
+    """Reject true and "3", of which pydantic would make a whole number."""
     if isinstance(value, bool | str):
         raise wrong(show(value), "a whole number")
     return value

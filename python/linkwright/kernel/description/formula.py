@@ -183,7 +183,7 @@ def _choice(node: Node) -> Iterator[Instruction]:
 
 
 def _whole(node: Node) -> int | None:
-    """The exponent, if it is a whole number that repeated products are good for."""
+    """The exponent, if it is a whole number small enough for repeated products."""
     sign = -1 if node.op == "negative" else 1
     node = node.args[0] if node.op == "negative" else node
     if node.op == "number" and float(node.value).is_integer() and abs(float(node.value)) <= 64:

@@ -106,7 +106,6 @@ def words_of(annotation: Any) -> str:
 
 
 def _below(annotation: Any, key: str, data: object) -> Any:
-    """The annotation of one entry of a table or of a list."""
     mark = mark_of(annotation)
     if isinstance(mark, QuantityList):
         return Annotated[float, Quantity(mark.kind)]

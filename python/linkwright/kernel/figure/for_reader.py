@@ -56,8 +56,6 @@ def _rescale(axis: Axis, factor: float) -> None:
 
 
 class _UnitAxis:
-    """An axis whose interval is in the unit that is shown."""
-
     def __init__(self, axis: Any, factor: float) -> None:
         self._axis, self._factor = axis, factor
 
@@ -72,8 +70,6 @@ class _UnitAxis:
 
 
 class _Places(Locator):
-    """Places of another locator in the unit that is shown."""
-
     def __init__(self, inner: Locator, factor: float) -> None:
         self.inner, self.factor = inner, factor
 

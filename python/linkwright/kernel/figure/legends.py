@@ -38,7 +38,7 @@ def finish_legends(figure: Figure) -> None:
 
 
 def _tell_coinciding(axes: Axes, legend: Legend, figure: Figure) -> None:
-    """Dash each curve that lies on an earlier one of its axes, and name that in the legend."""
+    """Dash each curve that coincides with an earlier one, and say so in the legend."""
     for line, other in _coinciding(axes, figure):
         label = str(line.get_label())
         line.set_linestyle(_DASHES)

@@ -22,8 +22,6 @@ _LETTERS = 22
 
 
 class _PlotCurve(NamedTuple):
-    """A curve of a result."""
-
     word: str
     unit: str
     over: str  # name of what it runs over

@@ -153,8 +153,6 @@ def _figure_class() -> type[Figure]:
     from matplotlib.figure import Figure
 
     class ShownFigure(Figure):
-        """A figure with its picture."""
-
         def _repr_png_(self) -> bytes:
             from linkwright.kernel.figure.svg import png
 
@@ -238,7 +236,7 @@ def named(name: str) -> str:
 
 
 def _in_legend(label: str) -> str:
-    """What begins with an underscore would stand in no legend."""
+    """A label that begins with an underscore would be left out of a legend."""
     return f" {label}" if label.startswith("_") else label
 
 

@@ -120,7 +120,6 @@ class _Scanner:
         return tuple(parts)
 
     def _value(self, place: Place) -> None:
-        """Whatever stands after the equals sign."""
         self._skip(_BLANK)
         if self._sees("["):
             self._list(place)
@@ -130,7 +129,6 @@ class _Scanner:
             self._skip(_STRING if self.text[self.at] in "\"'" else _PLAIN)
 
     def _list(self, place: Place) -> None:
-        """``[a, b]`` over any number of lines."""
         self.at += 1
         n = 0
         while not self._closes("]"):
@@ -140,7 +138,6 @@ class _Scanner:
             n += 1
 
     def _inline_table(self, place: Place) -> None:
-        """``{ a = 1 }``."""
         self.at += 1
         while not self._closes("}"):
             self._entry(place)

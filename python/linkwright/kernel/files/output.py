@@ -164,7 +164,6 @@ class OutputFolder:
             raise unwritable(self.path, error) from None
 
     def _known(self) -> frozenset[str]:
-        """Files that earlier runs wrote."""
         marker = self.path / MARKER
         if not os.path.lexists(marker):
             return frozenset()
@@ -221,7 +220,7 @@ def _write_all(contents: Mapping[Path, str | bytes]) -> None:
 
 
 def _remove(parts: list[Path]) -> None:
-    """Remove what is not finished, all of it though an interrupt comes meanwhile."""
+    """Remove unfinished files, all of them even if an interrupt comes meanwhile."""
     try:
         while parts:
             parts[-1].unlink(missing_ok=True)
@@ -249,7 +248,7 @@ def _is_ours(place: Path) -> bool:
 
 
 def _computer() -> str:
-    """A short sign for this computer: a folder may be shared with others, whose processes are not seen."""
+    """Short identifier of this computer: processes of others that share a folder are not seen."""
     return f"{crc32(platform.node().encode()):08x}"
 
 
@@ -259,7 +258,6 @@ def _bytes(content: str | bytes) -> bytes:
 
 
 def _part(place: Path) -> Path:
-    """A free name in the folder of a file, with its ending."""
     return place.with_name(f"{_PART}{_computer()}-{os.getpid()}-{secrets.token_hex(4)}{place.suffix}")
 
 

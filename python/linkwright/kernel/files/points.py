@@ -229,7 +229,6 @@ def one_of(names: Sequence[str]) -> str:
 
 
 def _values(entries: Sequence[Any], kind: Kind, name: str, path: Path, lines: Sequence[int]) -> Floats:
-    """The entries of a column in SI."""
     values = []
     for entry, line in zip(entries, lines, strict=True):
         try:

@@ -201,7 +201,7 @@ def columns_csv(columns: Mapping[str, Floats]) -> str:
 
 
 def _known(columns: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Zero for what is rounding beside the largest of its unit, or without a unit of its own column."""
+    """Zero for rounding beside the largest value of its unit, or of its column without a unit."""
     import numpy as np
 
     unit_of = {name: unit if (unit := name.rpartition("[")[2]) != "-]" else name for name in columns}

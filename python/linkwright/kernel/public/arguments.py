@@ -278,7 +278,6 @@ def _truth(name: str, value: Any) -> bool:
 
 
 def _truths(name: str, value: Any) -> Any:
-    """A list of truths, (n,)."""
     truths = _several(name, value, "a list of truths")
     if not truths or not all(isinstance(truth, bool | np.bool_) for truth in truths):
         raise _wrong(name, value, "a list of truths")
@@ -292,7 +291,6 @@ def _text(name: str, value: Any) -> str:
 
 
 def _path(name: str, value: Any) -> Any:
-    """The name of a file; whether there is one the function sees."""
     try:
         # Bytes of a name that are no text have substitutes; other halves of characters stand for none.
         is_name = b"\0" not in os.fsencode(value)
@@ -304,7 +302,6 @@ def _path(name: str, value: Any) -> Any:
 
 
 def _overrides(name: str, value: Any) -> Any:
-    """Entries beside a file; what they say is read where they are applied."""
     if isinstance(value, Mapping):
         return _mapping(name, value)
     is_list = isinstance(value, str) or (isinstance(value, list | tuple) and all(map(_is_text, value)))
@@ -329,7 +326,6 @@ def _motors(name: str, value: Any) -> Any:
 
 
 def _numbers_or_texts(name: str, value: Any) -> Any:
-    """Several of them; what a text says is read where it is used."""
     parts = _several(name, value, "a list of numbers or texts")
     return tuple(part if _is_text(part) else number(name, part) for part in parts)
 
