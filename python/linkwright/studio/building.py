@@ -96,7 +96,6 @@ class Kind(NamedTuple):
 
 
 def _one(table: str, head: str, entries: Callable[[Site], Iterator[Entries]]) -> Callable[[Site], Made]:
-    """Elements of one table of the mechanism."""
 
     def made(site: Site) -> Made:
         yield from ((("mechanism", table, site.fresh(head)), element) for element in entries(site))
@@ -113,12 +112,10 @@ def _load(head: str, entries: Callable[[Site], Iterator[Entries]]) -> Callable[[
 
 
 def _on(names: Callable[[Site], Sequence[str]], **entries: Any) -> Callable[[Site], Iterator[Entries]]:
-    """A load that acts on one of these."""
     return lambda site: ({**entries, "on": name} for name in names(site))
 
 
 def _between(**entries: Any) -> Callable[[Site], Iterator[Entries]]:
-    """A load between a fixed point and a moving one."""
     return lambda site: (
         {**entries, "between": [fixed, moving]} for moving in site.moving for fixed in site.fixed
     )

@@ -140,7 +140,7 @@ def _missing(place: tuple[str, ...], model: type[BaseModel], node: Any, raw: Any
 
 
 def _usual(field: FieldInfo) -> Any:
-    """What holds without an entry; None where nothing does, or where it is no single value."""
+    """Default of an entry; None without one, or if it is no single value."""
     default = field.default
     if default is PydanticUndefined or not isinstance(default, str | int | float | bool):
         return None

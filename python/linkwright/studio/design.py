@@ -142,7 +142,7 @@ def slopes(machine: Machine, response: str) -> dict[str, Any]:
 
 
 def _differenced(machine: Machine, response: str) -> dict[str, Any]:
-    """The same of a result without exact derivatives, by the entries of the mechanism."""
+    """The same by differences over entries of the mechanism, for a result without exact derivatives."""
     names = gradient(machine).variables if has_motor(machine) else gradient(machine, ["linkage"]).variables
     own = [name for name in names if name.startswith("mechanism.") and get(machine, name)]
     at = np.array([float(get(machine, name)) for name in own])
@@ -180,8 +180,6 @@ def reach(machine: Machine, response: str, wanted: float, free: Limits, bounds: 
 
 
 class _Reach:
-    """One result on its way."""
-
     def __init__(self, machine: Machine, response: str, wanted: float, free: Limits, bounds: Bounds) -> None:
         self.wanted, self.names = wanted, list(free)
         self.at = np.array([float(get(machine, name)) for name in self.names])
@@ -214,7 +212,7 @@ class _Reach:
         return Drag(self._entries(), reason, value=value)
 
     def _step(self, slope: Floats, miss: float) -> Floats:
-        """The smallest step to the value, without entries that it would press against their limits."""
+        """The smallest step to the value, without entries that would violate their limits."""
         slope = np.where(np.isfinite(slope), slope, 0.0)
         rise = slope * miss
         is_held = ((self.at >= self.high) & (rise > 0)) | ((self.at <= self.low) & (rise < 0))
@@ -228,7 +226,7 @@ class _Reach:
         return bounded
 
     def _walk(self, step: Floats, miss: float) -> str:
-        """Go the largest part of the step that leads nearer and keeps all limits; why there is none."""
+        """Take the largest part of the step that leads nearer within all limits; why there is none."""
         shares = 0.5 ** np.arange(_HALVINGS)
         tried = np.clip(self.at + shares[:, None] * step, self.low, self.high)
         rows = evaluate(self.study, {f"v{n}": tried[:, n] for n in range(len(self.names))})

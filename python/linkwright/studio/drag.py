@@ -111,8 +111,6 @@ def _limits(machine: Machine, entry: str, size: float, limits: Limits | None) ->
 
 @dataclass(frozen=True)
 class _Search:
-    """The entries of one drag."""
-
     machine: Machine
     point: str
     place: Floats
@@ -131,7 +129,7 @@ class _Search:
         object.__setattr__(self, "range", np.where(np.isfinite(width), width, 1.0))
 
     def nearest(self) -> Floats:
-        """Entries with the point as near as they allow, whether or not the linkage still turns."""
+        """Entries with the point as near as they allow, even if the linkage no longer turns."""
         at, place = self.before, self._placed(self.before[None])[0]
         for _ in range(_STEPS):
             if np.hypot(*(self.place - place)) < _NEAR * self.size:
@@ -143,7 +141,7 @@ class _Search:
         return at
 
     def _step(self, at: Floats, place: Floats) -> Floats:
-        """The smallest step to the place, without entries that it would press against their limits."""
+        """The smallest step to the place, without entries that would violate their limits."""
         pull, is_free = self._slopes(at, place) * self.range, np.ones(len(at), dtype=bool)
         while True:
             step: Floats = self.range * np.linalg.lstsq(pull * is_free, self.place - place, rcond=1e-6)[0]
@@ -199,7 +197,6 @@ class _Search:
         return fixed
 
     def moved(self, row: Floats) -> Machine:
-        """The machine with other entries."""
         return replace(self.machine, dict(zip(self.free, map(float, row), strict=True)))
 
     def stopped(self, wanted: Floats) -> Drag:
@@ -226,7 +223,7 @@ class _Search:
         return float((end + 0.5 * width) % (2 * np.pi))
 
     def _out_of_reach(self, wanted: Floats) -> str:
-        """What holds the point, where the entries do not lead to the place."""
+        """What holds the point where the entries cannot reach the place."""
         place = self._placed(wanted[None])[0]
         away, size = float(np.hypot(*(place - self.place))), float(np.hypot(*self.place)) or 1.0
         if not math.isfinite(away) or away < _SEEN * size:

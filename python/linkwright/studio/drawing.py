@@ -160,7 +160,6 @@ def transfer_functions(machine: Machine, motion: Kinematics) -> list[dict[str, A
 def _plots(
     kind: Literal["stroke", "swing"], outputs: list[Output], motion: Kinematics
 ) -> Iterator[dict[str, Any]]:
-    """Position and derivatives of the outputs of one kind."""
     names = [output.name for output in outputs if output.kind == kind and _curves(motion, output.name)]
     words, symbol, units = _KINDS[kind]
     for order, (word, mark, unit) in enumerate(zip(_WORDS, _MARKS, units, strict=True)):

@@ -236,7 +236,6 @@ def read(text: bytes) -> Any:
 
 
 def _words(kind: str, at: tuple[int | str, ...], message: str, found: Any) -> str:
-    """What is wrong with a request."""
     if kind == "json_invalid":
         return "request: found letters that no file can hold, or tables within tables too deep; take them out"
     if kind.startswith("union_tag"):

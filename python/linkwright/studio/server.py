@@ -124,7 +124,7 @@ class Guards:
 
 
 def _same(given: str, known: str) -> bool:
-    """Whether two words are the same, in a time that does not tell how far."""
+    """Compare two texts in constant time."""
     return hmac.compare_digest(given.encode("utf-8", "replace"), known.encode())
 
 
@@ -133,7 +133,7 @@ def _values(headers: list[tuple[bytes, bytes]], name: bytes) -> list[bytes]:
 
 
 def _with_headers(send: Send) -> Send:
-    """The same way out, with our headers on every answer that has none of its own."""
+    """The same sender, which adds our headers to answers that have none."""
 
     async def guarded(message: Message) -> None:
         if message["type"] == "http.response.start":
@@ -274,7 +274,7 @@ _TYPES = {".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css
 
 
 def _name_types() -> None:
-    """Set types of files: on Windows they stand in the registry, where any program may have changed them."""
+    """Set MIME types: on Windows they are in the registry, where any program may have changed them."""
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
 
@@ -346,7 +346,6 @@ async def _converse(page: WebSocket, session: Session) -> None:
 
 
 async def _end(page: WebSocket, code: int) -> None:
-    """Close a socket, unless the browser was first."""
     if page.client_state is WebSocketState.CONNECTED:
         try:
             await page.close(code)

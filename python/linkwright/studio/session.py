@@ -140,7 +140,7 @@ class Session:
             self._begin(self._refuse(number, error))
 
     def _begin(self, task: Coroutine[Any, Any, None]) -> None:
-        """Do something that nothing waits for, as long as there is the tab."""
+        """Start a task that nothing waits for, for as long as the tab exists."""
         try:
             self.tasks.create_task(task)
         except RuntimeError:
@@ -266,7 +266,7 @@ class Session:
         return {"reason": reached.reason, "reached": reached.value}
 
     def _around(self, machine: Machine | None) -> Body:
-        """Controls, chips and lanes of a machine that is not being pulled at."""
+        """Controls, chips and lanes of a machine that is not being dragged."""
         try:
             raw = tomllib.loads(self.text)
         except (ValueError, RecursionError):
@@ -429,7 +429,7 @@ def _stands_alone(machine: Machine, address: str, value: Any) -> bool:
 
 
 def _internal(number: int, error: Exception) -> bytes:
-    """A fault of the studio, or a request of a page that is none of ours: it is said, and the tab goes on."""
+    """Report a fault of the studio, or a request that its page does not make; the tab goes on."""
     traceback.print_exception(error)
     words = f"internal error, {type(error).__name__}: {error}; the terminal has the details"
     return packed(number, {"of": "refused", "words": words})

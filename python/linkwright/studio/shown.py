@@ -55,7 +55,7 @@ def _declared(owner: type) -> tuple[DeclaredQuantity, ...]:
 
 
 def _scalars(result: Result, declared: list[DeclaredQuantity]) -> Iterator[dict[str, Any]]:
-    """Single numbers that are finite; what is rounding beside the quantities of its unit is zero."""
+    """Finite scalars; zero for what is rounding beside the quantities of its unit."""
     values = {
         quantity: getattr(result, quantity.name, None) for quantity in declared if quantity.kind == "scalar"
     }

@@ -77,7 +77,7 @@ def _lengths(drawn: Scheme) -> dict[str, float]:
 
 
 def _discs(drawn: Scheme, laid: Layout) -> Iterator[View]:
-    """Discs with their places; radii are those of discs of one width: fourth roots of the inertias."""
+    """Discs with their places; radii of discs of one width, by the fourth root of the inertia."""
     largest = float(drawn.inertia_referred.max()) or 1.0
     for n, name in enumerate(drawn.discs):
         x, row = laid.discs[name]
@@ -86,7 +86,6 @@ def _discs(drawn: Scheme, laid: Layout) -> Iterator[View]:
 
 
 def _parts(drawn: Scheme, laid: Layout, free: FreeVibration, modes: list[int]) -> Iterator[View]:
-    """What joins the discs, with its places."""
     place = {name: n for n, name in enumerate(drawn.discs)}
     along = {shape.name: shape for shape in free.along}
 

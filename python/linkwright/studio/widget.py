@@ -100,8 +100,6 @@ def _widget_class() -> Any:
     from traitlets import Bool, Bytes, Dict, Float, Int, List, Unicode
 
     class MachineWidget(AnyWidget):
-        """A machine in motion."""
-
         _esm = module()
         scene = Bytes().tag(sync=True)
         angle = Float(0.0).tag(sync=True)

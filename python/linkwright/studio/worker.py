@@ -57,7 +57,7 @@ def main() -> None:
 # A machine has two lanes at most.
 @lru_cache(2)
 def _found(text: str, path: str, lane: str) -> Any:
-    """What a slow analysis finds of a file: in another language or unit it is said anew, not computed."""
+    """Result of a slow analysis of a file; in another language or unit only its words change."""
     from linkwright.machine.read import loads
     from linkwright.studio.analyses import found
 
