@@ -69,7 +69,6 @@ def function_of(text: str) -> Callable[[Floats], Floats]:
 
 
 def _values(tree: ast.expr, x: Floats, text: str) -> Floats:
-    """The expression at x, finite or refused."""
     with np.errstate(all="ignore"):
         y = np.broadcast_to(np.asarray(_evaluated(tree, x), dtype=float), x.shape)
     if not np.isfinite(y).all():

@@ -163,7 +163,7 @@ def _refined(crank: Floats, rocker: Floats, K: Floats, starts: Floats, free: Boo
 
 
 def _positive(K: Floats, starts: Floats, free: Bools) -> tuple[Floats, Floats]:
-    """The same linkages with positive lengths, where a start angle is free to turn by π instead."""
+    """The same linkages with positive lengths: a free start angle turns by π instead."""
     K, starts = K.copy(), starts.copy()
     for i in (0, 1):
         turned = free[i] & (K[:, i] < 0)
@@ -186,6 +186,5 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
 
 
 def _alike(a: Fit, b: Fit) -> bool:
-    """Whether two fits are one."""
     turns = np.exp(1j * np.array([a.crank_start - b.crank_start, a.rocker_start - b.rocker_start]))
     return bool(np.abs(turns - 1).max() < _SAME and np.allclose(a.K, b.K, rtol=1e-4, atol=1e-6))

@@ -205,7 +205,6 @@ def _generator(task: FunctionTask, scale: Scale, fit: Fit) -> FunctionGenerator:
 
 
 def _bar(task: FunctionTask, scale: Scale, fit: Fit, r: float, c: float, b: float) -> FourBar:
-    """The linkage of a solution, on the branch of all its points."""
     frame = task.frame
     pins = r * np.exp(1j * (fit.crank_start + scale.crank))
     joints = frame + b * np.exp(1j * (fit.rocker_start + scale.rocker))
@@ -253,7 +252,6 @@ def _analysed(
 
 
 def _rocker_angles(machine: Machine, angles: Floats) -> Floats:
-    """Angles of the rocker by the core [rad]."""
     table = motions(machine, angles, links=["B.rocker"])[0]
     return np.asarray(np.arctan2(table[1], table[0]))
 

@@ -234,7 +234,7 @@ class _Limits:
         return _Limits(self.shift[which], self.weight[which], self.left[which])
 
     def adapt(self, which: Indices, excess: Floats) -> Floats:
-        """Add what is left to the shifts of some linkages; the weight doubles where that does not fall."""
+        """Increase shifts by the violation left; double the weight where it does not fall."""
         broken = np.maximum(excess + self.shift[which], 0.0)
         moved = np.abs(broken - self.shift[which]).max(axis=1)
         grow = np.where((moved > _KEPT) & (moved > _FALLS * self.left[which]), 2.0, 1.0)[:, None]
@@ -245,7 +245,7 @@ class _Limits:
 
 
 def _residuals(model: FunctionModel, rows: Rows, weights: Floats, limits: _Limits) -> tuple[Floats, Floats]:
-    """Weighted errors and what is broken of constraints, with derivatives."""
+    """Weighted errors and violations of constraints, with derivatives."""
     errors, by = model.errors(rows)
     excess, slopes = model.excess(rows)
     broken = excess + limits.shift

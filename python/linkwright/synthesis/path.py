@@ -198,7 +198,7 @@ class _Search:
         return np.where(np.isfinite(history), history, np.nan)
 
     def _tell(self, part: Linkages) -> None:
-        """Keep the best error so far after a step, and tell of the step."""
+        """Record the best error after a step, and report progress."""
         self.done += 1
         kept = self.model.violation(part) <= 0.0
         best = float(self.model.errors(part)[kept].min(initial=np.inf)) * self.model.size
@@ -209,8 +209,6 @@ class _Search:
 
 @dataclass(frozen=True)
 class _Effort:
-    """What a search took, and how often it met the best."""
-
     found_by: int
     evaluated: int
     rate: float
@@ -218,7 +216,7 @@ class _Effort:
 
 
 def _preferred(model: PathModel, rows: Linkages) -> int:
-    """Which of linkages of one error is taken: the largest minimum transmission angle decides."""
+    """Preferred among linkages of one error: the largest minimum transmission angle."""
     # Roberts's cognates draw the same path with the same angles. Of them, the one with the smallest outreach
     # of its coupler point is chosen, since clearance of the joints moves the point by that share.
     angle, lengths = _transmission(model, rows), shape(rows.p[:, :3], rows.is_double)[0]
@@ -229,7 +227,6 @@ def _preferred(model: PathModel, rows: Linkages) -> int:
 
 
 def _transmission(model: PathModel, rows: Linkages) -> Floats:
-    """Minimum transmission angles, (m,) [rad]."""
     lengths, _ = shape(rows.p[:, :3], rows.is_double)
     return worst_transmission(np.ones(len(lengths)), *lengths.T)
 

@@ -223,12 +223,11 @@ def refine(model: PathModel, rows: Linkages, weight: float, steps: int) -> Itera
 
 
 def _squares(model: PathModel, rows: Linkages) -> Floats:
-    """Sum of squares of the distances, (m,)."""
     return np.asarray((np.abs(model.places(rows) - model.target) ** 2).sum(axis=1))
 
 
 def _cost(model: PathModel, rows: Linkages, weights: Floats, shift: Floats) -> Floats:
-    """Sum of squares of distances and of what is broken, (m,); infinite where a step went too far."""
+    """Sum of squares of distances and violations, (m,); infinite where a step went too far."""
     with np.errstate(over="ignore", invalid="ignore"):
         broken = np.maximum(model.excess(rows.p, rows.is_double) + MARGIN + shift, 0.0)
         cost = _squares(model, rows) + weights**2 * (broken**2).sum(axis=1)

@@ -243,7 +243,7 @@ def _travelled(
 
 
 def _errors(task: PoseTask, machine: Machine, angles: Floats, link: str) -> tuple[float, float]:
-    """How far the analysed machine is from the poses, in place [m] and in turning [rad]; a finding if far."""
+    """Errors of the analysed machine in the poses, of place [m] and rotation [rad]; a finding if large."""
     table = motions(machine, angles, points=["P"], links=[link])[0]
     place = np.abs(table[0] + 1j * table[1] - np.asarray(task.poses.x) - 1j * np.asarray(task.poses.y))
     turned = (table[6] + 1j * table[7]) * np.exp(-1j * np.asarray(task.poses.angle))
