@@ -103,7 +103,6 @@ class Paper1(Paper):
         }
 
     def _of_rows(self) -> dict[str, Any]:
-        """The printed table against itself."""
         symbols = self.published["quantities"]
         rows = [
             vars(row)

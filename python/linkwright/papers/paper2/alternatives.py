@@ -123,7 +123,6 @@ def _sections(law: dict[str, Any], formulas: Formulas) -> list[dict[str, Any]]:
 
 
 def _with(machine: str, name: str, short: str, entries: dict[str, Any]) -> Alternative:
-    """The machine of the library with some entries exchanged, and what becomes of it."""
     changed = read(library_path(machine), entries)
     omega = design_speed(changed)
     steady = steady_state(changed, n=_ANGLES)
@@ -186,7 +185,6 @@ def _of_cam(machine: Machine, omega: float) -> dict[str, Any]:
 
 
 def _even(law: MotionLaw) -> float:
-    """Travel at constant speed over one revolution [m]."""
     stretches = zip(pairwise(law.breaks), law.derivative(2).pieces, strict=True)
     ends = [law.at(np.array(pair)) for pair, bend in stretches if bend.vanishes(law.peak(2).value)]
     return float(sum(abs(high - low) for low, high in ends))

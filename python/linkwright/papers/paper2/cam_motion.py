@@ -209,7 +209,6 @@ def centre_distance(profile: CamProfile, radius: float) -> Floats:
 
 
 def _angles() -> Floats:
-    """Equal angles of a revolution [rad]."""
     return np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)
 
 

@@ -231,7 +231,6 @@ def _alternatives(paper: Paper2) -> Figure:
 
 
 def _outwards(drive: Alternative) -> tuple[Floats, tuple[Floats, ...]]:
-    """The stroke in which the cart goes to positive x, from its start."""
     ahead = drive.velocity > 0
     begin = int(np.flatnonzero(ahead & ~np.roll(ahead, 1))[0])
     order = np.roll(np.arange(len(ahead)), -begin)

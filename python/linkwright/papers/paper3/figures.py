@@ -126,7 +126,6 @@ def _amplitude(paper: Paper3) -> Figure:
 
 @styled
 def _unevenness(paper: Paper3) -> Figure:
-    """N and δ along the shaft, rigid and with torsion, and δ with any one cylinder weak."""
     uneven, x = paper.uneven, np.arange(len(paper.uneven.discs))
     figure, (axes,) = panels(1, height=3.1)
     least, most = uneven.weak.min(axis=0), uneven.weak.max(axis=0)
@@ -174,7 +173,6 @@ def _cylinders(paper: Paper3) -> Figure:
 
 @styled
 def _delta(paper: Paper3) -> Figure:
-    """What each weak cylinder does to δ, rigid and as it is seen at both ends of the crankshaft."""
     uneven = paper.uneven
     figure, (axes,) = panels(1, height=2.9)
     for values, colour, mark, label in (

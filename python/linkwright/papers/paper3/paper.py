@@ -49,7 +49,6 @@ class Paper3(Paper):
         return self._of_rods() | self._of_throws() | self._of_unevenness() | self._of_weakness()
 
     def _of_rods(self) -> dict[str, Any]:
-        """(1) to (15)."""
         inertia, swing, (low, high) = self.inertia, self.swing, self.published["printed"]["k"]
         literal, reduced, low_k = inertia["shifts"][0], inertia["shifts"][1], inertia["shifts"][3]
         disc_off = max(abs(inertia["one_rod"]), abs(inertia["series"]))
@@ -76,7 +75,6 @@ class Paper3(Paper):
         }
 
     def _of_throws(self) -> dict[str, Any]:
-        """(16) and (17), and the frequencies by each formula."""
         trial, throw = self.trial, self.throw
         first, *others = throw["stiffness"].values()
         off = (min(others) / first - 1, max(others) / first - 1)
@@ -108,7 +106,6 @@ class Paper3(Paper):
         }
 
     def _of_unevenness(self) -> dict[str, Any]:
-        """N along the shaft, and what weak cylinders do to δ."""
         uneven = self.uneven
         N = [float(uneven.N[at]) for at in (0, uneven.flywheel, -1)]
         free, wheel = uneven.rise[:, 0] - 1, uneven.rise[:, uneven.flywheel] - 1

@@ -27,7 +27,6 @@ def figures(paper: Paper4) -> dict[str, Figure]:
 
 @styled
 def _angle(paper: Paper4, *, continuous: bool) -> Figure:
-    """φ_5 over the crank angle."""
     motion = paper.continuous if continuous else paper.intermittent
     figure, (axes,) = panels(1, height=2.9)
     degrees = np.degrees(motion.crank_angle)
@@ -59,7 +58,6 @@ def _angle(paper: Paper4, *, continuous: bool) -> Figure:
 
 @styled
 def _rate(paper: Paper4, *, continuous: bool) -> Figure:
-    """dφ_5/dφ_1 over the crank angle."""
     motion = paper.continuous if continuous else paper.intermittent
     figure, (axes,) = panels(1, height=2.9)
     degrees = np.degrees(motion.crank_angle)

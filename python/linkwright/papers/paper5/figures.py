@@ -55,7 +55,6 @@ def figures(paper: Paper5) -> dict[str, Figure]:
 
 @styled
 def _figure3(paper: Paper5) -> Figure:
-    """Lines of equal length, a column for each forward speed: (10) above, exact below."""
     count = len(paper.surfaces)
     figure, axes = panels(2, height=5.0, columns=count)
     for column, surface in enumerate(paper.surfaces):

@@ -153,7 +153,6 @@ class Paper5(Paper):
         return {"roots": roots, "ways": WAYS} | self._of_step() | self._of_lengths() | self._of_result()
 
     def _of_step(self) -> dict[str, Any]:
-        """(1) to (5)."""
         step, same = self.step, tolerance("rounding").reproduced
         at = int(np.abs(step["angles"] - np.radians(self.published["chosen"]["edge_angle"])).argmin())
         suffices = condition_suffices(step["angles"])
@@ -182,7 +181,6 @@ class Paper5(Paper):
         }
 
     def _of_lengths(self) -> dict[str, Any]:
-        """(10), and figure 3."""
         short, given = self.short, self.published["chosen"]
         D, h_p, delta, alpha = (
             np.max(given[name]) for name in ("root_diameters", "cut_height", "offset", "edge_angle")
