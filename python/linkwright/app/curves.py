@@ -122,7 +122,7 @@ def _of(analysis: str, result: Result) -> Iterator[Curve]:
 
 
 def _with_symbol(result: Result, name: str) -> str:
-    """The word of a declared quantity with its symbol: a cam angle θ is no crank angle φ."""
+    """Words of a declared quantity with its symbol: a cam angle θ is no crank angle φ."""
     mark = declared(type(result)).get(name, (None, None))[1]
     return f"{mark.word} {mark.symbol}".rstrip() if isinstance(mark, Label) else ""
 
@@ -185,7 +185,6 @@ def _fits(parts: Sequence[str], name: Sequence[str]) -> bool:
 
 
 def _over(curve: Curve, along: str, known: dict[str, Curve]) -> Curve:
-    """The same curve over another one of as many points."""
     if along == curve.over:
         return curve
     analysis = curve.name.split(".")[0]

@@ -142,7 +142,6 @@ def _curve_data(study: Study, curves: Sequence[Curve], zero: float) -> dict[str,
 def _write(
     curves: Sequence[Curve], listed: Sequence[Curve], zero: str, outs: Sequence[str], *, force: bool
 ) -> list[Path]:
-    """The picture, and the table of the curves on common points, where they are wanted."""
     from linkwright.app.curves import bytes_of, curves_figure
     from linkwright.kernel.files.output import write_file
 
@@ -193,7 +192,7 @@ def _csv(curves: Sequence[Curve]) -> str:
 
 
 def _known(values: Any, scale: float = 0.0) -> Any:
-    """Without the digits that are rounding beside the largest value, or a scale."""
+    """Values without the digits that are rounding beside the largest one, or a scale."""
     import numpy as np
 
     largest = max(float(np.nanmax(np.abs(values), initial=0.0)), scale)

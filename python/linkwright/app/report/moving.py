@@ -112,7 +112,7 @@ def _drawn(scene: Scene, places: Floats) -> Iterator[Bytes]:
 
 
 def _frames(scene: Scene, seconds: float) -> Iterator[Bytes]:
-    """Pictures at even times of the motion; one that swings goes forth and back."""
+    """Frames at equal times of the motion; one that swings goes forth and back."""
     times = np.asarray(scene["times"])
     count = max(round(_RATE * seconds), 2)
     way = np.arange(count) / count

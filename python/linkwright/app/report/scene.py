@@ -200,6 +200,6 @@ def _times(machine: Machine, steady: SteadyState | None, angles: Floats) -> tupl
 
 
 def _rounded(values: Floats, fineness: float) -> list[float]:
-    """Values with no more digits than can be seen."""
+    """Values rounded to the digits that can be seen."""
     digits = max(0, int(np.ceil(-np.log10(fineness)))) if fineness > 0 else 0
     return [round(float(value), digits) for value in values]

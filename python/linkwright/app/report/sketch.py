@@ -265,7 +265,7 @@ def _colour(part: Scene) -> str:
 
 
 def _coil(start: Floats, end: Floats, half_width: float) -> Iterator[Floats]:
-    """The zigzag of a spring between two points [m]."""
+    """Zigzag of a spring between two points [m]."""
     way = end - start
     normal = np.array([-way[1], way[0]]) / (float(np.hypot(*way)) or 1.0)
     for n in range(13):
