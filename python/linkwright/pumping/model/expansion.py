@@ -83,7 +83,6 @@ def mechanism_of(unit: PumpingUnit, rotator: RodRotator | None = None) -> Mechan
 
 
 def _made(model: type[T], **entries: Any) -> T:
-    """A description as it is, so that its numbers may be arrays."""
     return model.model_construct(**entries)
 
 

@@ -175,7 +175,7 @@ def _unattainable(rotator: RodRotator, wanted: float, stroke: LeverStroke, sprea
 
 
 def _range(spread: Any) -> tuple[float, float]:
-    """Minimum and maximum swing of the lever [deg], rounded inward so that what is reported can be had."""
+    """Minimum and maximum swing of the lever [deg], rounded inward so that both are attainable."""
     low, high = (100 * np.degrees(float(extreme(spread))) for extreme in (np.nanmin, np.nanmax))
     return float(np.ceil(low) / 100), min(float(np.floor(high) / 100), _MOST)
 
@@ -236,7 +236,7 @@ class LeverStroke(NamedTuple):
 
 
 def _false_position(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """Root between two places in each row, (rows, 1), by the false position in the Illinois form."""
+    """Root between two bounds in each row, (rows, 1), by the Illinois false-position method."""
     # Dowell, Jarratt, A modified regula falsi method, BIT 11 (1971) 168–174.
     at_low, at_high = function(low), function(high)
     middle = high
@@ -277,7 +277,6 @@ def _in_arrays(part: P) -> P:
 
 
 def _still(part: P) -> P:
-    """The description without derivatives."""
     along = {name: float(value.value) for name, value in part if isinstance(value, TangentArray)}
     return part.with_entries(along) if along else part
 
