@@ -239,7 +239,7 @@ def torque_checks(motor: InductionMotor | DcMotor, steady: SteadyState) -> tuple
 
 
 def _torque_limits(steady: SteadyState, rated: float | None, most: float | None) -> tuple[Check, Check]:
-    """Effective and peak torque of the motor against what it bears for long and for a short time."""
+    """Rms and peak torque of the motor against its continuous and short-time limits."""
     peak = max(steady.torque_motor_max, -steady.torque_motor_min)
     rms = _at_most("torque_rms", steady.torque_motor_rms, rated, "no rated torque")
     return rms, _at_most("torque_peak", peak, most, "no maximum torque, torque_max")
@@ -280,7 +280,7 @@ def _at_most(name: str, value: float, limit: float | None, lacking: str) -> Chec
 
 
 def _start_doubt(motor: InductionMotor | DcMotor) -> str:
-    """Why the start of a motor is known from below only; empty if it is known."""
+    """Why only a lower bound of the starting torque is known; empty if it is known."""
     if not isinstance(motor, InductionMotor):
         return ""
     if motor.torque_start is None:
@@ -314,7 +314,7 @@ def _start(name: str, drive: float, load: float, doubt: str) -> Check:
 
 
 def _unsure(passed: bool, doubt: str) -> tuple[bool | None, str]:
-    """A start by a torque that is known from below: sure if it succeeds, not checkable if it fails."""
+    """Start by a lower bound of the torque: certain if it succeeds, not checkable if it fails."""
     if not doubt:
         return passed, ""
     return (True, doubt) if passed else (None, f"not checkable: {doubt}")

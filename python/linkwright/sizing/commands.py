@@ -250,7 +250,6 @@ def _study(
 
 
 def _inertias(texts: Sequence[str]) -> dict[str, float]:
-    """Type → inertia, of ``TYPE=VALUE``."""
     from linkwright.kernel.errors import InputError
 
     inertias = {}

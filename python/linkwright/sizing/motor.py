@@ -286,7 +286,7 @@ def choose_motor(
 
 
 def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) -> list[str]:
-    """The smaller motor that would do if the machine need not start from its worst angle."""
+    """The smaller motor that would suffice without a start from the worst angle."""
     if by != "all":
         return []
     would = [replace(candidate, decisive=DECISIVE["fixed-start"]) for candidate in candidates]
@@ -300,7 +300,6 @@ def _smaller(candidates: Sequence[Candidate], chosen: Candidate | None, by: By) 
 
 
 def _of(type: str, types: Sequence[CatalogueMotor]) -> CatalogueMotor:
-    """The motor of a name among some; an error names close ones."""
     by_name = {known.type: known for known in types}
     if type not in by_name:
         expected, remedy = "a type of the catalogue of motors", suggestion(type, by_name)
@@ -334,7 +333,7 @@ def _has_ratio(machine: Machine) -> bool:
 
 
 def _rank(candidate: Candidate) -> tuple[bool, float, bool, str]:
-    """Those that pass first, then the smaller ones, of these the ones with four or six poles."""
+    """Rank: passing motors first, then smaller ones, of these the ones with four or six poles."""
     known = candidate.known
     return not candidate.passes, known.power_rated, abs(known.poles - _USUAL_POLES) > 1, candidate.type
 
@@ -358,8 +357,6 @@ class _Fit:
 
 @dataclass(frozen=True)
 class _Judge:
-    """Judges one type after another for one machine."""
-
     machine: Machine
     required: RequiredPower
     reserve: float
@@ -398,7 +395,6 @@ class _Judge:
         )
 
     def _analysed(self, known: CatalogueMotor, inertia: float, ratio: float, estimated: bool) -> _Fit:
-        """The machine with the motor, the flywheel that it is judged with, and the checks of just that."""
         note = f"Motor {known.type} by linkwright size"
         note += f"; the inertia of its rotor is {ESTIMATE}." if estimated else "."
         machine = with_motor(self.machine, known, inertia=inertia, ratio=ratio, note=note)
