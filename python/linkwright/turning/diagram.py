@@ -216,7 +216,7 @@ class TurningMomentDiagram(Result):
 
 
 class _FlywheelEffect(NamedTuple):
-    """What a moment of inertia makes of a fluctuation of energy; fields of the result."""
+    """Effect of a moment of inertia on a fluctuation of energy; fields of the result."""
 
     inertia: float | None = None
     flywheel_inertia: float | None = None
@@ -258,7 +258,7 @@ def turning_moment(machine: Machine, *, n: int = 720) -> TurningMomentDiagram:
 
 
 def _of_areas(described: TurningMoment) -> TurningMomentDiagram:
-    """From the areas of a diagram: the energies at its crossings are all that counts."""
+    """From the areas of a diagram: the energies at its crossings are all that matters."""
     areas = described.area_scale * np.asarray(described.areas)
     after, gross = np.cumsum(areas), float(np.abs(areas).sum())
     # What summing rounds.
