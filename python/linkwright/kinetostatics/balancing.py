@@ -87,7 +87,7 @@ _WHOLE = ("torque_drive", "shaking_couple")
 
 
 def _noise(scene: Scene) -> dict[str, float]:
-    """Measures below which rounding of the inertia of all bodies lies [N, N m]."""
+    """Rounding level of the inertia forces of all bodies [N, N m]."""
     force = moment = 0.0
     for mass in masses(scene):
         size = mass.mass * float(np.hypot(*mass.acceleration(scene).T).max())

@@ -178,7 +178,7 @@ class Collector:
         return torques
 
     def _borne(self, sources: Sequence[AppliedLoad], x: Floats) -> tuple[Floats, Floats]:
-        """Driving torque and what acts on the frame, (n,) and (n, 3). `x`: values (n, unknowns)."""
+        """Driving torque and wrench on the frame, (n,) and (n, 3). `x`: values (n, unknowns)."""
         torque = reduce(add, [source.resisting for source in sources])
         frame = reduce(add, [source.wrenches.on_member(FRAME) for source in sources])
         for model, span in zip(self.models, self.spans, strict=True):
@@ -236,7 +236,6 @@ class Collector:
         return slack
 
     def _left(self, drives: dict[str, Floats]) -> list[str]:
-        """Followers that nothing keeps on their cams."""
         left, motion = [], self.scene.motion
         for name, cam in self.scene.machine.mechanism.cams.items():
             force: Floats = primal(drives[name])

@@ -213,7 +213,6 @@ def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
 
 
 def _range(span: str | None, speed: float | None) -> list[float] | None:
-    """The crank angles of --angles [rad]; None without it."""
     if span is None:
         return None
     ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]

@@ -137,7 +137,6 @@ def _held(machine: Machine, motion: Transient, watched: list[tuple[str, str]], t
 
 
 def _of_one(held: Callable[[Floats], Floats], i: int, time: float) -> float:
-    """Force with which one contact is held at a time [N]."""
     return float(held(np.array([time]))[i, 0])
 
 

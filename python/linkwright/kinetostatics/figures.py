@@ -76,7 +76,7 @@ def _vectors(axes: Axes, forces: Forces, force: np.ndarray, colour: str, label: 
 
 
 def _free(angle: Floats, sizes: Sequence[Floats]) -> float:
-    """Middle between two spokes [°] where the largest curve is smallest: the scale stands there."""
+    """Middle between two spokes [°] where the largest curve is smallest, for the scale."""
     largest = np.max(sizes, axis=0)
     middles = np.arange(22.5, 360, 45)
     near = (np.cos(angle - np.radians(middle)) > np.cos(np.radians(_BESIDE)) for middle in middles)

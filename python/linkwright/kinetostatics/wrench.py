@@ -202,7 +202,6 @@ def _masses(scene: Scene) -> Iterator[Mass]:
 
 
 def _on_link(scene: Scene, link: str, along: float, across: float) -> tuple[Floats, Floats, Floats]:
-    """A point of a link and its derivatives."""
     e = unit(scene.angle(link))
     arm = along * e + across * left(e)
     turn, bend = scene.angle(link, 1)[:, None], scene.angle(link, 2)[:, None]
