@@ -202,7 +202,7 @@ def cycle_motion_of(
 def _with_limits(
     machine: Machine, compiled: CompiledMachine, extremes: dict[str, Extremes], ends: Floats
 ) -> dict[str, Extremes]:
-    """Extremes of positions with those at the limits themselves, of which the search keeps clear."""
+    """Extremes of positions with those at the limits themselves, which the search avoids."""
     still, inside = np.zeros(2), _inside(compiled, ends)
     if inside is None:
         return {}
@@ -261,7 +261,7 @@ def _at_constant_speed(speed: float, start: float) -> CrankMotion:
 
 
 def _in_steady_motion(compiled: CompiledMachine, steady: SteadyState, accuracy: float) -> CrankMotion:
-    """The same solution read at any angles; a motor of constant speed has none to solve."""
+    """The same solution at any angles; a motor of constant speed needs none."""
     if steady.method != "collocation":
         return _at_constant_speed(steady.speed_max, 0.0)
     compiled = over_whole_cycle(compiled)
@@ -297,7 +297,7 @@ def _along(machine: Machine, crank: CrankMotion, phi: Floats) -> Motion:
 
 
 def _looked_at(compiled: CompiledMachine, low: float, high: float, turns: int) -> Floats:
-    """Angles at which extremes are looked for first: evenly, and on both sides of every kink."""
+    """First angles of the search for extremes: even, and on both sides of every kink."""
     even = np.linspace(low, high, _SEARCHED * turns + 1)
     compiled = over_whole_motion(compiled) or compiled
     first, last = np.floor(np.array([low, high]) / compiled.cycle).astype(int)
@@ -350,7 +350,6 @@ class _Search:
         return {name: extremes[name] for name in self.names if name in extremes}
 
     def _of(self, names: list[str]) -> _Search:
-        """The search among some of the columns."""
         return _Search(self.machine, self.crank, names)
 
     def _scales(self, values: Floats) -> Floats:
@@ -361,7 +360,7 @@ class _Search:
 
     @staticmethod
     def _turns_on(name: str, rise: float) -> bool:
-        """Whether it is the angle of a link that goes on from one cycle to the next."""
+        """Whether it is the angle of a link that rotates on from one cycle to the next."""
         return name.endswith(".angle") and abs(rise) > np.pi and abs(np.sin(rise / 2)) < _NEAR
 
     def _unlimited(self, limit: tuple[float, float] | None) -> Bools:
@@ -425,7 +424,7 @@ def _candidates(signed: Floats, span: Floats) -> tuple[Indices, Indices]:
 
 
 def _vertex(x: Floats, y: Floats, top: Indices) -> tuple[Floats, Floats]:
-    """Place and value of the vertex beside the best of some points: of the parabola through three of them."""
+    """Place and value of the vertex of the parabola through three points about the best one."""
     # The speed of a point that comes to rest has a corner there, where two lines meet.
     row = np.arange(len(x))
     middle = np.clip(top, 2, x.shape[1] - 3)

@@ -238,7 +238,7 @@ def _from_kink(angles: Floats, kinks: Floats, cycle: float) -> Floats:
 
 
 def _at_full_turn(angle: float) -> bool:
-    """Whether an angle is where the count of kinks begins, which is a kink of nothing."""
+    """Whether an angle is the origin from which kinks are counted, which is no kink itself."""
     return abs((angle + np.pi) % (2 * np.pi) - np.pi) < _AT_KINK
 
 

@@ -130,7 +130,7 @@ def accurate_run_up(machine: Machine, steady: SteadyState, accuracy: float) -> R
 
 
 def _steady_or_stall(machine: Machine) -> SteadyState:
-    """The steady motion; where there is none because the machine comes to rest, a `StartError` says where."""
+    """Steady motion; a `StartError` says where the machine comes to rest instead."""
     try:
         return steady_state(machine, accuracy=_STEADY_ACCURACY)
     except SteadyStateError:
@@ -194,7 +194,7 @@ def _too_slow(machine: Machine, motion: Transient, steady: SteadyState) -> str:
 
 
 def _steady_speed(machine: Machine, steady: SteadyState, angle: Floats, accuracy: float) -> Floats:
-    """Speed of steady motion at crank angles, by its solution: a curve would miss what is narrow."""
+    """Steady speed at crank angles by its solution: an interpolated curve would miss narrow peaks."""
     phi, place = np.unique(angle % (2 * np.pi * steady.turns), return_inverse=True)
     speed: Floats = steady_curves(machine, min(accuracy, _STEADY_ACCURACY), phi).speed[place]
     return speed

@@ -422,7 +422,7 @@ def _start_limits(motion: SteadyMotion) -> Iterator[StartLimit]:
 
 
 def _at_constant_speed(machine: Machine, compiled: CompiledMachine, phi: Floats) -> SteadyState:
-    """The revolution of a machine whose motor keeps its speed: its torque is what the motion needs."""
+    """Revolution of a machine at constant speed: the motor supplies the torque that the motion needs."""
     drive = machine.drive
     assert drive is not None
     assert isinstance(drive.motor, ConstantSpeedMotor)

@@ -104,7 +104,6 @@ def made_run_up(known: Results, findings: Findings) -> RunUp | None:
 
 
 def _attempt(machine: Machine, findings: Findings) -> Transient | None:
-    """The motion from the start to the stall; None if it never moves or cannot be followed."""
     options = machine.run_up
     start = {"angle": options.angle_start, "speed": options.speed_start, "turns": options.turns_max}
     motion = findings.of(transient, machine, accuracy=_ATTEMPT_ACCURACY, **start)

@@ -76,7 +76,6 @@ _MEASURES = ("unevenness", "dynamism", "motion_coefficient")
 
 
 def _measure_columns(study: Results) -> Iterator[tuple[str, Sequence[float | None]]]:
-    """Head, and mean speed, δ, H, k_p."""
     steady, stepped, limit = study.steady_state, study.step_method, study.constant_energy
     if steady is not None:
         own = [getattr(steady, name) for name in _MEASURES]

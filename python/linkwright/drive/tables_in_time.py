@@ -96,7 +96,7 @@ def _extremes(extremes: Sequence[MotionExtreme], zero: Zero) -> Table:
 
 
 def _events(events: Sequence[MotionEvent], zero: Zero) -> Table:
-    """What happens, without kinks at which nothing jumps: a long motion passes hundreds of these."""
+    """Events, without kinks at which nothing jumps: a long motion passes hundreds of these."""
     shown = [event for event in events if event.kind != "kink"]
     if len(shown) > _EVENTS:
         shown = [*shown[: _EVENTS // 2], *shown[-_EVENTS // 2 :]]

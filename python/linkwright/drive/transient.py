@@ -326,7 +326,7 @@ _LOCKS = "the gearbox is self-locking (drive.gearbox.reverse = 0)"
 
 
 def _require_no_driving_load(crank_angle: Floats, gained: Floats) -> None:
-    """Raise if the load accelerates a machine whose motor is off, which a self-locking gearbox prevents."""
+    """Raise if the load accelerates a machine with its motor off, which a self-locking gearbox prevents."""
     at = int(np.argmax(gained))
     if gained[at] > _ROUNDING * np.abs(gained).max():
         raise SteadyStateError(

@@ -92,7 +92,6 @@ _NO_ROTOR = "The file gives no rotor inertia for the motor"
 
 
 def _least_breakdown(drive: Drive) -> Iterator[str]:
-    """A type of the catalogue whose source prints no breakdown torque."""
     motor = drive.motor
     if isinstance(motor, InductionMotor) and motor.breakdown_is_minimum:
         yield (
@@ -103,7 +102,6 @@ def _least_breakdown(drive: Drive) -> Iterator[str]:
 
 
 def _least_start(drive: Drive) -> Iterator[str]:
-    """A type of the catalogue whose source prints no starting torque."""
     motor = drive.motor
     if isinstance(motor, InductionMotor) and motor.start_is_minimum:
         yield (
@@ -188,7 +186,7 @@ def _cycle(steady: SteadyState) -> Iterator[str]:
 
 
 def _others(steady: SteadyState) -> Iterator[str]:
-    """Other motions that repeat: where the machine may stay, and what it must be faster than."""
+    """Other periodic motions: where the machine may stay, and which speed it must exceed."""
     for other in steady.others:
         range_ = (
             f"from {other.speed_min:.4g} to {other.speed_max:.4g} rad/s "
@@ -240,7 +238,7 @@ def _design_speed(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 
 def _overload(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """Heating goes with the root mean square of the torque, the bill with the mean power."""
+    """Heating follows the rms torque, the energy bill the mean power."""
     motor = drive.motor
     assert motor is not None
     if motor.torque_rated is not None and steady.torque_motor_rms > motor.torque_rated:
@@ -296,7 +294,6 @@ def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 
 def _beyond(drive: Drive, steady: SteadyState) -> str:
-    """The speed that the motor is driven beyond, in words."""
     fastest = steady.speed_max * drive.gearbox.ratio
     match drive.motor:
         case InductionMotor(speed_synchronous=float(limit)):
@@ -321,7 +318,7 @@ def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 
 def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """A factor below 1 in reverse hands the motor more power than the crank gives."""
+    """A reverse factor below 1 gives the motor more power than the crank returns."""
     factor = float(reverse_factor(drive))
     driven = np.minimum(steady.torque_drive, 0.0)
     gained = -float(np.trapezoid(driven, steady.crank_angle)) * (1 / factor - 1)

@@ -240,7 +240,6 @@ def entries(type: str) -> dict[str, Any]:
 
 @cache
 def _rows() -> dict[str, dict[str, Any]]:
-    """The rows of the file by type."""
     import json
     import pkgutil
 

@@ -224,7 +224,7 @@ class InductionMotor(Motor):
         yield from self._start_faults()
 
     def _idle_type(self) -> Iterator[InitErrorDetails]:
-        """A type of the catalogue beside a whole characteristic, which would change nothing."""
+        """A catalogue type beside a complete characteristic, where it would have no effect."""
         given = {name: getattr(self, name) for name in self.model_fields_set}
         known = _of_catalogue(given)
         if known and not {*known} - {*with_rated_point(given), "inertia"}:

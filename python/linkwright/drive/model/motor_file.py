@@ -137,7 +137,6 @@ class _Rows:
             self.types[cells["type"]] = (line, cells)
 
     def known(self, wanted: object) -> str:
-        """The name of a type of the file."""
         if isinstance(wanted, str) and wanted in self.types:
             return wanted
         remedy = suggestion(wanted if isinstance(wanted, str) else "", self.types)
