@@ -64,7 +64,6 @@ class Of:
 
 
 def _part(known: Results, part: str) -> Any:
-    """A part of a study by its name."""
     return known.each(part[1:]) if part[0] == "*" else attrgetter(part.lstrip("?"))(known)
 
 

@@ -96,12 +96,10 @@ def deviations(size: float, letter: str, grade: int) -> tuple[float, float] | No
 
 
 def _width(millimetres: float, grade: int) -> int:
-    """Standard tolerance [µm]."""
     return GRADES[grade][bisect_left(_SIZES, millimetres)]
 
 
 def _limits(millimetres: float, letter: str, grade: int, width: int) -> tuple[float, float] | None:
-    """Both deviations [µm]."""
     if letter in ("js", "JS"):
         return -0.5 * width, 0.5 * width
     at = bisect_left(_SIZES, millimetres)

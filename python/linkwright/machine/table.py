@@ -195,7 +195,6 @@ def _not_given(node: object) -> set[str]:
 
 
 def _value(machine: Machine, place: Place, value: Any) -> str:
-    """One entry as text, with its unit."""
     if isinstance(value, dict):
         return ", ".join(
             f"{name} = {_value(machine, (*place, name), entry)}" for name, entry in value.items()

@@ -65,7 +65,7 @@ def _has_arrays(*parts: BaseModel | None) -> bool:
 
 
 def _kept(parts: tuple[object, ...], make: Callable[[], Mechanism], varies: bool) -> Mechanism:
-    """What is made of some parts, the same as before if they are the same."""
+    """Parts made from others, cached while these stay the same."""
     key = tuple(map(id, parts))
     known = _known.get(key)
     if known is not None:
