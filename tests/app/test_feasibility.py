@@ -32,12 +32,10 @@ def name_of(path: Path) -> str:
 
 
 def changed(path: Path, entries: dict[str, Any]) -> Machine:
-    """A machine with other entries, checked as those of a file are."""
     return lw.read(path, [f"{address}={value!r}" for address, value in entries.items()])
 
 
 def told(machine: Machine) -> set[str]:
-    """Findings of geometry of the study that the command line has for a machine."""
     if machine.is_train_alone:
         lw.free_vibration(machine)
         return set()
@@ -45,7 +43,6 @@ def told(machine: Machine) -> set[str]:
 
 
 def seen(machine: Machine) -> set[str]:
-    """Findings of the check."""
     return {without_heads(text) for text in feasibility(machine).findings}
 
 
@@ -112,7 +109,6 @@ LENGTHS = re.compile(".*radius|.*length|.*distance|breadth|rod|coupler|rocker|of
 
 
 def lengths(machine: Machine) -> Iterator[tuple[str, float]]:
-    """Addresses of lengths above zero, and their values."""
     parts = [("pumping_unit", machine.pumping_unit), ("rod_rotator", machine.rod_rotator)]
     parts += [("topper", machine.topper)]
     parts += [

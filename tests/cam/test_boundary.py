@@ -43,7 +43,6 @@ def ends_of(law: MotionLaw) -> list[float]:
 
 
 def wanted(task: Boundary) -> list[float]:
-    """The same, as a task has it."""
     a = (task.acceleration_start or 0.0, task.acceleration_end or 0.0)
     return [0.0, task.velocity_start, a[0], task.lift, task.velocity_end, a[1]]
 

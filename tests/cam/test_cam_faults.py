@@ -39,7 +39,6 @@ def profile(lines: str, sections: str = SHARP, rest: str = "") -> CamProfile:
 
 
 def told(lines: str, sections: str = SHARP, rest: str = "") -> str:
-    """The one fault of a cam."""
     found = cam_faults(profile(lines, sections, rest))
     assert len(found) == 1, found
     return found[0]

@@ -181,7 +181,6 @@ def test_where_a_spring_is_too_weak_is_told() -> None:
 
 
 def sides(lift: MotionLaw, clearance: float, n: int = 7200) -> ContactForce:
-    """A form-closed follower with mass alone."""
     return contact_force(course(lift, n), FollowerLoad(0.9), closure="form", clearance=clearance)
 
 

@@ -41,7 +41,6 @@ def machine(lines: str) -> Machine:
 
 
 def variant(machine: lw.Machine, name: str, searched: Cams, i: int) -> lw.Machine:
-    """The machine with one of the cams, by its entries."""
     cam = machine.mechanism.cams[name]
     entries: dict[str, Any] = {
         key: float(column[i]) for key, column in searched.entries.items() if key != "lift_factor"

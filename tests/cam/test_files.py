@@ -172,7 +172,6 @@ def _open(text: str) -> str:
 
 
 def _without_corner(text: str) -> str:
-    """Leave out the third corner: its x, y and bulge."""
     i, lines = _line_after(text, "AcDbPolyline", "10", 2)
     count, _ = _line_after(text, "AcDbPolyline", "90", 0)
     lines[count] = str(int(lines[count]) - 1)

@@ -96,14 +96,12 @@ def sines(*terms: tuple[int, float]) -> Callable[[float], float]:
 
 
 def trapezoid(z: float, b: float = 0.125) -> float:
-    """Acceleration of the modified trapezoid, before it is scaled."""
     if z > 0.5:
         return -trapezoid(1 - z, b)
     return sin(pi / 2 * z / b) if z < b else 1.0 if z < 0.5 - b else sin(pi / 2 * (0.5 - z) / b)
 
 
 def modified(z: float, b: float = 0.125) -> float:
-    """Acceleration of the modified sine, before it is scaled."""
     if z > 0.5:
         return -modified(1 - z, b)
     return sin(pi / 2 * z / b) if z < b else cos(pi * (z - b) / (1 - 2 * b))

@@ -18,7 +18,6 @@ THIRD = 2 * math.pi / 3
 
 
 def sections(lifts: tuple[float, ...], angles: tuple[float, ...], law: str = "cycloidal") -> Programme:
-    """The programme of some lifts, all by one law."""
     shape = partial(lambda task, entry: entry.section(task), entry=LAWS[law])
     return programme([Section(angle, lift, shape) for lift, angle in zip(lifts, angles, strict=True)])
 

@@ -38,18 +38,15 @@ class SomeFile(WholeDescription):
 
 
 def cam(sections: str, overrides: tuple[str, ...] = (), follower: str = "lift") -> SomeCam:
-    """The cam of a text with one section a line."""
     text = f'[cams.K]\nfollower = "{follower}"\nsections = [\n{sections}\n]\n'
     return loads_as(SomeFile, text, overrides, path="cam.toml").cams["K"]
 
 
 def moved(sections: str, overrides: tuple[str, ...] = (), follower: Family = "lift") -> Programme:
-    """The programme of a text."""
     return programme(cam(sections, overrides, follower).sections, follower)
 
 
 def told(sections: str, overrides: tuple[str, ...] = (), follower: str = "lift") -> list[Problem]:
-    """The problems of a text."""
     with pytest.raises(MachineFileError) as caught:
         cam(sections, overrides, follower)
     assert all(each.found and each.expected for each in caught.value.problems)

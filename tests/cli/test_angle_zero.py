@@ -23,14 +23,12 @@ TURNED = ("--set", "mechanism.cranks.A.phase=90 deg")
 
 
 def printed(*words: str) -> str:
-    """What a command prints; it succeeds."""
     done = invoke(*words)
     assert done.exit_code == 0, done.output
     return done.stdout
 
 
 def columns(path: Path) -> dict[str, np.ndarray]:
-    """Columns of a CSV file by head."""
     with path.open() as file:
         head, *rows = csv.reader(file)
     return dict(zip(head, np.array(rows, float).T, strict=True))
@@ -119,7 +117,6 @@ def test_a_motion_from_rest_keeps_its_rows() -> None:
 
 @styled
 def _drawn(turns: int):
-    """A curve over the crank angle with its maximum, over whole revolutions."""
     figure, (upper, lower) = panels(2, height=3)
     # The zero lies between two of the samples.
     degrees = np.linspace(0, 360 * turns, 217)

@@ -278,14 +278,12 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 def call(command: str, words: str, known: dict[str, str]) -> list[str]:
-    """A command with its words, its files by their paths."""
     filled = (known.get(word[1:-1], word) if word[0] == "{" else word for word in words.split())
     return [*command.split(), *filled]
 
 
 @pytest.fixture(scope="module")
 def ask(known: dict[str, str]) -> Callable[[str, str], Result]:
-    """Asks a command with words in which files are named in braces."""
 
     def asked(command: str, words: str) -> Result:
         return invoke(*call(command, words, known), "--json")
@@ -294,7 +292,6 @@ def ask(known: dict[str, str]) -> Callable[[str, str], Result]:
 
 
 def answer_of(name: str, done: Result) -> dict[str, Any]:
-    """The object on standard output, which has the form that all have."""
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     assert done.stdout.count("\n") == 1, done.stdout[:200] + done.stderr
     found: dict[str, Any] = json.loads(done.stdout, parse_constant=pytest.fail)

@@ -216,7 +216,6 @@ def test_a_finding_is_exit_code_1_and_an_interrupt_130() -> None:
 
 
 def program(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """Run the command line as a program of its own."""
     command = [sys.executable, "-m", "linkwright", *map(str, arguments)]
     path = os.pathsep.join([str(ROOT / "python"), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"PYTHONPATH": path}

@@ -14,7 +14,6 @@ from linkwright.kernel.command.group import Commands
 
 
 def completions(*words: str) -> list[str]:
-    """What the last word may go on with."""
     asked = BashComplete(application(), {}, "linkwright", "_LINKWRIGHT_COMPLETE")
     return [each.value for each in asked.get_completions(list(words[:-1]), words[-1])]
 

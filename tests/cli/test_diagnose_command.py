@@ -19,7 +19,6 @@ SPEED = 50 * np.pi
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """Speed of the flywheel in rpm, with the noise of a pick-up."""
     found = forced_vibration(lw.read(ENGINE), np.array([SPEED]))
     waves = 1j * found.orders * SPEED * found.amplitudes[:, found.discs.index("flywheel"), 0]
     angle = 4 * np.pi * np.arange(721) / 720

@@ -74,7 +74,6 @@ def test_mp4_is_one() -> None:
 
 
 def _encoder(folder: Path, lines: str) -> Path:
-    """A program in place of the encoder."""
     place = folder / "encoder"
     place.write_text(f"#!/bin/sh\n{lines}\n")
     place.chmod(0o755)

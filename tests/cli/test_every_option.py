@@ -51,7 +51,6 @@ Ask = Callable[[str, str], Result]
 
 
 def options() -> list[tuple[str, str, click.Option]]:
-    """Command, words of a right call, and each of its options that takes a value."""
     return [
         (name, words, option)
         for name, command in commands().items()

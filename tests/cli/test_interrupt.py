@@ -170,7 +170,6 @@ def _sweep(
 
 
 def _session(leader: int) -> set[int]:
-    """Living processes of a session."""
     living = set()
     for place in Path("/proc").glob("[0-9]*/stat"):
         try:

@@ -21,7 +21,6 @@ def run(*args: object, file: Path = FOUR_BAR):
 
 
 def columns(text: str) -> dict[str, list[float]]:
-    """Columns of a CSV by name without unit."""
     rows = list(csv.reader(io.StringIO(text)))
     return {head: [float(row[k]) for row in rows[1:]] for k, head in enumerate(rows[0])}
 

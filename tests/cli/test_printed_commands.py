@@ -40,7 +40,6 @@ _FINDINGS = ("check press.toml --set mechanism.cranks.A.radius=",)
 
 
 def commands(page: Path) -> list[str]:
-    """Commands of a page, in order."""
     blocks = _FENCED.findall(page.read_text(encoding="utf-8"))
     lines = [line.removeprefix("$ ") for _, text in blocks for line in text.splitlines()]
     printed = [line for line in lines if line.startswith("linkwright ") and not line.startswith(_ENDLESS)]
@@ -48,7 +47,6 @@ def commands(page: Path) -> list[str]:
 
 
 def prepared(page: Path, folder: Path) -> None:
-    """Put into the folder what the page tells its reader to write."""
     text = page.read_text(encoding="utf-8")
     if "one_cart.toml" in text:
         machine = next(block for kind, block in _FENCED.findall(text) if kind == "toml")
@@ -66,7 +64,6 @@ def prepared(page: Path, folder: Path) -> None:
 
 
 def code_and_output(words: list[str]) -> tuple[int, str]:
-    """Exit code and text of a command."""
     done = invoke(*words)
     return done.exit_code, done.output
 
@@ -83,7 +80,6 @@ def test_commands_work_as_printed(page: Path, tmp_path: Path, monkeypatch: pytes
 
 
 def in_the_demo(*lines: str) -> list[str]:
-    """The program that runs commands with what README tells to install."""
     (extras,) = set(re.findall(r"'linkwright\[(.*?)\]'", README.read_text(encoding="utf-8")))
     return [sys.executable, str(ROOT / "tests" / "samples" / "demo_environment.py"), extras, *lines]
 
@@ -153,7 +149,6 @@ def outputs(page: Path) -> list[tuple[str, list[str]]]:
 
 
 def _spaced(line: str) -> str:
-    """A line without what sets its columns."""
     return " ".join(line.replace("─", " ").split())
 
 

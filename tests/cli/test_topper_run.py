@@ -41,14 +41,12 @@ LENGTHS = ("length_published", "length_consistent", "length_exact_constant_speed
 
 
 def run(*arguments: str, file: str = "topper.toml") -> tuple[int, dict[str, Any]]:
-    """Exit code and JSON, parsed strictly."""
     done = invoke("run", MACHINES / file, "--json", *arguments)
     assert done.exception is None or isinstance(done.exception, SystemExit)
     return done.exit_code, json.loads(done.stdout, parse_constant=pytest.fail)
 
 
 def closed_forms(entries: dict[str, float]) -> dict[str, float]:
-    """Diameter and lengths by hand."""
     D, h, delta, alpha, _, v, v_h, stroke = (entries[name] for name in ENTRIES)
     d = 2 * math.sqrt(h * (D - h))
     sin, cos, band = abs(math.sin(alpha)), math.cos(alpha), d + 2 * delta

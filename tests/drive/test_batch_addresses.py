@@ -34,7 +34,6 @@ def _checked(machine: Machine) -> Machine:
 
 
 def _require_named(error: LinkwrightError, address: str) -> None:
-    """A refusal names the entry, or one that it belongs to or stands beside."""
     assert any(key in str(error) for key in address.split(".")[-3:]), f"{address}: {error}"
 
 

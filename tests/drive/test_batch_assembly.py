@@ -60,7 +60,6 @@ def alone(machine: lw.Machine, entries: dict[str, np.ndarray], row: int) -> floa
 
 
 def agrees(machine: lw.Machine, entries: dict[str, np.ndarray]) -> int:
-    """Compare all rows of a batch; how many answer."""
     rows = lw.steady_states(machine, entries)
     for row, status in enumerate(rows.status):
         speed = alone(machine, entries, row)

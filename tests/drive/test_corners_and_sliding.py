@@ -184,7 +184,6 @@ def _behind(level: float, duration: float) -> float:
 
 
 def steep(amplitude: float, width: float) -> Callable[[float, np.ndarray], list[float]]:
-    """The same crank with a slope of a width in place of the jump."""
 
     def slope(phi: float, u: np.ndarray) -> list[float]:
         omega = np.sqrt(2.0 * u[0])

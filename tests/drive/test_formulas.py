@@ -48,7 +48,6 @@ A = { mass = 2.0, inertia = 0.5, along = 0.05, across = 0.02 }
 
 
 def machine(*loads: str) -> lw.Machine:
-    """The slider-crank with loads."""
     return lw.loads(MACHINE + "\n".join(f"l{n} = {load}" for n, load in enumerate(loads)))
 
 

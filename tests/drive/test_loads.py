@@ -52,7 +52,6 @@ def slope(f, phi: Points) -> Points:
 
 
 def torque(load: str) -> tuple[Points, lw.Machine]:
-    """Load torque over the revolution of a machine with one load."""
     machine = lw.loads(BASE + f"[loads]\nit = {load}\n")
     reduced = lw.reduction(machine, n=72)
     return reduced.torque_load, machine

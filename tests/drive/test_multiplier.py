@@ -25,7 +25,6 @@ torque = "-(15 + 7*cos(phi) + {second}*sin(2*phi))"
 
 
 def torque(speed: float) -> float:
-    """Of the straight motor."""
     return LINE * (1 - speed / END)
 
 

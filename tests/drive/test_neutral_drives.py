@@ -37,7 +37,6 @@ def machine(motor: str, loads: str = "", efficiency: float = 1.0) -> lw.Machine:
 
 
 def told(of: lw.Machine) -> tuple[float, float]:
-    """The range in the message."""
     with pytest.raises(SteadyStateError, match="no unique steady motion") as error:
         lw.steady_state(of)
     text = str(error.value)

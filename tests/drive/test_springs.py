@@ -47,7 +47,6 @@ PHI = np.linspace(0, 2 * np.pi, 49)
 
 
 def machine(*loads: str) -> lw.Machine:
-    """The four-bar with loads."""
     return lw.loads(FOUR_BAR + "\n".join(f"l{n} = {load}" for n, load in enumerate(loads)))
 
 

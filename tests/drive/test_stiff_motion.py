@@ -39,7 +39,6 @@ def flywheel(stall: float) -> lw.Machine:
 
 
 def own_motion(stall: float, times: np.ndarray) -> np.ndarray:
-    """Angle and speed of the same equation written out."""
 
     def rate(_t: float, y: np.ndarray) -> list[float]:
         phi, omega = y

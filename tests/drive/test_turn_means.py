@@ -198,7 +198,6 @@ def test_a_constant_speed_reads_extremes_and_means_exactly() -> None:
 
 
 def driven(torque: str) -> Machine:
-    """A crank at constant speed under a torque."""
     load = f'kind = "formula", on = "A", torque = "{torque}"'
     return loads(
         'format = 1\nname = "crank"\n[drive.motor]\nkind = "constant_speed"\nspeed = 12\n'

@@ -99,7 +99,6 @@ def slow_gear(rng: np.random.Generator, zero: float) -> Machine:
 
 
 def four_stroke(rng: np.random.Generator, zero: float) -> Machine:
-    """A slider-crank with a gas force that repeats after two revolutions."""
     angles = np.radians([0, 40, 180, 360, 540, 700])
     forces = rng.uniform(-3000, 3000, len(angles))
     shifted = np.mod(angles - zero, 4 * np.pi)
@@ -132,7 +131,6 @@ FAMILIES = (square_rod, slow_gear, four_stroke)
 
 
 def numbers(machine: Machine) -> dict[str, float]:
-    """What the analyses of a cycle say, but for crank angles."""
     reduced, limit, steady = lw.reduction(machine), lw.constant_energy(machine), lw.steady_state(machine)
     names = ("inertia_min", "inertia_max", "torque_load_mean", "torque_load_max", "viscous_mean")
     result = {f"reduction {name}": getattr(reduced, name) for name in names}

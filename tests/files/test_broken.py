@@ -18,14 +18,12 @@ BROKEN = sorted((Path(__file__).parent / "broken").glob("*.toml"))
 
 
 def fault(path: Path) -> MachineFileError:
-    """The error of a broken file, read from its own folder, where files of points lie beside it."""
     with chdir(path.parent), pytest.raises(MachineFileError) as caught:
         read(path.name)
     return caught.value
 
 
 def message(path: Path) -> str:
-    """The message of a broken file, with all problems."""
     return "\n\n".join(map(str, fault(path).problems)) + "\n"
 
 

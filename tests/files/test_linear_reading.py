@@ -49,7 +49,6 @@ READERS: dict[str, tuple[Callable[[str], object], Callable[[int], str], int]] = 
 
 
 def seconds(read: Callable[[str], object], text: str) -> float:
-    """The fastest of some readings, whatever they find."""
     times = []
     for _ in range(5):
         begun = time.process_time()

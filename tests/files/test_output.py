@@ -22,7 +22,6 @@ WRITERS = {"kernel/files/output.py", "cam/manufacture/dxf.py", "cam/manufacture/
 
 
 def seen(folder: Path) -> dict[str, str]:
-    """Name → content of all that a user sees in a folder."""
     return {each.name: each.read_text() for each in folder.glob("[!.]*")}
 
 

@@ -21,7 +21,6 @@ TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in MACHINES} | {
 
 @pytest.fixture(scope="module")
 def validator() -> jsonschema.Draft202012Validator:
-    """A validator of machine files, whose schema keeps to its own draft."""
     made = schema()
     jsonschema.Draft202012Validator.check_schema(made)
     return jsonschema.Draft202012Validator(made)

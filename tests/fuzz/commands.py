@@ -63,7 +63,6 @@ def call(arguments: Sequence[str], inputs: Mapping[str, str | bytes], seconds: f
 
 
 def _inspect(done: Result, arguments: Sequence[str], record: Mapping[str, str | bytes]) -> None:
-    """Look at exit code and text."""
     if done.exit_code not in (0, 1, 2):
         raise PromiseError(f"exit code {done.exit_code}", record)
     if done.exit_code == 2 and not done.stderr.strip():
@@ -139,5 +138,4 @@ def questions(text: str) -> list[tuple[str, ...]]:
 
 
 def asked(question: Sequence[str], path: Path) -> list[str]:
-    """The arguments of a question about a file."""
     return [question[0], str(path), *question[1:]]

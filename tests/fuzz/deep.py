@@ -45,7 +45,6 @@ class Tally:
     broken: Counter[tuple[str, str]] = field(default_factory=Counter)
 
     def table(self) -> str:
-        """Cases, time and breaks of each kind, then every class of breaks."""
         heads = f"{'kind':16}{'cases':>10}{'ms a case':>12}{'broken':>8}"
         rows = [heads, "─" * len(heads)]
         for kind, n in sorted(self.cases.items()):
@@ -104,7 +103,6 @@ class Runner:
         return cls(process, here)
 
     def give(self, case: tuple[str, int]) -> None:
-        """Hand over the next case."""
         self.pipe.send(case)
         self.case, self.since, self.done = case, time.monotonic(), self.done + 1
         self.used = processor_time(self.process)
@@ -116,14 +114,12 @@ class Runner:
         return processor_time(self.process) - self.used > HARD_SECONDS
 
     def stop(self) -> None:
-        """End the process, whatever it does."""
         self.process.kill()
         self.process.join()
         self.pipe.close()
 
 
 def cases(seed: int, only: Sequence[str]) -> Iterator[tuple[str, int]]:
-    """Kinds by their weights and seeds, without end."""
     wanted = {name: kind for name, kind in kinds.KINDS.items() if not only or name in only}
     names = [name for name, kind in wanted.items() for _ in range(kind.weight)]
     random = np.random.default_rng(seed)
@@ -176,7 +172,6 @@ def run(minutes: float, jobs: int, seed: int, only: Sequence[str], out: Path) ->
 
 
 def _next(runner: Runner, tally: Tally, out: Path, *, late: bool) -> Runner:
-    """Take what came of a case, and the process for the next one."""
     kind, seed = runner.case
     tally.cases[kind] += 1
     tally.seconds[kind] += time.monotonic() - runner.since

@@ -97,7 +97,6 @@ class ByHand:
         self.has_gravity = any(load["kind"] == "gravity" for load in self.loads.values())
 
     def instant(self, phi: complex) -> Instant:
-        """The machine at a crank angle."""
         if phi not in self._known:
             if len(self._known) > _KNOWN:
                 self._known.clear()
@@ -237,7 +236,6 @@ class ByHand:
             to.tanh.append((load["constants"]["c"] * slide, 20.0 * slide))
 
     def motor_torque(self, speed: float) -> tuple[float, float]:
-        """Torque of the motor at its own speed, and its slope."""
         motor = self.motor
         if motor["kind"] == "dc":
             slope = -motor["torque_stall"] / motor["speed_no_load"]
@@ -265,7 +263,6 @@ class ByHand:
         return sum(value for value, _ in values), sum(slope for _, slope in values)
 
     def resisting(self, at: Instant, omega: float) -> tuple[complex, complex]:
-        """Torque of all loads at the crank, and its slope over the speed."""
         fan, fan_slope = self.fans(omega)
         torque, slope = at.load + at.viscous * omega + fan, at.viscous + fan_slope
         for size, rate in at.tanh:
@@ -287,7 +284,6 @@ class ByHand:
 
     @contextmanager
     def keeping_senses(self, phi: float) -> Iterator[None]:
-        """Dry friction acts everywhere as at one angle, a side of dead centres."""
         self._known.clear()
         self.senses = {on: float(np.sign(self._way(on, phi))) for on in self._rubbing()}
         try:

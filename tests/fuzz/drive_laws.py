@@ -56,7 +56,6 @@ def drive(random: Generator) -> None:
 
 
 def steady_laws(machine: lw.Machine, found: SteadyState, compiled: CompiledMachine, inputs: Inputs) -> None:
-    """All laws of one steady motion."""
     for law, error in violations(machine, found, max(WITHIN, 3 * found.accuracy)).items():
         raise PromiseError(f"the law of {law} is broken by {error:.2g} of the peak", inputs)
     _powers(found, compiled, inputs)
@@ -129,7 +128,6 @@ def _marched_apart(found: SteadyState, compiled: CompiledMachine, accuracy: floa
 
 
 def _reached(found: SteadyState, inputs: Inputs) -> None:
-    """The extremes of the speed lie inside what the curve nearly reaches."""
     # Between two angles speed changes by what its extreme acceleration allows and no more.
     step = np.diff(found.time).max()
     steepest = max(abs(found.acceleration_min), abs(found.acceleration_max))

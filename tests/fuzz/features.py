@@ -70,6 +70,5 @@ def written(random: Generator) -> None:
 
 
 def _quoted(text: str) -> str:
-    """A text of TOML."""
     signs = {'"': '\\"', "\\": "\\\\"}
     return '"' + "".join(signs.get(sign, sign if sign.isprintable() else " ") for sign in text) + '"'

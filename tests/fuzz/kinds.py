@@ -60,5 +60,4 @@ KINDS: dict[str, Kind] = {
 
 
 def run(kind: str, seed: int) -> None:
-    """Run a case; the same seed is the same case."""
     KINDS[kind].case(np.random.default_rng([zlib.crc32(kind.encode()), seed]))

@@ -103,7 +103,6 @@ def _changed(value: Any, random: Generator) -> Any:
 
 
 def _changed_list(values: list[Any], random: Generator) -> list[Any]:
-    """One entry left off, given twice, exchanged with another, or changed."""
     if not values:
         return values
     k, j = random.integers(len(values), size=2)

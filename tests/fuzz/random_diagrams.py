@@ -8,7 +8,6 @@ _RIM = 'rim = { density = "7200 kg/m^3", stress = "4 MPa", width_ratio = 2 }'
 
 
 def formula(rng: np.random.Generator) -> str:
-    """Harmonics of a driver against a load that is left out."""
     terms = [f"c{k}*cos({k}*phi + p{k})" for k in range(1, 5)]
     constants = ", ".join(
         f"c{k} = {rng.uniform(100, 900):.6g}, p{k} = {rng.uniform(-3, 3):.6g}" for k in range(1, 5)
@@ -29,7 +28,6 @@ def table(rng: np.random.Generator) -> str:
 
 
 def areas(rng: np.random.Generator) -> str:
-    """Areas of a diagram that add up to zero."""
     areas = rng.uniform(20, 90, 6) * [1, -1, 1, -1, 1, -1]
     areas[-1] -= areas.sum()
     return f"areas = {areas.tolist()}\narea_scale = 12\nunevenness = 0.03\ninertia = 1.5"

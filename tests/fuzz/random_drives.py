@@ -118,7 +118,6 @@ def _loads(random: Generator, slides: list[str], r: float, size: float) -> Table
 
 
 def load(random: Generator, on: str, r: float, size: float) -> Table:
-    """One load on a member."""
     kind = str(random.choice(["dry", "viscous", "force", "spring", "formula", "member formula", "fan"]))
     if kind == "dry":
         return {"kind": kind, "on": on, "force": size}
@@ -264,13 +263,11 @@ def _listed(value: Any) -> Any:
 
 
 def _increasing(random: Generator, ends: tuple[float, float], n: int) -> list[float]:
-    """Places that keep off each other."""
     shares = np.cumsum(random.uniform(0.3, 1.0, n + 1))[:-1]
     return (ends[0] + (ends[1] - ends[0]) * shares / (shares[-1] + 0.3)).tolist()
 
 
 def _around(random: Generator, low: float, high: float) -> list[float]:
-    """Speeds of which some lie between two, where these are apart."""
     inner = low + (high - low) * np.array([random.uniform(0.2, 0.4), random.uniform(0.6, 0.8)])
     return [0.0, *(inner * [1.0, 1.001]).tolist(), 1.5 * high]
 
@@ -319,7 +316,6 @@ def random_camshaft(random: Generator) -> Table:
 
 
 def _follower(random: Generator, height: float) -> Table:
-    """A cam with rise, dwell and return, and sometimes a second dwell."""
     swings = bool(random.random() < 0.3)
     key, stroke = ("swing", height / 0.1) if swings else ("lift", height)
     laws = [FOLLOWER_LAWS[random.integers(len(FOLLOWER_LAWS))] for _ in range(2)]

@@ -22,7 +22,6 @@ Floats = NDArray[np.float64]
 
 
 def log_uniform(random: Generator, low: float, high: float) -> float:
-    """A number whose logarithm is uniform."""
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
@@ -179,7 +178,6 @@ def cam(random: Generator) -> None:
 
 
 def random_topper(random: Generator) -> dict[str, Any]:
-    """A topper whose knife keeps its speed or moves as a sine."""
     kind = str(random.choice(["harmonic", "constant"]))
     diameter = random.uniform(0.06, 0.2)
     topper = {

@@ -80,7 +80,6 @@ def _curves(steady: SteadyState) -> list[Floats]:
 
 
 def _peak(steady: SteadyState) -> float:
-    """What accelerations count against."""
     peak = max(abs(steady.acceleration_min), abs(steady.acceleration_max))
     driven = float(np.abs(steady.torque_drive / steady.inertia_reduced).max())
     return max(peak, _EVEN * steady.speed_max**2, _BALANCED * driven)
@@ -118,14 +117,12 @@ def _balance(machine: Machine, steady: SteadyState) -> float:
 
 
 def _diagonal(compiled: CompiledMachine, angles: Floats, omega: Floats) -> Floats:
-    """Torque of the laws at each angle with its own speed."""
     return np.array(
         [compiled.law_torques(phi, w)[0, 0] for phi, w in zip(angles, omega, strict=True)], dtype=np.float64
     )
 
 
 def _outside(steady: SteadyState) -> float:
-    """By how much the curves leave the extremes."""
     speed = max(steady.speed.max() / steady.speed_max - 1, 1 - steady.speed.min() / steady.speed_min)
     over = steady.acceleration.max() - steady.acceleration_max
     under = steady.acceleration_min - steady.acceleration.min()

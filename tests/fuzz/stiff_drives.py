@@ -208,7 +208,6 @@ def integrate(
 
 
 def _reference(machine: ByHand, table: Floats, totals: Floats) -> Reference:
-    """The torques at the ends of steps of a cycle."""
     phi, order = np.unique(table[0], return_index=True)
     u, net, duration = table[1:4, order]
     at = [machine.instant(x) for x in phi.tolist()]
@@ -237,7 +236,6 @@ def deviations(
 
 
 def _curves(known: Reference, curves: SteadyState) -> dict[str, float]:
-    """Curves at the ends of the reference's steps."""
     omega, epsilon = np.sqrt(2 * known.u), known.net / known.inertia
     peak = _acceleration_scale(epsilon, omega, known.drive / known.inertia)
     torque = max(
@@ -268,7 +266,6 @@ def _apart(a: float, b: float, size: float) -> float:
 
 
 def _measures(known: Reference, found: SteadyState, ratio: float) -> dict[str, float]:
-    """Closure, period, works, means and the multiplier."""
     growth = float(np.exp(min(known.totals[4], 1.0)))
     # Of a drive that idles, rounding is all the torque that there is.
     least = _EVEN * float((known.inertia * 2 * known.u).max())
@@ -348,7 +345,6 @@ class Figures:
 
 
 def compare(random: Generator, figures: Figures, seed: int = 0) -> None:
-    """One drive: its steady motion, and its run-up."""
     description = stiff_drive(random)
     inputs = {"machine": repr(description)}
     by_hand = ByHand(description)
@@ -386,7 +382,6 @@ def compare(random: Generator, figures: Figures, seed: int = 0) -> None:
 def _run_up_deviations(
     moved: Transient, by_hand: ByHand, stiff: float, tolerance: tuple[float, float]
 ) -> dict[str, float]:
-    """Angle and speed at the ends of the steps of SciPy in time."""
 
     evaluations = Budget()
 
@@ -420,7 +415,6 @@ def stiff(random: Generator) -> None:
 
 
 def main() -> None:
-    """A campaign from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--cases", type=int, default=1000, help="drives (default: 1000)")
     parser.add_argument("--start", type=int, default=0, help="first seed (default: 0)")

@@ -47,7 +47,6 @@ BESIDE = [
 
 @contextmanager
 def folder() -> Iterator[Path]:
-    """An empty folder with the tables that machine files refer to."""
     with tempfile.TemporaryDirectory(prefix="linkwright_fuzz_") as name:
         for path in BESIDE:
             shutil.copy(path, name)
@@ -55,7 +54,6 @@ def folder() -> Iterator[Path]:
 
 
 def some_file(random: Generator) -> str:
-    """The text of one of the machine files."""
     names = list(machine_files())
     return machine_files()[names[random.integers(len(names))]]
 
@@ -75,7 +73,6 @@ def file_of_a_machine(random: Generator) -> None:
 
 
 def override(random: Generator) -> None:
-    """An entry of a sound file is given another value on the command line."""
     text = some_file(random)
     entries = list(lw.addresses(_machine_of(text)))
     values = [value.strip('"') for value in VALUES]
@@ -206,7 +203,6 @@ def _same(found: object, expected: Floats, lost: Floats, inputs: dict[str, str])
 
 
 def _formula(random: Generator, depth: int) -> str:
-    """A random formula."""
     if depth == 0 or random.random() < 0.15:
         leaves = ("phi", "omega", "pi", "g", "2", "0.5", "1e3", "7.25", "1")
         return leaves[random.integers(len(leaves))]

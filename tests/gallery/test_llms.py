@@ -28,14 +28,12 @@ ANSWERS = dict(
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder with the machine files."""
     monkeypatch.chdir(tmp_path)
     for name, text in MACHINES.items():
         Path(name).write_text(text, encoding="utf-8")
 
 
 def output(line: str) -> str:
-    """What a command that succeeds prints on standard output."""
     done = invoke(*shlex.split(line)[1:])
     assert done.exit_code == 0, f"{line}\n{done.output}"
     return done.stdout

@@ -67,7 +67,6 @@ def modified_sine(z: float) -> tuple[float, float]:
 
 
 def slopes(phi: float) -> tuple[float, float]:
-    """s′ and s″ of the cart by the crank angle."""
     there = phi % TURN
     sign = 1.0 if there < np.pi else -1.0
     v, a = modified_sine((there % np.pi) / np.pi)
@@ -75,12 +74,10 @@ def slopes(phi: float) -> tuple[float, float]:
 
 
 def resisting(s1: float) -> float:
-    """Torque of friction, and of the weight on the slope."""
     return ROLL * abs(s1) + MASS * GRAVITY * np.sin(TILT) * s1
 
 
 def drive(omega: float) -> float:
-    """Kloss at the crank."""
     s, s_k = 1 - RATIO * omega / SYNCHRONOUS, 1 - AT_BREAKDOWN / SYNCHRONOUS
     M = 2 * BREAKDOWN * s * s_k / (s * s + s_k * s_k)
     return M * RATIO * (0.9 if M >= 0 else 1 / 0.9)

@@ -29,7 +29,6 @@ def trees(draw: st.DrawFn) -> tuple[list[tuple[float, float]], list[tuple[int, i
 
 
 def ours(discs: list[tuple[float, float]], shafts: list[tuple[int, int, float, float]]) -> lw.Machine:
-    """In a machine file."""
     train = {
         "discs": {f"d{n}": {"inertia": J, "damping": c} for n, (J, c) in enumerate(discs)},
         "shafts": {

@@ -45,7 +45,6 @@ class Variant:
     motor: tuple[float, float, float] = (104.72, 94.95, 215.4)
 
     def machine(self) -> Machine:
-        """The same for the package."""
         n = range(len(self.phases))
         omega_0, omega_k, M_k = self.motor
         loads = {f"roll{k}": {"kind": "dry", "on": f"cart{k}", "force": self.force} for k in n}

@@ -62,7 +62,6 @@ def text_of(speed: float, closure: str = "spring", torque: float = 50, more: str
 
 
 def valve(speed: float, closure: str = "spring", torque: float = 50, more: str = "") -> Machine:
-    """The machine of such a file."""
     return lw.loads(text_of(speed, closure, torque, more))
 
 

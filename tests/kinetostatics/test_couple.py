@@ -17,7 +17,6 @@ SECOND = 4 * 2 * np.fft.rfft(_ROD_ALONG)[2].real / 64 / RATIO**2
 
 
 def engine(angles: list[float]) -> lw.Machine:
-    """Pistons in line, counted from the middle."""
     n = len(angles)
     places = (np.arange(n) - (n - 1) / 2) * SPACING
     return lw.Machine.model_validate(

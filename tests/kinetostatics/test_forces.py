@@ -421,7 +421,6 @@ def test_four_bar_against_lagrange_multipliers() -> None:
 
 
 def _four_bar_position(phi: float, r: float, a: float, b: float, d: np.ndarray) -> np.ndarray:
-    """Centres and angles of crank, coupler and rocker."""
     A = r * np.array([np.cos(phi), np.sin(phi)])
     u = d - A
     c = np.hypot(*u)

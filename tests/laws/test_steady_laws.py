@@ -49,7 +49,6 @@ def random_machine(seed: int) -> Machine:
 
 
 def _agree(a: SteadyState, b: SteadyState, accuracy: float) -> None:
-    """All measures and curves of two solutions."""
     peak = max(abs(b.acceleration_min), abs(b.acceleration_max), 1e-4 * b.speed_max**2)
     torque = float(np.abs(b.torque_drive).max()) + float(np.abs(b.torque_load).max())
     assert a.speed == pytest.approx(b.speed, rel=accuracy)

@@ -25,7 +25,6 @@ def answer(*words: str) -> tuple[int, Any]:
 
 
 def crank(law: str, *, mass: str = "[bodies]\nS = { mass = 10 }") -> lw.Machine:
-    """A slider-crank whose crank follows a law, beside one that rotates evenly."""
     return lw.loads(f"""
 format = 1
 name = "law"

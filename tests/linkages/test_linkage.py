@@ -405,7 +405,6 @@ def test_double_point_and_its_two_angles() -> None:
 
 
 def _double_points(along: float) -> list[object]:
-    """Double points of one curve, each checked."""
     more = f'[mechanism.rigid_points.K]\nlink = "R.coupler"\nalong = {along}\nacross = -0.2'
     machine = four_bar(0.1, 0.25, 0.25, 0.2, more)
     curve = lw.coupler_curve(machine, "K")

@@ -26,7 +26,6 @@ EXCESSES = [0.0, 1e-15, 1e-14, 3e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 2e-4, 1e-3
 def four_bar(
     lengths: tuple[float, ...], side: str = "left", *, turned: float = 0.0, more: str = ""
 ) -> lw.Machine:
-    """Crank, coupler, rocker, frame; the frame is turned."""
     crank, coupler, rocker, frame = lengths
     x, y = float(frame * np.cos(turned)), float(frame * np.sin(turned))
     return lw.loads(f"""
@@ -45,7 +44,6 @@ def four_bar(
 
 
 def angles(*centres: float) -> np.ndarray:
-    """Two revolutions, and the neighbourhood of some angles in both."""
     near = np.concatenate([[0.0], 10.0 ** np.arange(-14, 0.1, 0.5)])
     beside = [at + turn + way * near for at in centres for turn in (0, 2 * np.pi) for way in (-1, 1)]
     return np.sort(np.concatenate([np.linspace(0, 4 * np.pi, 289), *beside]))

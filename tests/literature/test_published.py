@@ -22,7 +22,6 @@ CASES = tomllib.loads((Path(__file__).parent / "paper1.toml").read_text(encoding
 
 
 def scheme(machine: Machine) -> dict[str, float]:
-    """The published scheme by whole degrees."""
     motion = published_scheme(machine)
     return {
         "speed_min": motion.speed_min,

@@ -19,7 +19,6 @@ WAVE = math.sqrt(79.3e9 / 7850.0)
 
 
 def rods(discs: dict[str, float], shafts: dict[str, str], modes: int = 6) -> lw.Machine:
-    """A train with distributed inertia."""
     listed = "".join(f"{name} = {{ inertia = {J!r} }}\n" for name, J in discs.items())
     rows = "".join(f"[train.shafts.{name}]\n{text}\n" for name, text in shafts.items())
     return lw.loads(

@@ -30,7 +30,6 @@ HEADS = [(0.0, 0.1, 0.02), (0.35, 0.14, 0.0), (-0.6, 0.09, 0.03), (0.9, 0.05, 0.
 
 
 def _by_all_speeds(way: str, alpha: float, d: float, delta: float) -> Floats:
-    """Lengths on a grid of v and v_h that holds the corners of the box."""
     v, v_h = np.meshgrid(np.linspace(*PAPER.forward_speeds, 25), np.linspace(*PAPER.knife_speeds, 25))
     if way == "constant_speed":
         return constant_speed_lengths(d, delta, alpha, v, v_h).max(axis=0)
@@ -101,7 +100,6 @@ def test_every_phase_by_the_heads_themselves() -> None:
 
 
 def _harmonic(stroke: float, speed: float) -> Knife:
-    """The knife of a machine file."""
     machine = loads(
         f"""
 format = 1

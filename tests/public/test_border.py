@@ -19,7 +19,6 @@ STUB = Path(lw.__file__).with_name("_core.pyi")
 
 
 def told(body: list[ast.stmt]) -> dict[str, dict[str, Any] | None]:
-    """Names of a stub; of a class its own."""
     found: dict[str, dict[str, Any] | None] = {}
     for node in body:
         if isinstance(node, ast.ClassDef):
@@ -34,13 +33,11 @@ def told(body: list[ast.stmt]) -> dict[str, dict[str, Any] | None]:
 
 
 def there(where: Any) -> set[str]:
-    """Public names of a module, or those that a class has itself."""
     names = where.__all__ if inspect.ismodule(where) else vars(where)
     return {name for name in names if not name.startswith("_")}
 
 
 def disagreements(stub: dict[str, Any], where: Any, at: str) -> list[str]:
-    """Names that are only in the stub, or only in the module."""
     wrong = [f"{at}.{name}" for name in stub.keys() ^ there(where)]
     for name, inside in stub.items():
         if inside is not None and hasattr(where, name):

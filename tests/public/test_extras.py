@@ -29,7 +29,6 @@ PACKAGE = ROOT / "python" / "linkwright"
 
 
 def hide(monkeypatch: pytest.MonkeyPatch, package: str) -> None:
-    """Let imports of a package fail as if it were not installed."""
     for name in [each for each in sys.modules if each.startswith(f"{package}.")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, package, None)
@@ -99,7 +98,6 @@ def test_quotes_of_the_command_are_those_of_the_shell(monkeypatch: pytest.Monkey
 
 
 def _required() -> set[str]:
-    """The extras that the package asks for."""
     found = set()
     for path in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -92,7 +92,6 @@ def _keep(value: Any, found: dict[type, Any]) -> None:
 
 
 def methods() -> Iterator[tuple[Any, str]]:
-    """Objects with each of their public methods that takes something."""
     for kind, each in results().items():
         # Results, and the small classes that users make.
         if issubclass(kind, PlainRecord | RecordDiagnosis) or kind.__name__ in dir(lw):

@@ -45,7 +45,6 @@ def _law() -> MotionLaw:
 
 @cache
 def right_calls() -> dict[str, tuple[Callable[..., Any], dict[str, Any]]]:
-    """A right call of each function, by its name."""
     cart, cam, engine = (_machine(name) for name in ("roller_one_cart", "roller_cam", "v8_diesel"))
     topper, rotator = _machine("topper"), _machine("rod_rotator_continuous")
     one_mass = lw.OneMass(1.0, 100.0, 0.05)
@@ -236,7 +235,6 @@ def test_misuse(name: str, argument: str) -> None:
 
 
 def _open_parts(value: Any, place: str) -> Iterator[str]:
-    """What could be written to in a result."""
     if isinstance(value, np.ndarray):
         if value.flags.writeable:
             yield place
@@ -361,7 +359,6 @@ _OWN = {
 
 
 def _arguments() -> Iterator[tuple[str, str, str, Callable[[str, Any], Any] | None]]:
-    """Function, argument, annotation and check of every argument that is public."""
     for name in dir(lw):
         member = getattr(lw, name)
         is_error = inspect.isclass(member) and issubclass(member, Exception)
@@ -422,7 +419,6 @@ def test_words_functions_and_pairs_are_checked(call: Callable[[], Any], words: s
 
 @contextlib.contextmanager
 def _strict() -> Iterator[None]:
-    """Warnings are errors."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         yield

@@ -46,7 +46,6 @@ WORD = re.compile("NaN|[Ii]nfinite|[Nn]ot finite|unbounded")
 
 
 def records(node: Any, depth: int = 0) -> Iterator[Any]:
-    """All results below one."""
     if isinstance(node, Record | PlainRecord) and depth < 6:
         yield node
         for below in vars(node).values():

@@ -183,7 +183,6 @@ def test_designation() -> None:
 
 
 def loaded(unit: PumpingUnit, **load: object):
-    """Torque of the gearbox of a unit under a load."""
     entries = unit.model_dump(exclude_none=True) | {"load": load}
     gear = motion(PumpingUnit(**entries)).gear
     assert gear is not None

@@ -39,7 +39,6 @@ def formula(machine: lw.Machine) -> LeverFormula:
 
 
 def away_from(angles: np.ndarray, points: tuple[float, ...], reach: float) -> np.ndarray:
-    """Angles that keep away from change points."""
     off = np.abs((angles[:, None] - np.array(points) + np.pi) % (2 * np.pi) - np.pi)
     return off.min(axis=1) > reach
 

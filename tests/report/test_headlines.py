@@ -13,7 +13,6 @@ from linkwright.app.study import Study
 
 
 def cards(study: Study) -> dict[str, tuple[str, str]]:
-    """Word → value and unit."""
     return {one.word: (one.value, one.unit) for one in content(study).headline}
 
 

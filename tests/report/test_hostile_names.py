@@ -53,7 +53,6 @@ math mrow mi mn mo msub msup msubsup mfrac msqrt mover munder munderover mtext m
 
 
 def _names(table: Any, place: str = "") -> Iterator[str]:
-    """Names that a file gives."""
     if not isinstance(table, dict):
         return
     is_named = NAMED.fullmatch(place) and not place.startswith(NOT_NAMED)

@@ -70,14 +70,12 @@ def _machine(text: str) -> str:
 
 
 def _placed(found: dict[str, Any], part: dict[str, Any], k: int, places: np.ndarray) -> np.ndarray:
-    """Places of a part at an instant, as the page moves them."""
     angle = part["angle"] + (found["headings"][part["link"]][k] if part["link"] else 0.0)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     return np.asarray(places) @ turn.T + [axis[k] for axis in found["points"][part["at"]]]
 
 
 def _distance(place: np.ndarray, outline: np.ndarray) -> float:
-    """Of a place from a closed polygon."""
     start, along = outline, np.roll(outline, -1, axis=0) - outline
     u = np.clip(((place - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0, 1)
     return float(np.linalg.norm(place - start - u[:, None] * along, axis=1).min())

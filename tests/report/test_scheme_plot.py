@@ -76,7 +76,6 @@ def found(name: str) -> Scheme:
 
 
 def words(figure: Figure) -> dict[str, list[Bbox]]:
-    """Boxes of all texts, in inches."""
     figure.canvas.draw()
     boxes: dict[str, list[Bbox]] = {}
     for each in figure.axes[0].texts:
@@ -87,7 +86,6 @@ def words(figure: Figure) -> dict[str, list[Bbox]]:
 
 
 def overlaps(figure: Figure) -> list[tuple[str, str]]:
-    """Pairs of texts, and of texts and bars, that share more than a hair of paper."""
     boxes = [(name, box) for name, listed in words(figure).items() for box in listed]
     to_inches = figure.axes[0].transData + figure.dpi_scale_trans.inverted()
     bars = [each for each in figure.axes[0].patches if isinstance(each, Rectangle)]

@@ -27,7 +27,6 @@ def two_carts(*overrides: str) -> Study:
 
 
 def warned(found: Study, *words: str) -> bool:
-    """Whether one warning holds all the words."""
     return any(all(word in text for word in words) for text in found.warnings)
 
 

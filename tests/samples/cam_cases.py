@@ -35,7 +35,6 @@ def fitted(function: Callable[[Floats], Floats], pieces: int = PIECES, degree: i
 
 
 def contact(law: MotionLaw, size: Sizes, start: float, **kind: bool) -> Contact:
-    """A contact of a law."""
     return Contact("cam", law, size, cam_kernel(law, size, **kind), start)
 
 
@@ -76,7 +75,6 @@ class Circle:
 
     @property
     def centre(self) -> Floats:
-        """Centre of the circle on the cam."""
         return self.e * unit(self.theta)
 
     def place(self, phi: Floats) -> Floats:
@@ -96,7 +94,6 @@ class Circle:
         return chi + np.arccos((l**2 + D**2 - (self.R + self.roller) ** 2) / (2 * l * D))
 
     def contact(self) -> Contact:
-        """The same to the package, from the law alone."""
         phi = np.linspace(0, TURN, 20001)
         start = float(self.place(phi).min())
         roller = self.roller or 0.0
@@ -152,12 +149,10 @@ CIRCLES: dict[str, Circle] = {
 
 
 def profile_of(touching: Contact) -> CamCurve:
-    """The profile of a contact."""
     return CamCurve(touching, -touching.sizes.roller_radius)
 
 
 def machine(cam: str, rest: str = "") -> lw.Machine:
-    """A machine with one cam called F, from the lines of its table."""
     return lw.loads(f'format = 1\nname = "Cam"\n[mechanism.cams.F]\n{cam}\n{rest}')
 
 

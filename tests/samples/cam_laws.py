@@ -24,7 +24,6 @@ UNEQUAL = MotionLaw.of(0.0, (0.4, Piece((0.0, 0.0, 0.4))), (0.6, Piece((0.4, 1.2
 
 
 def dwell(angle: float, lift: float) -> MotionLaw:
-    """A stretch at rest."""
     return MotionLaw.of(0.0, (angle, Piece((lift,))))
 
 

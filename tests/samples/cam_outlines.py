@@ -60,7 +60,6 @@ def harmonic(h: float, start: float = 0.0) -> Piece:
 
 
 def dwells(h: float, rise: Callable[..., Piece] = cycloidal) -> MotionLaw:
-    """Rise, dwell, return, dwell."""
     return MotionLaw.of(
         0.0,
         (math.radians(100), rise(h)),
@@ -71,7 +70,6 @@ def dwells(h: float, rise: Callable[..., Piece] = cycloidal) -> MotionLaw:
 
 
 def zigzag(h: float) -> MotionLaw:
-    """Constant speed up and down: a heart with corners."""
     return MotionLaw.of(0.0, (math.pi, Piece((0.0, h))), (math.pi, Piece((h, -h))))
 
 
@@ -79,7 +77,6 @@ def zigzag(h: float) -> MotionLaw:
 
 
 def eccentric(radius: float, eccentricity: float) -> Cam:
-    """A circle about a point beside the origin."""
 
     def places(phi: Floats, side: str) -> tuple[Complex, Complex, Complex]:
         z = radius * np.exp(1j * phi)
@@ -98,7 +95,6 @@ def knife_edge(law: MotionLaw, base: float, clockwise: bool = False) -> Cam:
 
 
 def roller(law: MotionLaw, prime: float, radius: float, offset: float = 0.0, clockwise: bool = False) -> Cam:
-    """The inner parallel of the pitch curve at the roller's radius."""
 
     def places(phi: Floats, side: str) -> tuple[Complex, Complex, Complex]:
         z, z1, z2, z3 = _pitch(law, prime, offset, phi, side)

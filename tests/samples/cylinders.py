@@ -27,13 +27,11 @@ def crank_position(phi: Array, rod: float = ROD) -> Array:
 
 
 def cylinder(strokes: int = 4, rod: float = ROD, shift: float = 0.0, n: int = 72) -> Cylinder:
-    """A cylinder on a plain crank whose top dead centre lies at an angle."""
     phi = 2 * np.pi * np.arange(n) / n
     return Cylinder(BORE, strokes, crank_position(phi - shift, rod))
 
 
 def diesel(**entries: Any) -> Combustion:
-    """A charged four-stroke Diesel engine's cycle."""
     given: dict[str, Any] = {"compression_ratio": 15.0, "charge_pressure": 2.2e5}
     if not {"heat", "mean_effective_pressure", "peak_pressure", "load"} & set(entries):
         given["mean_effective_pressure"] = 16e5
@@ -50,7 +48,6 @@ def measured(gas: Combustion, step: float, start: float = -360.0, **entries: Any
 
 
 def told(entries: dict[str, Any], strokes: int = 4) -> list[Problem]:
-    """Key, found and expected of all faults of a description of gas."""
     try:
         gas: Indicator | Combustion = TypeAdapter(AnyGas).validate_python(entries)
     except ValidationError as error:

@@ -43,7 +43,6 @@ def needed(extras: Sequence[str]) -> set[str]:
 
 
 def surplus(extras: Sequence[str]) -> set[str]:
-    """The modules of all other distributions that are installed here."""
     present = needed(extras)
     owners = metadata.packages_distributions().items()
     return {module for module, names in owners if not present & set(map(canonicalize_name, names))}
@@ -57,7 +56,6 @@ class Finder:
         self._hidden = hidden
 
     def find_spec(self, name: str, *more: Any) -> Any:
-        """The module's specification, as the finder has it."""
         return None if name.partition(".")[0] in self._hidden else self._finder.find_spec(name, *more)
 
     def __getattr__(self, name: str) -> Any:
@@ -73,7 +71,6 @@ def hide(extras: Sequence[str]) -> None:
 
 
 def answers(lines: Sequence[str]) -> Iterator[tuple[str, int, str]]:
-    """Each command, its exit code and what it prints."""
     from click.testing import CliRunner
 
     from linkwright.app.application import application

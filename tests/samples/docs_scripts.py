@@ -8,7 +8,6 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 
 def docs_script(name: str) -> ModuleType:
-    """A script of the documentation as a module."""
     spec = spec_from_file_location(name, DOCS / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None

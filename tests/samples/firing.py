@@ -19,7 +19,6 @@ TURNS = 2
 
 
 def firing_angles(order: Sequence[int] = FIRING, turns: int = TURNS) -> dict[str, float]:
-    """Angle at which each cylinder fires."""
     step = 2 * np.pi * turns / len(order)
     return {str(cylinder): n * step for n, cylinder in enumerate(order)}
 

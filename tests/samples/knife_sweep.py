@@ -41,7 +41,6 @@ class Knife:
 
     @property
     def direction(self) -> Floats:
-        """Unit vector along the edge."""
         return np.array([np.sin(self.angle), np.cos(self.angle)])
 
 
@@ -62,11 +61,9 @@ class Pass:
         return float(1.01 * along / self.knife.speed)
 
     def across(self, t: Floats) -> Floats:
-        """y of the edge's middle."""
         return self.knife.law(self.phase + self.knife.rate * t)
 
     def instants(self, per_cycle: int = STEPS) -> Floats:
-        """Steps from before to after the head."""
         cycles = self.knife.rate * self.until / np.pi
         return np.linspace(-self.until, self.until, max(per_cycle, int(per_cycle * cycles)) + 1)
 
@@ -95,7 +92,6 @@ def rim(over: Pass, n: int) -> Floats:
 
 
 def into_head(over: Pass, points: Floats) -> Floats:
-    """Points outside are moved to the nearest of the head."""
     centre = np.array([0.0, over.offset])
     away = np.hypot(*(points - centre).T)
     return centre + (points - centre) * np.minimum(1.0, over.diameter / 2 / np.maximum(away, 1e-300))[:, None]
@@ -181,7 +177,6 @@ def _turning(over: Pass, t: Floats) -> Floats:
 
 
 def _ahead(over: Pass, points: Floats, t: Floats) -> Floats:
-    """How far the line is past the point, along x."""
     slant = np.tan(over.knife.angle)
     return over.knife.speed * t + (points[..., 1] - over.across(t)) * slant - points[..., 0]
 
@@ -312,7 +307,6 @@ def to_and_fro(law: Law, stroke: float, mean_speed: float, angle: float, forward
 
 
 def triangular(phase: Floats) -> Floats:
-    """The same speed back and forth."""
     return np.asarray(2 / np.pi * np.arcsin(np.sin(phase)))
 
 

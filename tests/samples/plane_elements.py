@@ -64,7 +64,6 @@ class Mesh:
 
 
 def solved(K: csr_matrix, load: Floats, known: NDArray[np.bool_], values: Floats) -> Floats:
-    """The solution where some of it is known."""
     free = ~known & (K.diagonal() > 0)
     u = np.where(known, values, 0.0)
     u[free] = spsolve(K[free][:, free].tocsc(), load[free] - K[free] @ u)
@@ -81,7 +80,6 @@ def graded(length: float, first: float, largest: float = 0.2) -> Floats:
 
 
 def grid(x: Floats, y: Floats) -> Floats:
-    """All pairs of two lists of places."""
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
 
 

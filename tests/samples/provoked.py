@@ -60,7 +60,6 @@ def _entries(node: Any, place: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]
 
 
 def _times(value: Any, factor: float) -> str:
-    """A value of the file multiplied, as an override has it."""
     if isinstance(value, str):
         number, unit = _QUANTITY.fullmatch(value).groups()  # type: ignore[union-attr]
         return f'"{float(number) * factor:g}{unit}"'
@@ -68,7 +67,6 @@ def _times(value: Any, factor: float) -> str:
 
 
 def provoked(tables: dict[str, Any]) -> Iterator[tuple[str, list[str]]]:
-    """What may come about in a machine, and the overrides that bring it."""
     entries = list(_entries({key: value for key, value in tables.items() if key not in ("format", "study")}))
     for what, (pattern, factor) in PROVOKED.items():
         found = [(at, value) for at, value in entries if re.fullmatch(pattern, at.replace('"', ""))]
@@ -78,7 +76,6 @@ def provoked(tables: dict[str, Any]) -> Iterator[tuple[str, list[str]]]:
 
 
 def shaken(tables: dict[str, Any], seed: int, n: int) -> Iterator[list[str]]:
-    """Overrides of one entry each, by a random factor."""
     entries = [entry for entry in _entries(tables) if not entry[0].startswith(("format", "study", "units"))]
     chance = random.Random(seed)
     for _ in range(n if entries else 0):

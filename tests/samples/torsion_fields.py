@@ -100,7 +100,6 @@ def _torsion_constant(outline: Floats, inside: Region, size: float, bore: float)
 
 
 def _line(start: tuple[float, float], end: tuple[float, float], size: float) -> Floats:
-    """Points on a straight line, without its end."""
     n = max(3, int(np.hypot(end[0] - start[0], end[1] - start[1]) / size))
     return np.array(start) + np.linspace(0, 1, n, endpoint=False)[:, None] * (np.array(end) - start)
 

@@ -17,7 +17,6 @@ Gear = tuple[str, str, float, float | None]
 
 
 def text(discs: Mapping[str, float], shafts: Sequence[Shaft], gears: Sequence[Gear] = ()) -> str:
-    """A machine file."""
     lines = ["format = 1", 'name = "A train"', "[train.discs]"]
     lines += [f"{name} = {{ inertia = {J!r} }}" for name, J in discs.items()]
     lines += ["[train.shafts]"]
@@ -32,7 +31,6 @@ def text(discs: Mapping[str, float], shafts: Sequence[Shaft], gears: Sequence[Ge
 
 
 def train(discs: Mapping[str, float], shafts: Sequence[Shaft], gears: Sequence[Gear] = ()) -> FreeVibration:
-    """Its free vibration."""
     return lw.free_vibration(lw.loads(text(discs, shafts, gears)))
 
 

@@ -450,7 +450,6 @@ force = "-3*(vx - 1)*where(y < 0.2, 1, 2) + x/2 + step(v)"
 
 
 def animal(name: str, drive: str = "") -> lw.Machine:
-    """A machine of the zoo, with further tables."""
     tables = ZOO[name].split("[bodies]")
     # Bodies stand where they read best; TOML wants their keys below one head.
     return lw.loads(f'format = 1\nname = "{name}"\n' + "[bodies]".join(tables) + drive)

@@ -89,7 +89,6 @@ class Case:
 
 
 def _alone(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
-    """Each entry by itself."""
     for name in names:
         # Sections of a cam have to close.
         if ".sections." not in name and (value := lw.get(machine, name)):
@@ -97,7 +96,6 @@ def _alone(machine: lw.Machine, names: tuple[str, ...]) -> Iterator[Way]:
 
 
 def _as_listed(measure: drives.Measure, listed: list[str]) -> Callable[[lw.Machine, list[str]], Floats]:
-    """Some of the numbers that a measure gives."""
 
     def some(machine: lw.Machine, names: list[str]) -> Floats:
         known = dict(zip(listed, measure(machine), strict=True))
@@ -111,7 +109,6 @@ def _steady(random: Generator) -> Case:
 
 
 def _struck(random: Generator) -> Case:
-    """A load jumps, or has kinks, at some angles."""
     drive = drives.random_drive(random)
     state = lw.steady_state(lw.Machine.model_validate(drive))
     size = torque_size(state)
@@ -162,7 +159,6 @@ def _running(kind: str) -> Callable[[Generator], Case]:
 
 
 def _train(random: Generator) -> Case:
-    """Natural frequencies and shapes of modes."""
     machine = lw.Machine.model_validate({"format": 1, "name": "train", "train": random_train(random)})
 
     def measure(machine: lw.Machine, names: list[str]) -> Floats:
@@ -184,7 +180,6 @@ def _train(random: Generator) -> Case:
 
 
 def _excited(random: Generator) -> Case:
-    """Torques of shafts at the speeds at which they are largest."""
     train = {"format": 1, "name": "train", "train": random_train(random)}
     machine = lw.Machine.model_validate(train)
     response = lw.forced_vibration(machine)
@@ -212,7 +207,6 @@ def _cam(random: Generator) -> Case:
 
 
 def _loaded_cam(random: Generator) -> Case:
-    """Normal force and pressure of a cam that moves a mass against a spring."""
     described = cams._machine(random).model_dump(exclude_unset=True)
     described["mechanism"]["cams"]["c"]["width"] = float(random.uniform(8e-3, 20e-3))
     described["bodies"] = {"c": {"mass": log_uniform(random, 0.1, 3.0)}}
@@ -337,7 +331,6 @@ class Tally:
 
 
 def compared(case: Case, random: Generator) -> Tally:
-    """Derivatives of a machine against differences along random directions."""
     found = lw.gradient(case.machine, case.analyses)
     ways = list(case.ways(case.machine, found.variables))
     used = [found.variables.index(name) for name in {name for way in ways for name in way}]

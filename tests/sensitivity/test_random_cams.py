@@ -85,7 +85,6 @@ def _machine(rng: np.random.Generator) -> lw.Machine:
 
 
 def _limits(stroke: float, angle: float) -> Iterator[tuple[str, float]]:
-    """Limits that a section keeps with some room."""
     yield from (("velocity", 1.7 * stroke / angle), ("acceleration", 9 * stroke / angle**2))
     yield ("jerk", 90 * stroke / angle**3)
 

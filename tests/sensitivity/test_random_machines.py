@@ -88,7 +88,6 @@ def _forces(random: Generator) -> tuple[lw.Machine, list[str], Measure]:
 
 
 def largest_forces(machine: lw.Machine) -> tuple[lw.Machine, list[str], Measure]:
-    """The same of any machine."""
 
     def largest(machine: lw.Machine) -> Forces:
         return lw.forces(machine, lw.steady_state(machine, accuracy=1e-13), contributions=False)

@@ -168,7 +168,6 @@ _SLIDER = ("mechanism.cranks.crank.radius", "mechanism.sliders.knife.rod", "mech
 
 
 def _knife_numbers(law: MotionLaw) -> list[Any]:
-    """Ends of the stroke, extremes of speed and acceleration, places."""
     extremes = [extreme.value for order in (0, 1, 2) for extreme in law.extremes(order)]
     return extremes + [law.value(angle, 0, "after") for angle in (0.3, 2.9)]
 

@@ -31,7 +31,6 @@ def machine(text: str = "", **entries: object) -> lw.Machine:
 
 
 def bands(topped: lw.Machine) -> np.ndarray:
-    """What heads need of an edge that rests across the row."""
     assert topped.topper is not None
     roots = draw_roots(topped.topper)
     d = head_diameter(roots.root_diameter, roots.cut_height)

@@ -40,7 +40,6 @@ chunk = 4
 
 @pytest.fixture
 def study_file(tmp_path: Path) -> Callable[..., Path]:
-    """Writes a study, with pieces of its text exchanged."""
 
     def written(*changes: tuple[str, str], name: str = "study.toml") -> Path:
         text = STUDY

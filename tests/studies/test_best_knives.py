@@ -19,7 +19,6 @@ LIMITS = "[topper.limits]\ncomplete_min = 0.9\nslicing_min = 0.4\nhaulm_max = 0.
 
 
 def searched(folder: Path, *words: str) -> tuple[dict[str, Any], lw.StudyPlan]:
-    """The best knife of the command, and the study that it wrote."""
     file, study = folder / "topper.toml", folder / "study.toml"
     file.write_text(TOPPER + FIELD + LIMITS, encoding="utf-8")
     done = run("topper", "best", str(file), *words, "--study", str(study), "--json")

@@ -14,7 +14,6 @@ FOUND = Path(__file__).parents[1] / "found" / "use"
 
 
 def problems(seed: int) -> LeastCost:
-    """Limits, costs and powers over many orders of magnitude."""
     rng = np.random.default_rng(seed)
     n, m = rng.integers(1, 9), rng.integers(1, 5)
     uses = 10 ** rng.uniform(-3, 2, (m, n)) * (rng.random((m, n)) < 0.8)

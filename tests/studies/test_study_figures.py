@@ -35,7 +35,6 @@ def rows(variables: tuple[str, ...] = VARIABLES) -> StudyRows:
 
 
 def boxes(figure: Figure, texts: list[Any]) -> list[Any]:
-    """Boxes of texts, which are all inside the picture."""
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     found = [text.get_window_extent() for text in texts]

@@ -471,7 +471,6 @@ def test_rows_that_lack_a_response_are_drawn_without_lines() -> None:
 
 
 def _texts(figure: Any) -> list[str]:
-    """All texts of a figure as it is drawn."""
     figure.canvas.draw()
     return [text.get_text() for text in figure.findobj(Text) if text.get_visible() and text.get_text()]
 

@@ -17,7 +17,6 @@ STUDY = {"study.responses.delta": "steady_state.unevenness"}
 
 
 def machine(tmp_path: Path, text: str) -> Path:
-    """Two carts whose first crank has this radius."""
     lines = Path("machines/roller_two_carts.toml").read_text().splitlines()
     lines[lines.index('radius = "0.2 m"')] = f'radius = "{text}"'
     path = tmp_path / "machine.toml"

@@ -52,7 +52,6 @@ class Served(NamedTuple):
         return tab
 
     def door(self, **headers: str | None) -> Tab:
-        """A tab that has not brought its key."""
         given = {"Origin": f"http://{self.host}"} | headers
         others = {name: value for name, value in given.items() if value is not None}
         return Tab(
@@ -79,7 +78,6 @@ class Tab:
         return self.number
 
     def hear(self) -> tuple[int, dict[str, Any]]:
-        """Number and table of the next message; arrays as lists."""
         message = self.socket.recv(timeout=PATIENCE)
         assert isinstance(message, bytes)
         number, length = struct.unpack_from("<II", message)

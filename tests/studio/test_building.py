@@ -20,7 +20,6 @@ PIXEL = 1e-3
 
 
 def built(*kinds: str) -> str:
-    """An empty machine with elements one after another."""
     text = EMPTY
     for kind in kinds:
         text = added(text, kind, 1.0, "")

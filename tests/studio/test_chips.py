@@ -22,7 +22,6 @@ PRESSES = 8
 
 
 def with_buttons(text: str, path: str) -> tuple[lw.Machine, set[str]]:
-    """A machine after every button was pressed, and what still stands in the way."""
     machine = loads(text, path=path)
     for _ in range(PRESSES):
         blocked = [chip for chip in chips(machine) if chip.get("obstacle")]

@@ -60,7 +60,6 @@ def places(node: Any, at: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 def changed(request: dict[str, Any], at: tuple[Any, ...], value: Any) -> dict[str, Any]:
-    """The request with another value at a place."""
     whole = copy.deepcopy(request)
     node: Any = whole
     for key in at[:-1]:
@@ -70,7 +69,6 @@ def changed(request: dict[str, Any], at: tuple[Any, ...], value: Any) -> dict[st
 
 
 def answer_to(tab: Tab, request: dict[str, Any]) -> dict[str, Any]:
-    """What is answered to a request, in the letters of JSON that a page may send."""
     tab.number += 1
     text = json.dumps(request).encode()
     tab.socket.send(struct.pack("<II", tab.number, len(text)) + text)
@@ -171,7 +169,6 @@ def test_a_process_that_is_ended_while_it_begins_does_not_go_on() -> None:
 
 
 def _children() -> set[int]:
-    """Processes of this one that compute beside a tab."""
     found = set()
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():

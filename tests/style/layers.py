@@ -15,7 +15,6 @@ ROOT = Path(__file__).parents[2] / "python" / "linkwright"
 
 @cache
 def files(root: Path = ROOT) -> dict[str, Path]:
-    """Dotted name below the package → file."""
     named = {}
     for path in sorted(root.rglob("*.py")):
         parts = path.relative_to(root).with_suffix("").parts
@@ -65,7 +64,6 @@ def _from(node: ast.ImportFrom, package: tuple[str, ...]) -> Iterator[str]:
 
 
 def edges(root: Path = ROOT) -> dict[str, set[str]]:
-    """File → files that it imports."""
     known = files(root)
     found: dict[str, set[str]] = {}
     for name, path in known.items():

@@ -36,7 +36,6 @@ BORDER = {"border", "py"}
 
 
 def source(room: str) -> Path:
-    """Where the modules of a room lie."""
     crate = CRATES / f"linkwright-{room}" / "src"
     return crate if crate.exists() else CRATES / "linkwright-core" / "src" / room
 
@@ -79,7 +78,6 @@ def _paths(tree: str) -> Iterator[Module]:
 
 
 def _branches(tree: str) -> list[str]:
-    """What stands between the commas of the braces at the start of a text."""
     branches, depth = [""], 0
     for letter in tree:
         depth += (letter == "{") - (letter == "}")
@@ -98,7 +96,6 @@ def _own_modules(text: str) -> set[str]:
 
 
 def _offered(crate: str) -> Module:
-    """Under which name the core offers a crate."""
     room = crate.removeprefix("linkwright_")
     return () if room == "core" else (room,)
 
@@ -151,7 +148,6 @@ def methods_elsewhere(texts: dict[Module, str]) -> dict[str, Module]:
 
 
 def uses(crates: Path) -> dict[Module, set[Module]]:
-    """Of every module the modules that it uses."""
     files, roots = modules(crates), sources(crates)
     texts = {own: code(path) for own, path in files.items()}
     given = methods_elsewhere(texts)
@@ -166,12 +162,10 @@ def uses(crates: Path) -> dict[Module, set[Module]]:
 
 
 def _module_of(name: Module, files: dict[Module, Path]) -> Module:
-    """The innermost module that a path leads to."""
     return max((name[:n] for n in range(len(name) + 1) if name[:n] in files), key=len, default=())
 
 
 def wrong_doors(used: dict[Module, set[Module]]) -> list[str]:
-    """Uses of a room that does not stand below."""
     return [
         f"{'::'.join(own)} uses {'::'.join(target)}"
         for own, targets in sorted(used.items())
@@ -237,7 +231,6 @@ def test_files_that_the_architecture_names_exist() -> None:
 
 
 def _exists(name: str) -> bool:
-    """A file by its room, or by its crate."""
     room, _, rest = name.partition("/")
     crate = CRATES / "linkwright-core"
     return any(

@@ -33,12 +33,10 @@ _LINK = re.compile(r"\]\(([\w/.-]+\.md)?(?:#([\w-]+))?\)")
 
 
 def blocks(page: Path, language: str) -> list[str]:
-    """Fenced blocks of a language, in order."""
     return [text for kind, text in _FENCED.findall(page.read_text(encoding="utf-8")) if kind == language]
 
 
 def tables() -> ModuleType:
-    """The script that writes the tables of the page on the machine file."""
     return docs_script("tables")
 
 
@@ -120,12 +118,10 @@ def test_units_of_the_page_are_read() -> None:
 
 
 def on_github(words: str) -> str:
-    """The anchor that GitHub gives a heading."""
     return re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
 
 
 def on_the_site(words: str) -> str:
-    """The anchor that the table of contents of Python-Markdown gives it."""
     return re.sub(r"[-\s]+", "-", re.sub(r"[^\w\s-]", "", words.lower(), flags=re.ASCII).strip())
 
 
@@ -190,7 +186,6 @@ WRITTEN = {"out/roller_two_carts/report.html", "benches/results.json"}
 
 
 def paths(text: str) -> list[str]:
-    """The paths between backticks, one for each name in braces."""
     named = [
         words
         for words in re.findall(r"`([^`\s]+)`", text)

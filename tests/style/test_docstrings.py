@@ -40,7 +40,6 @@ _SHAPE = re.compile(r"shape \(|\([\w +,]+\)")
 
 
 def modules() -> Iterator[ModuleType]:
-    """All modules of the package but for private ones."""
     for found in pkgutil.walk_packages(lw.__path__, "linkwright."):
         last = found.name.rsplit(".", 1)[-1]
         if not last.startswith("_"):
@@ -56,7 +55,6 @@ def own(module: ModuleType) -> Iterator[tuple[str, Any]]:
 
 
 def callables() -> Iterator[tuple[str, Any]]:
-    """Public functions, classes, and public methods of classes."""
     for module in modules():
         for name, member in own(module):
             yield name, member
@@ -87,12 +85,10 @@ def entries(text: str) -> dict[str, str]:
 
 
 def arguments(function: Callable[..., Any]) -> set[str]:
-    """Names of the parameters, without the object itself."""
     return set(inspect.signature(function).parameters) - {"self", "cls"}
 
 
 def differences(name: str, member: Any) -> list[str]:
-    """Where the section on parameters and the signature differ, both ways."""
     text = section(member.__doc__ or "", "Parameters")
     if text is None:
         return []

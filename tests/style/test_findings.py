@@ -20,7 +20,6 @@ OURS = {
 
 @cache
 def trees() -> tuple[tuple[str, ast.Module], ...]:
-    """Modules in which one of the words that are looked for stands at all."""
     texts = ((path, path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py")))
     return tuple(
         (path.relative_to(SOURCE).as_posix(), ast.parse(text))
@@ -30,7 +29,6 @@ def trees() -> tuple[tuple[str, ast.Module], ...]:
 
 
 def caught(handler: ast.ExceptHandler) -> set[str]:
-    """Names of the types that a handler catches."""
     kinds = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     return {
         each.attr if isinstance(each, ast.Attribute) else getattr(each, "id", "BaseException")

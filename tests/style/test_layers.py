@@ -164,7 +164,6 @@ def imports(path: Path, root: Path = ROOT) -> tuple[tuple[str, ...], ...]:
 
 
 def level(name: tuple[str, ...]) -> int:
-    """How high in the house a module stands."""
     for length in (2, 1):
         if ".".join(name[:length]) in HOUSE:
             return HOUSE[".".join(name[:length])]
@@ -179,7 +178,6 @@ def part(name: tuple[str, ...]) -> str:
 
 
 def is_allowed(own: tuple[str, ...], target: tuple[str, ...]) -> bool:
-    """Whether one module may import another."""
     if target[0] == "_core":
         return any(".".join(own).startswith(each) for each in CORE)
     if level(target) > level(own):

@@ -42,14 +42,12 @@ def words_of_python() -> set[str]:
 
 @cache
 def words_of_core() -> set[str]:
-    """All identifiers of the core, without its comments."""
     texts = (path.read_text(encoding="utf-8") for path in CORE.rglob("*.rs"))
     code = (re.sub(r"//.*", "", text) for text in texts)
     return {word for text in code for word in re.findall(r"\b[A-Za-z_]\w*\b", text)}
 
 
 def missing(page: str) -> list[str]:
-    """Names of the table that the code does not have."""
     wrong = []
     for meaning, words, symbols in rows(page):
         wrong += [f"{meaning}: {word}" for word in _NAME.findall(words) if word not in words_of_python()]

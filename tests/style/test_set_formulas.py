@@ -23,7 +23,6 @@ _INDENTED = re.compile(r"^(?! *[-*\d]).*\n\n {4}\S.*$", re.MULTILINE)
 
 
 def hook() -> ModuleType:
-    """The hook of the pages."""
     return docs_script("formulas")
 
 
@@ -36,7 +35,6 @@ def test_formulas_are_set(page: Path) -> None:
 
 
 def docstrings() -> Iterator[str]:
-    """All texts of the package in which a formula stands."""
     for path in sorted((ROOT / "python" / "linkwright").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and "math:" in node.value:

@@ -44,7 +44,6 @@ LOADS = {
 
 
 def machine(load: str = '{ kind = "gravity" }', slider: str = "") -> lw.Machine:
-    """The slider-crank with a load and further entries of the slider."""
     return lw.loads(MACHINE.format(load=load, slider=slider))
 
 
@@ -135,7 +134,6 @@ radius = 0.2
 
 
 def element(text: str, angle: float = 0.3) -> lw.Kinematics:
-    """The crank with one more element, at one angle."""
     return lw.kinematics(lw.loads(LINKAGE + text), [angle])
 
 

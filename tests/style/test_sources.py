@@ -17,7 +17,6 @@ _OWN = re.compile(r"Derived here|The rest is derived here|Paper [1-5]\b|O\. Reyn
 
 
 def sources() -> Iterator[tuple[str, str]]:
-    """File and words of each source; two in one note are two."""
     for path in sorted((ROOT / "python" / "linkwright").rglob("*.py")):
         for note in _SOURCE.findall(path.read_text(encoding="utf-8")):
             for source in re.split(r"; (?=[A-Z][\w’'-]+,)", " ".join(note.split('"""')[0].split())):
@@ -25,7 +24,6 @@ def sources() -> Iterator[tuple[str, str]]:
 
 
 def missing(named: Iterator[tuple[str, str]], rows: list[str]) -> list[tuple[str, str]]:
-    """Sources whose first two authors stand together in no row."""
     return [
         (file, source)
         for file, source in named
@@ -35,7 +33,6 @@ def missing(named: Iterator[tuple[str, str]], rows: list[str]) -> list[tuple[str
 
 
 def authors(source: str) -> list[str]:
-    """The first two names before the title, without initials."""
     found = _AUTHORS.match(source)
     return re.findall(r"[^\W\da-z_][\w’'-]{2,}", found[0])[:2] if found else [source]
 

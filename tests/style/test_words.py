@@ -60,7 +60,6 @@ ALLOWED = re.compile("|".join(map(expression, _PHRASES)), re.IGNORECASE)
 
 
 def faults(text: str) -> Iterator[str]:
-    """The retired words in a text, with what stands about them."""
     text = ALLOWED.sub(lambda phrase: "·" * len(phrase[0]), text)
     for pattern in RETIRED.values() if ANY_RETIRED.search(text) else ():
         for word in pattern.finditer(text):
@@ -79,7 +78,6 @@ def without_fields(text: str) -> str:
 
 
 def of_python(source: str) -> Iterator[str]:
-    """Docstrings, messages, comments and other texts of a module."""
     yield from in_blocks("".join(next(iter(_COMMENT.findall(line)), "")) for line in source.splitlines())
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         literal = _LITERAL.match(token.string) if token.type == tokenize.STRING else None
@@ -114,24 +112,20 @@ def of_rust(source: str) -> Iterator[str]:
 
 
 def of_template(source: str) -> Iterator[str]:
-    """What a page shows, without scripts, styles and fields."""
     yield re.sub(r"<(script|style).*?</\1>|\{[{%].*?[%}]\}|<[^>]*>", " ", source, flags=re.DOTALL)
 
 
 def of_script(source: str) -> Iterator[str]:
-    """Texts of a script of a page."""
     for literal in re.findall(r"\"[^\"\n]*\"|`[^`]*`", source):
         if not _NO_TEXT.fullmatch(literal):
             yield re.sub(r"\$\{[^}]*\}", "0", literal)
 
 
 def of_page(source: str) -> Iterator[str]:
-    """A page without its code."""
     yield _CODE.sub("·", source)
 
 
 def of_machine(source: str) -> Iterator[str]:
-    """Comments and names of a machine file."""
     yield from re.findall(r"#.*|^(?:name|description) = .*$", source, re.MULTILINE)
 
 
@@ -172,7 +166,6 @@ def test_texts_use_the_words_of_the_field(kind: str) -> None:
 
 
 def quantities() -> Iterator[tuple[str, Label]]:
-    """Name and mark of every quantity that a result declares."""
     for room in pkgutil.walk_packages(lw.__path__, "linkwright."):
         if not room.name.endswith("__main__"):
             importlib.import_module(room.name)

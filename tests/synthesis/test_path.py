@@ -21,7 +21,6 @@ ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
 
 
 def drawn() -> dict[str, tuple[float, ...]]:
-    """Points of the known linkage's path."""
     p = lw.kinematics(KNOWN.machine("known", points={"P": 0.2 + 0.15j}), ANGLES).points["P"].position
     return {"x": tuple(p[:, 0]), "y": tuple(p[:, 1])}
 

@@ -80,7 +80,6 @@ def both(name: str, offset: float = OFFSET) -> Floats:
 
 
 def advance(alpha: float, v: float, v_h: float) -> float:
-    """How fast the edge goes forward, normal to itself, in the worse direction."""
     return v * math.cos(alpha) - v_h * abs(math.sin(alpha))
 
 

@@ -86,7 +86,6 @@ sections = [
 
 @cache
 def knife_of(law: str, stroke: float, speed: float) -> Knife:
-    """The product's knife of a machine that moves it so."""
     numbers = {"rate": math.pi * speed / stroke, "r": stroke / 2, "l3": 1.5 * stroke, "l16": 0.8 * stroke}
     machine = lw.loads(TOPPER + MOTIONS[law].format(speed=speed, stroke=stroke, **numbers))
     assert machine.topper is not None
@@ -132,7 +131,6 @@ class Case:
         return float(self.cover().length_needed[0])
 
     def shares(self, length: float, **more: int) -> np.ndarray:
-        """Left on the right, on the left and between, as shares of the head."""
         found = self.cover(length, **more)
         areas = [found.uncut_right[0], found.uncut_left[0], found.uncut_between[0]]
         return np.array(areas) / (math.pi / 4 * (self.diameter / 1000) ** 2)

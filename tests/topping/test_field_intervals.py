@@ -102,7 +102,6 @@ def test_quantiles_beyond_the_heads_that_can_be_cut() -> None:
 
 
 def covered(entries: dict[str, object], truth: dict[str, float], seeds: int) -> dict[str, float]:
-    """How often intervals of small fields hold the truth."""
     small = machine('[topper.field]\nkind = "random"\n', **entries)
     hits = dict.fromkeys(truth, 0)
     for seed in range(seeds):

@@ -24,12 +24,10 @@ DISC = 2 * np.sqrt(H * (D - H))
 
 
 def cut(*overrides: str, file: str = "topper.toml") -> TopperStudy:
-    """The study of a machine of the library."""
     return topper(lw.read(MACHINES / file, overrides))
 
 
 def segment(r: float, distance: float) -> float:
-    """Area of a disc beyond a line at some distance from its centre."""
     x = np.clip(distance / r, -1, 1)
     return float(r**2 * (np.arccos(x) - x * np.sqrt(1 - x**2)))
 

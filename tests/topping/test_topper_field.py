@@ -35,7 +35,6 @@ SCATTER = (
 
 
 def told(found: TopperField, described: lw.Machine) -> str:
-    """All sentences about a field."""
     assert described.topper is not None
     knife = knives(described, described.topper)[0]
     return "\n".join(

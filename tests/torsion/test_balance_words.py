@@ -28,7 +28,6 @@ exponent = 2
 
 
 def torques(engine: float, driver: float) -> Any:
-    """Mean torques of an engine and of the driver beside it at two speeds."""
     mean = np.array([[engine, engine], [driver, driver]])
     surplus = SimpleNamespace(mean=mean, surplus=mean.sum(axis=0), speeds=np.array([10.0, 20.0]))
     return SimpleNamespace(torques=surplus, referred=SimpleNamespace(speed=np.ones(2)))

@@ -50,7 +50,6 @@ def ranges(
     points: int = 60,
     rated: float = 100,
 ) -> tuple[BarredRange, ...]:
-    """Of the two discs."""
     entries = {"damping": damping, "low": low, "high": high, "points": points, "rated": rated}
     return barred_ranges(lw.loads(TRAIN.format(limit=limit, **entries)))
 
@@ -63,7 +62,6 @@ def stress(speed: float, damping: float = C) -> float:
 
 
 def peak_speed(damping: float) -> float:
-    """Where the closed form is largest."""
     found = minimize_scalar(
         lambda x: -stress(x, damping), bounds=(CRITICAL - 1, CRITICAL + 1), options={"xatol": 1e-9}
     )

@@ -93,7 +93,6 @@ def test_peaks_of_torque_are_the_largest() -> None:
 
 
 def check(seen: Survey) -> int:
-    """Dense speeds against the barred ranges; tells how many ranges there are."""
     ranges = surveyed_ranges(seen)
     lowest, highest = seen.at.torques.speeds[[0, -1]]
     speeds = np.linspace(lowest, highest, SPEEDS)
@@ -118,7 +117,6 @@ def check(seen: Survey) -> int:
 
 
 def _peaks(speeds: Floats, values: Floats, counts: NDArray[np.bool_]) -> Floats:
-    """Speeds of maxima, to a step, where they count."""
     here = (values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:]) & counts[1:-1]
     return speeds[1:-1][here]
 

@@ -17,14 +17,12 @@ OMEGA = np.sqrt(K * (J1 + J2) / (J1 * J2))
 
 
 def two_discs(c: float = 0.0, eta: float = 0.0, **tables: Any) -> lw.Machine:
-    """Two discs on a shaft."""
     shaft = {"between": ["a", "b"], "stiffness": K, "damping": c, "loss_factor": eta}
     train = {"discs": {"a": {"inertia": J1}, "b": {"inertia": J2}}, "shafts": {"s": shaft}}
     return lw.Machine.model_validate({"format": 1, "name": "Two discs", "train": train | tables})
 
 
 def chain(n: int, c: float, excitations: dict[str, Any] | None = None, **tables: Any) -> lw.Machine:
-    """Uneven discs in a row."""
     random = np.random.default_rng(n)
     discs = {f"d{j}": {"inertia": J} for j, J in enumerate(random.uniform(0.5, 2.0, n).tolist())}
     shafts = {

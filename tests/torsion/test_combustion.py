@@ -29,7 +29,6 @@ PROPELLER = {"kind": "propeller", "speed": 200.0}
 
 
 def traces(gas: Combustion, strokes: int = 4) -> tuple[WorkingCycle, ClosedTrace, ClosedTrace]:
-    """The cycle, its closed gas with combustion and without, at each of the speeds."""
     cycle, wanted = gas.operating_points(cylinder(strokes), SPEEDS)
     motored = cycle.motored()
     return cycle, cycle.fired(gas._rule(cycle, wanted), motored), motored
@@ -123,7 +122,6 @@ def test_against_an_integrator(entries: dict[str, Any]) -> None:
 
 
 def integrated(gas: Combustion, cycle: WorkingCycle, motored: np.ndarray, speed: float) -> np.ndarray:
-    """The pressure at the points of the mesh."""
     place, closed, angle = cylinder(), cycle.closed, cycle.closed.mesh.angle
     mR = 2.2e5 * closed.volume_closing / 340.0
     heat = float(gas.heat or 0.0)

@@ -214,7 +214,6 @@ def test_more_holes_than_metal_are_told() -> None:
 
 @st.composite
 def stars(draw: st.DrawFn) -> tuple[tuple[float, float], ...]:
-    """Polygons around a point, either way round."""
     n = draw(st.integers(3, 9))
     radii = [draw(st.floats(0.1, 1.0)) for _ in range(n)]
     x, y = draw(st.floats(-50, 50)), draw(st.floats(-50, 50))

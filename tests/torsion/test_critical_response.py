@@ -139,7 +139,6 @@ def chain(seed: int) -> lw.Machine:
 def maxima(
     machine: lw.Machine, order: float, shaft: str, low: float, high: float
 ) -> list[tuple[float, float]]:
-    """Speeds and heights of the maxima that close speeds show, refined."""
     speeds = np.linspace(low, high, 6001)
     torque = torques(machine, order, shaft, speeds)
     inside = 1 + np.flatnonzero((torque[1:-1] > torque[:-2]) & (torque[1:-1] >= torque[2:]))

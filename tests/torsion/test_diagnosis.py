@@ -25,25 +25,21 @@ NOISE = 2e-4
 
 
 def healthy(**entries: object) -> ExcitedTrain:
-    """The train at the speed of the measurement."""
     return excited_train(firing.engine(**entries), np.array([SPEED]))  # type: ignore[arg-type]
 
 
 def speed_of(factors: list[float], disc: str, **entries: object) -> Complexes:
-    """Harmonics of the speed of an engine whose file has these factors."""
     found = forced_vibration(firing.engine(factors, **entries), np.array([SPEED]))  # type: ignore[arg-type]
     theta = found.amplitudes[:, found.discs.index(disc), 0]
     return 1j * found.orders * SPEED * theta
 
 
 def seen(disc: str = "flywheel", noise: float | None = NOISE, factors: list[float] = WEAK) -> MeasuredSpeed:
-    """Its measurement, without noise in it."""
     spread = None if noise is None else np.full(len(firing.ORDERS), noise)
     return MeasuredSpeed(disc, firing.ORDERS, speed_of(factors, disc), spread)
 
 
 def noisy(measured: MeasuredSpeed, generator: np.random.Generator, noise: float = NOISE) -> MeasuredSpeed:
-    """The same with noise."""
     more = generator.normal(0, noise, (2, len(measured.orders)))
     return MeasuredSpeed(
         measured.disc, measured.orders, measured.harmonics + more[0] + 1j * more[1], measured.noise
@@ -203,7 +199,6 @@ def test_factors_over_their_mean_tell_the_load_apart() -> None:
 
 
 def wrong(at: ExcitedTrain, each: Complexes, measured: MeasuredSpeed, **entries: object) -> Diagnosis:
-    """A diagnosis that cannot be made."""
     return diagnosis(at, each, measured, **entries)  # type: ignore[arg-type]
 
 

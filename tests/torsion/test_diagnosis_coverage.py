@@ -69,7 +69,6 @@ def engine(coupling: str) -> EngineSpeed:
 
 
 def state(defect: str) -> np.ndarray:
-    """All cylinders, of which the third is off."""
     values = np.zeros(24)
     values[[2, 10, 18]] = DEFECTS[defect]
     return values
@@ -78,7 +77,6 @@ def state(defect: str) -> np.ndarray:
 def measured(
     coupling: str, defect: str, noise: np.ndarray | None = None, *, is_known: bool = True
 ) -> MeasuredSpeed:
-    """Its speed, with some noise."""
     orders, found = engine(coupling).harmonics(state(defect)[:, None])
     speed = found[0] if noise is None else found[0] + noise[0] + 1j * noise[1]
     return MeasuredSpeed("flywheel", orders, speed, np.full(len(orders), NOISE) if is_known else None)
@@ -100,7 +98,6 @@ def test_diagnosis_is_exact_without_noise(coupling: str, defect: str) -> None:
 
 @cache
 def repeated(is_known: bool) -> list[tuple[str, Diagnosis]]:
-    """What is wrong, and what is said of it, in many noisy repetitions."""
     generator = np.random.default_rng(11)
     found = []
     for coupling in COUPLED:

@@ -28,7 +28,6 @@ def v12() -> lw.Machine:
 
 
 def with_factors(machine: lw.Machine, factors: dict[str, float]) -> lw.Machine:
-    """The same engine with weak cylinders."""
     assert machine.train is not None
     assert machine.train.engine is not None
     engine = machine.train.engine.model_copy(update={"factors": factors})
@@ -36,7 +35,6 @@ def with_factors(machine: lw.Machine, factors: dict[str, float]) -> lw.Machine:
 
 
 def measured(machine: lw.Machine, disc: str, seed: int | None = None) -> MeasuredSpeed:
-    """What a perfect pick-up would tell of it, or one with noise."""
     found = forced_vibration(machine, np.array([SPEED]))
     speed = 1j * found.orders * SPEED * found.amplitudes[:, found.discs.index(disc), 0]
     if seed is not None:

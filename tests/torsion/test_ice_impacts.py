@@ -22,7 +22,6 @@ ONE = {"kind": "ice_impacts", "on": "propeller", "blades": 4, "impacts": 1, "amp
 
 
 def met(*ice: dict[str, Any], speed: float = SPEED, motor: float = 1e12, **more: Any) -> TorsionTransient:
-    """Two discs, of which the second is a propeller that meets ice."""
     text = f"""
         format = 1
         name = "Line"

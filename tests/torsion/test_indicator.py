@@ -32,7 +32,6 @@ def torque(gas: Any, speeds: np.ndarray = SPEEDS) -> GasTorque:
 
 
 def off(found: np.ndarray, wanted: np.ndarray) -> float:
-    """Largest difference of harmonics as a share of the largest."""
     return float(np.abs(found - wanted).max() / np.abs(wanted).max())
 
 
@@ -153,7 +152,6 @@ def sound() -> dict[str, Any]:
 
 
 def without(first: int, last: int) -> dict[str, Any]:
-    """The diagram without some of its points."""
     entries = sound()
     return entries | {key: entries[key][:first] + entries[key][last:] for key in ("angle", "pressure")}
 

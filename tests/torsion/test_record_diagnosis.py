@@ -21,7 +21,6 @@ WAVES = np.array([1 - 2j, 0.5j, 3.0])
 
 
 def wave(angle: np.ndarray) -> np.ndarray:
-    """A speed with three orders."""
     return SPEED + (np.exp(1j * np.outer(angle, ORDERS)) @ WAVES).real
 
 

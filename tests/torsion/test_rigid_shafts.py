@@ -38,7 +38,6 @@ speed = 50
 
 
 def vibration(k: float) -> tuple[ForcedVibration, ExcitedTrain]:
-    """Its vibration, and what it is under."""
     at = excited_train(lw.loads(TRAIN.format(k=k, third=k / 3)), SPEEDS)
     return responded(at), at
 

@@ -54,7 +54,6 @@ def one() -> tuple[Floats, Floats, Floats]:
 
 
 def as_one(duration: float) -> tuple[Floats, Floats, Floats]:
-    """The same over a time."""
     train = chain(
         [J[0], J[1] + J[2]], [K], damping=[C], ground=[GROUND[0], sum(GROUND[1:])], torques=raised_cosine()
     )
@@ -90,7 +89,6 @@ SHORT = 0.05
 
 
 def off_one(found: TorsionTransient) -> float:
-    """Largest error of the rigid shaft's torque, as a share of its largest."""
     rigid = as_one(SHORT)[1]
     return float(np.abs(found.torque[1] - rigid).max() / np.abs(rigid).max())
 

@@ -29,7 +29,6 @@ SMALL_END = sum(m * (a - LENGTH) ** 2 for m, a in POINTS)
 
 
 def rod(**entries: Any) -> Rod:
-    """The rod of the three masses, told in one of the ways."""
     return Rod(length=LENGTH, mass=MASS, **entries)
 
 
@@ -52,7 +51,6 @@ def swings_per_minute(pivot: float, gravity: float = 9.81) -> float:
 
 
 def faults(error: pytest.ExceptionInfo[ValidationError]) -> list[tuple[str, str]]:
-    """Key and text of each fault."""
     return [(".".join(map(str, each["loc"])), each["msg"]) for each in error.value.errors()]
 
 

@@ -50,7 +50,6 @@ def throw(
 
 @st.composite
 def throws(draw: st.DrawFn) -> CrankThrow:
-    """Throws of usual and of odd proportions."""
     number = st.floats(0.2, 1.0)
     size = draw(st.floats(0.01, 1.0))
     d_1, d_2 = (size * draw(st.floats(0.5, 1.5)) for _ in range(2))

@@ -26,7 +26,6 @@ Shaft = tuple[str, str, float, float, float]
 
 
 def machine(discs: Mapping[str, tuple[float, float]], shafts: Sequence[Shaft], **tables: Any) -> lw.Machine:
-    """Discs with inertia and damping; shafts."""
     train = {
         "discs": {name: {"inertia": J, "damping": c} for name, (J, c) in discs.items()},
         "shafts": {
@@ -172,7 +171,6 @@ def test_laws_on_any_train(case: tuple[dict[str, tuple[float, float]], list[Shaf
 
 
 def _ground_damps(discs: Mapping[str, tuple[float, float]], shafts: Sequence[Shaft]) -> list[bool]:
-    """Whether the ground damps a train that is free."""
     free = not any("ground" in shaft[:2] for shaft in shafts)
     return [free and any(c > 0 for _, c in discs.values())]
 
@@ -310,7 +308,6 @@ def damped_at(
     loads: Mapping[str, Any],
     speed: float,
 ) -> DampedVibration:
-    """With a coupling and loads, at a speed."""
     return lw.damped_vibration(machine(discs, [], couplings={"k": coupling}, loads=loads), speed=speed)
 
 

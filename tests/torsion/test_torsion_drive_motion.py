@@ -42,7 +42,6 @@ SHAFT = "[drive.motor_shaft]\nstiffness = {k}\ndamping = {c}\n"
 
 
 def manoeuvre(**entries: object) -> TrainTransient:
-    """A manoeuvre as of a file."""
     return TrainTransient.model_validate(entries)
 
 

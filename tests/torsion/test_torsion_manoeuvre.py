@@ -44,17 +44,14 @@ def v12(entries: str = "") -> Machine:
 
 
 def event(kind: str, entries: str) -> str:
-    """A manoeuvre of one second with an event."""
     return f'duration = 1\nevents = [{{ kind = "{kind}", {entries} }}]'
 
 
 def motor(on: str, entries: str) -> str:
-    """A manoeuvre of one second with a motor."""
     return f'duration = 1\nmotors = {{ m = {{ on = "{on}", motor = {{ {entries} }} }} }}'
 
 
 def manoeuvre(**entries: object) -> TrainTransient:
-    """A manoeuvre as of a file."""
     return TrainTransient.model_validate(entries)
 
 
@@ -231,7 +228,6 @@ speed_breakdown = "1380 rpm"
 
 
 def conveyor(balance: str = "", permitted: str = "5000") -> Machine:
-    """The conveyor with another balance or limit."""
     return lw.loads(CONVEYOR.replace("BALANCE", balance).replace("PERMITTED", permitted))
 
 

@@ -39,7 +39,6 @@ TUBE = "sections = [{ length = 1, diameter = 0.06, inner_diameter = 0.03 }]"
 
 
 def stress(shaft: str, damping: float = 0.0) -> ShaftStress:
-    """Of the only shaft."""
     return shaft_stress(lw.loads(TRAIN.format(shaft=shaft, damping=damping)))
 
 

@@ -35,7 +35,6 @@ def chain(
     inertias: Sequence[VariableInertia] = (),
     torques: Sequence[TrainTorque] = (),
 ) -> MovingTrain:
-    """Discs in a row, each a mass of its own."""
     n = len(inertia)
     place = np.arange(n, dtype=np.int32)
     return MovingTrain(
@@ -56,7 +55,6 @@ def chain(
 
 
 def sine(on: int, size: float, omega: float) -> TrainTorque:
-    """A sine over time, from the start on."""
     return TrainTorque("sine", on, size, DecayingTorque(0.0, np.inf, 0.0, omega))
 
 
@@ -100,7 +98,6 @@ def test_free_spin_of_throws_keeps_its_energy(method: str) -> None:
 
 
 def vars_of(train: MovingTrain) -> dict[str, object]:
-    """Entries of a train."""
     return {name: getattr(train, name) for name in MovingTrain.__dataclass_fields__}
 
 
@@ -254,7 +251,6 @@ def test_two_phase_short_circuit_from_flux_linkages() -> None:
 
 
 def over_time(torques: Sequence[TrainTorque], t: Floats) -> Floats:
-    """Torque on the second of two discs over time, as the core has it."""
     train = chain([1.0, 1.0], [1.0], torques=torques)
     return np.array([train.net_torques(at, np.zeros((1, 2)), np.zeros(2)).torque[0, 1] for at in t.tolist()])
 

@@ -70,7 +70,6 @@ SOUND = {
 
 
 def machine(**changes: str) -> lw.Machine:
-    """The train with other limits."""
     text = TRAIN
     for key, value in (SOUND | changes).items():
         text = text.replace(key, value)
@@ -78,13 +77,11 @@ def machine(**changes: str) -> lw.Machine:
 
 
 def curves(subject: lw.Machine, speeds: np.ndarray | None = None) -> dict[tuple[str, str], Criterion]:
-    """All that limits ask for, by part and what."""
     at = excited_train(subject, speeds)
     return {(each.part, each.what): each for each in criteria(subject, at, torsion_response(at))}
 
 
 def row(found: Verdict, part: str, what: str) -> Judgement:
-    """One judgement."""
     (one,) = [each for each in found.judgements if (each.part, each.what) == (part, what)]
     return one
 

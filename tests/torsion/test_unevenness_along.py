@@ -19,7 +19,6 @@ STIFF = {"stiffness": 1e12, "coupling": 1e12}
 
 
 def along(machine: lw.Machine, angles: dict[str, float], speed: float, turns: int = 2) -> UnevennessAlong:
-    """N at a speed."""
     at = excited_train(machine, np.array([speed]))
     return unevenness_along(at, responded(at), angles, turns, speed)
 
