@@ -15,7 +15,7 @@ from linkwright.kernel.errors import InputError
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import BLUE, RED, SMALL, legend_above, panels, styled
 from linkwright.kernel.figure.svg import svg
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.reader.numbers import number
 from linkwright.torsion.page import torsion_content
 from linkwright.torsion.study import torsion_study
 

@@ -16,8 +16,8 @@ from command_line import invoke
 from linkwright.app.commands.check import summary
 from linkwright.app.report.page import report_html
 from linkwright.app.study import Study, study
-from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.table import Table, curves_csv
+from linkwright.kernel.reader.numbers import number
 from linkwright.machine.read import read
 from linkwright.machine.table import machine_parts
 from linkwright.topping.tables.topper import edge_csv

@@ -22,7 +22,7 @@ from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED, TI
 from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
     from linkwright.linkages.law import Law
     from linkwright.linkages.motion import Motion
     from linkwright.linkages.pose import Pose
@@ -116,8 +116,8 @@ def _pose(
     machine: Machine, phi: float, speed: CrankSpeed, acceleration: float, zero: Zero, *, json: bool, csv: bool
 ) -> str:
     """One pose as a table, CSV or JSON."""
-    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
+    from linkwright.kernel.reader.numbers import number
     from linkwright.linkages.pose import pose
 
     placed = pose(machine, phi, speed=speed.value, acceleration=acceleration)
@@ -169,8 +169,8 @@ def _worded(machine: Machine, zero: Zero) -> list[str]:
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
     """One pose as a report shows it."""
-    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import number
 
     heads = ("name", "quantity", "position", "velocity", "acceleration")
     cells = [(name, what, *(number(x) for x in numbers)) for name, what, numbers in rows]
@@ -187,7 +187,7 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
 def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str, str, tuple[float, ...]]:
     """A row in the units that the reader wants; the label says those of all columns where they differ."""
     # `angle`: usual unit of angles; empty for that of the result.
-    from linkwright.kernel.page.out_units import reader
+    from linkwright.kernel.reader.out_units import reader
 
     name, what, numbers = row
     si = "rad" if what.endswith("[rad]") else "m"
@@ -252,7 +252,7 @@ def _under_law(machine: Machine, law: str, end: float, steps: int, *, json: bool
     """The motion under a law of the crank."""
     import numpy as np
 
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
 
     driver, start = _law(law), 0.0
     if hasattr(driver, "times"):
@@ -314,9 +314,9 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 
 def _table(followed: Motion) -> str:
     """Positions alone, for people; everything is in the CSV."""
-    from linkwright.kernel.page.numbers import number
-    from linkwright.kernel.page.out_units import OutUnits, reader, reading, shown_columns
     from linkwright.kernel.page.table import head
+    from linkwright.kernel.reader.numbers import number
+    from linkwright.kernel.reader.out_units import OutUnits, reader, reading, shown_columns
 
     # Angles are in degrees for people, unless they want another unit.
     with reading(reader().over(OutUnits.of("deg"))):

@@ -343,7 +343,7 @@ def _table_of_flywheel(flywheel: FlywheelChoice) -> list[Table]:
 
 def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
     """What is needed and what was chosen."""
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     need = motor.required
     power, speed = quantity(need.power, "W", usual="kW"), quantity(need.speed, "rad/s")
@@ -364,7 +364,7 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
 
 def _deciding(motor: MotorChoice) -> list[str]:
     """Which check makes the motor as large as it is, and which ones do not decide and are not passed."""
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     lines = []
     if decided := motor.decided_by:
@@ -382,8 +382,8 @@ def _deciding(motor: MotorChoice) -> list[str]:
 
 def _tables_of_choice(motor: MotorChoice) -> list[Table]:
     """The checks of the motors, and the motors considered."""
-    from linkwright.kernel.page.numbers import measured, quantity
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import measured, quantity
 
     tables = [_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
     if chosen := motor.chosen:
@@ -406,8 +406,8 @@ def _tables_of_choice(motor: MotorChoice) -> list[Table]:
 
 def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
     """A row for each check."""
-    from linkwright.kernel.page.numbers import measured
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import measured
 
     words = {True: "passes", False: "fails", None: "not known"}
     rows: list[Row] = [
@@ -457,7 +457,7 @@ def _verdict(candidate: Candidate, motor: MotorChoice) -> str:
 
 def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
     """What flywheel, what it gives, what the classical estimate would have been."""
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     if flywheel.kept:
         return [
@@ -575,7 +575,7 @@ def _tables(motors: list[CatalogueMotor]) -> list[Table]:
 
 def _row(motor: CatalogueMotor) -> Row:
     """A motor in the units of catalogues: kW, rpm, torques over the rated one."""
-    from linkwright.kernel.page.numbers import measured, number, quantity
+    from linkwright.kernel.reader.numbers import measured, number, quantity
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""

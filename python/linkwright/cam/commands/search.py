@@ -186,8 +186,8 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
 
 def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:
     """The smallest cams."""
-    from linkwright.kernel.page.numbers import quantity
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import quantity
 
     units = {"face_tilt": ("rad", "deg"), "lift_factor": ("", "")}
     rows = []
