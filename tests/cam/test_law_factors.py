@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from linkwright.cam.law_factors import cam_laws, law_factors
+from linkwright import cam_laws, law_factors
 from linkwright.cam.laws.boundary import Boundary
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid

@@ -8,6 +8,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from linkwright import LawError
 from linkwright.cam.laws.boundary import Boundary, is_symmetric
 from linkwright.cam.laws.catalogue import LAWS
 from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
@@ -16,7 +17,6 @@ from linkwright.cam.laws.ramps import RAMPS, ramp_of, s_curve, start_and_stop, t
 from linkwright.cam.model.motion_law import CombinedLaw, PlainLaw
 from linkwright.cam.model.motion_section import AnyLaw
 from linkwright.kernel.description.schema_walk import kinds_of
-from linkwright.kernel.errors import LawError
 
 Z = np.linspace(0.0, 1.0, 101)
 # Rounding of a sum of ten terms of the size of the law.

@@ -12,9 +12,9 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
+from linkwright import linkage
 from linkwright.kernel.reader.numbers import degrees, measured, quantity
 from linkwright.kernel.reader.out_units import OutUnits, reading
-from linkwright.linkages.cycle import linkage
 
 WIDE = {"COLUMNS": "300"}
 

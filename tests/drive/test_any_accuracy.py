@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError
+from linkwright import ConvergenceError
 
 # A shaper with a limited motor: from the balance Newton's method finds the motion on some meshes alone.
 SHAPER = """

@@ -9,9 +9,8 @@ import pytest
 from random_drives import random_drive
 
 import linkwright as lw
+from linkwright import InputError, LinkwrightError, Machine
 from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.machine.machine import Machine
 
 MACHINES = sorted(Path("machines").glob("*.toml"))
 

@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 from sizes import cases
 
 import linkwright as lw
+from linkwright import LinkwrightError
 from linkwright.drive.run_up import accurate_run_up
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.machine.program.compiled import compile_machine
 
 # What rows promise; of peaks of acceleration a digit less.

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import InputError, MachineFileError, ShapeError
 from linkwright.drive.model.motor import DcMotor
-from linkwright.kernel.errors import InputError, MachineFileError, ShapeError
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.torsion.core.torque import motor_curve
 

@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright import FindingError, SteadyStateError
 from linkwright.kernel.description.formula import parse, program, terms
-from linkwright.kernel.errors import FindingError, SteadyStateError
 from linkwright.machine.write import dumps
 
 MACHINE = """

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
+from linkwright import SteadyStateError
 from linkwright.machine.program.core import Status
 
 FILE = """format = 1

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
+from linkwright import FindingError
 
 Array = NDArray[np.float64]
 

@@ -16,8 +16,7 @@ from command_line import invoke
 from samples.sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
-from linkwright.machine.machine import Machine
+from linkwright import Machine, SteadyStateError
 
 FOUND = Path(__file__).parents[1] / "found"
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
+from linkwright import MachineFileError
 from linkwright.kernel.description.place import former_keys
-from linkwright.kernel.errors import MachineFileError
 from linkwright.machine.write import dumps
 from linkwright.studies.model import Distribution
 from linkwright.topping.model.scatter import NormalScatter, UniformScatter

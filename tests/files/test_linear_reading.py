@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from linkwright import LinkwrightError
 from linkwright.kernel.description.formula import FormulaError
 from linkwright.kernel.description.formula import parse as formula
 from linkwright.kernel.description.place import split
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.files.points import columns_of
 from linkwright.kernel.files.text_file import deep_line, long_number_line
 from linkwright.kernel.units.kinds import LENGTH

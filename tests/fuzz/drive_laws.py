@@ -15,10 +15,10 @@ from scipy.integrate import solve_ivp
 from steady_laws import rounding, violations
 
 import linkwright as lw
+from linkwright import FindingError, InputError, SteadyStateError
 from linkwright.drive.batch import SteadyStates
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import End
-from linkwright.kernel.errors import FindingError, InputError, SteadyStateError
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 Floats = NDArray[np.float64]

@@ -16,8 +16,7 @@ from broken import deadline
 from numpy.random import Generator
 from texts import _machine_of, machine_files
 
-from linkwright import _core
-from linkwright.kernel.errors import InternalError, LinkwrightError
+from linkwright import InternalError, LinkwrightError, _core
 from linkwright.machine.program.compiled import compile_machine
 
 # Integers that are wrong in most places: just outside, far outside, what no index can be.

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from linkwright import Machine
 from linkwright.drive.steady_state import SteadyState
-from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import SteadyMotion
 

@@ -26,9 +26,9 @@ from random_parts import log_uniform
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright import FindingError, MachineError
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
-from linkwright.kernel.errors import FindingError, MachineError
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import pytest
 from broken import PromiseError, watched
 from numpy.random import Generator
 
-from linkwright.kernel.errors import AssemblyError
+from linkwright import AssemblyError
 
 pytest.importorskip("resource", reason="limits of Unix")
 import deep

@@ -10,8 +10,7 @@ from sizes import cases
 from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright import _core
-from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright import FindingError, LinkwrightError, _core
 from linkwright.machine.address import exchanged
 
 pytestmark = pytest.mark.skipif(

@@ -9,7 +9,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.machine.machine import Machine
+from linkwright import Machine
 from linkwright.machine.write import dumps
 
 VALVE = "examples/cam_oscillating_valve/machine.toml"

@@ -18,11 +18,9 @@ from sizes import cases
 from steady_laws import violations
 
 import linkwright as lw
-from linkwright.drive.steady_state import SteadyState, steady_state
-from linkwright.kernel.errors import FindingError
-from linkwright.machine.machine import Machine
+from linkwright import FindingError, Machine, read, steady_state
+from linkwright.drive.steady_state import SteadyState
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.read import read
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from random_drives import random_drive
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright import FindingError, LinkwrightError
 from linkwright.linkages.gradient import linkage_tangents
 from linkwright.machine.address import exchanged
 

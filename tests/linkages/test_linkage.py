@@ -11,13 +11,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError
+from linkwright import AssemblyError, InputError, MachineError, ShapeError, closure, kinematics
 from linkwright.kernel.numerics.zeros import minima, zeros
 from linkwright.linkages.circuits import Branch, _slots
-from linkwright.linkages.closure import closure, limiter_at
+from linkwright.linkages.closure import limiter_at
 from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars
-from linkwright.linkages.kinematics import kinematics
 from linkwright.linkages.tables import loop_tables
 from linkwright.machine.program.compiled import compile_machine
 

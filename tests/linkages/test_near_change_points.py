@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError
+from linkwright import AssemblyError
 from linkwright.linkages.dyads import dyads_of
 from linkwright.machine.program.compiled import compile_machine
 

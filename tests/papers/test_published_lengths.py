@@ -8,16 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.machine.read import loads
-from linkwright.papers.published_lengths import (
-    PAPER,
-    WAYS,
-    Claim,
-    Stroke,
-    bands_of,
-    length_verdict,
-    lengths_over,
-)
+from linkwright import length_verdict, loads
+from linkwright.papers.published_lengths import PAPER, WAYS, Claim, Stroke, bands_of, lengths_over
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.knife import Knife, knives

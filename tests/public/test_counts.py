@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright import _core
-from linkwright.kernel.errors import InputError, InternalError
+from linkwright import InputError, InternalError, _core
 from linkwright.machine.program.compiled import compile_machine
 
 

@@ -14,7 +14,7 @@ import pytest
 from tests.public.test_misuse import WRONG, right_calls
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright import InputError, LinkwrightError
 from linkwright.kernel.result import PlainRecord
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis, record_diagnosis
 

@@ -19,8 +19,8 @@ import pytest
 from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
+from linkwright import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
 from linkwright.kernel.public.arguments import checks_of
 from linkwright.machine.write import dumps as lw_dumps
 from linkwright.papers.published_lengths import PAPER

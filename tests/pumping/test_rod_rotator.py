@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright import AssemblyError, InputError, rod_rotator
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.pumping.model.rod_rotator import diagonal_extremes
 from linkwright.pumping.model.rotator_lengths import lengths
-from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
+from linkwright.pumping.rod_rotator import RodRotatorMotion
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
 INTERMITTENT = lw.read("machines/rod_rotator_intermittent.toml")

@@ -24,9 +24,9 @@ from random_parts import log_uniform, random_train
 from sizes import cases
 
 import linkwright as lw
+from linkwright import FindingError, LinkwrightError
 from linkwright.cam.dynamics.loaded import cam_force
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import FindingError, LinkwrightError
 from linkwright.machine.address import exchanged, is_given
 
 # Shares of entries over which they are varied: shorter ones do not reach a kink or a tie of two extremes

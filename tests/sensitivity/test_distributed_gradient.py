@@ -14,7 +14,7 @@ from sizes import cases
 from trains import mode_numbers
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
+from linkwright import FindingError
 from linkwright.machine.address import exchanged
 
 # Shares of an entry by which it is varied: between two extremes that nearly tie, or over a number of stations

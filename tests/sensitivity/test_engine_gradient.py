@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.numerics.differences import slopes
 from linkwright.machine.address import exchanged
 

@@ -8,8 +8,8 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
+from linkwright import FindingError, InputError, LinkwrightError
 from linkwright.drive.gradient import gradient_along, solved_along
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
 from linkwright.machine.address import exchanged
 from linkwright.machine.program.compiled import Translation, compile_machine
 from linkwright.machine.tangents import directions

@@ -10,9 +10,8 @@ from sizes import cases
 from test_random_machines import Measure, difference
 
 import linkwright as lw
+from linkwright import LinkwrightError, steady_state
 from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.machine.address import exchanged
 
 # A crank with a DC motor on its shaft against constant friction: the speed is ω₀ (1 − exp(−t/τ)) with

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import InputError
 from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.kernel.errors import InputError
 from linkwright.machine.address import exchanged
 
 MACHINE = """

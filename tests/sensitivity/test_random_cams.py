@@ -12,8 +12,8 @@ from random_parts import log_uniform
 from sizes import cases
 
 import linkwright as lw
+from linkwright import LinkwrightError
 from linkwright.cam.gradient import cam_tangents
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.machine.address import exchanged
 
 # Share of an entry by which it is varied: rounding leaves 1e-13 of a result over it, the extrapolated

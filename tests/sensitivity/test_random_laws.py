@@ -18,7 +18,7 @@ from test_all_kinds import Case, _as_listed, _steady_of, compared
 from test_random_cams import _ways
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 
 
 def _shaft(random: Generator) -> Case:

@@ -15,7 +15,7 @@ from random_parts import random_train
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 from linkwright.kinetostatics.result import Forces
 from linkwright.machine.address import exchanged
 

@@ -10,7 +10,7 @@ from differences import sixth_order
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source
 

@@ -10,7 +10,7 @@ from differences import sixth_order
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
+from linkwright import FindingError, InputError, LinkwrightError
 from linkwright.machine.address import exchanged
 from linkwright.pumping.model.rod_rotator import diagonal_extremes
 from linkwright.pumping.rotator_gradient import RotatorAlong

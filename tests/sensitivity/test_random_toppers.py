@@ -10,8 +10,8 @@ from differences import sixth_order
 from sizes import cases
 
 import linkwright as lw
+from linkwright import FindingError, LinkwrightError
 from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import FindingError, LinkwrightError
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.address import exchanged
 from linkwright.sensitivity.sources import source

@@ -7,7 +7,7 @@ import pytest
 from trains import mode_numbers
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.machine.address import exchanged
 
 GEARED = "examples/geared_train_frequencies/machine.toml"

@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes
 

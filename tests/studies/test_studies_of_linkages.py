@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 from linkwright.studies.plan import StudyPlan
 from linkwright.studies.slopes import slopes as slopes_at
 

@@ -20,7 +20,7 @@ from command_line import invoke
 from matplotlib.text import Text
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.files.points import place_of
 from linkwright.studies.choices import choice_names
 from linkwright.studies.commands.sweep import shown_of

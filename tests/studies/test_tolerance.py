@@ -13,8 +13,8 @@ from command_line import invoke
 from scipy.stats import norm
 
 import linkwright as lw
+from linkwright import InputError
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
 from linkwright.studies.axes import axis
 from linkwright.studies.indices import intervals, of_blocks
 from linkwright.studies.model import Distribution, Variable

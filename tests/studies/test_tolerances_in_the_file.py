@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
 from linkwright.machine.tolerances import tolerance_names
 from linkwright.machine.write import dumps
 from linkwright.studies.plan import with_tolerances

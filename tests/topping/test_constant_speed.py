@@ -21,7 +21,7 @@ from knife_sweep import (
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
-from linkwright.machine.machine import Machine
+from linkwright import Machine
 from linkwright.topping.edge import Edge
 from linkwright.topping.knife import knives
 from linkwright.topping.model.topper import Topper

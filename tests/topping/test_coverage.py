@@ -32,7 +32,7 @@ from knife_sweep import (
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.numerics.zeros import zero
 from linkwright.topping.coverage import COARSE, Coverage, coverage
 from linkwright.topping.edge import Edge

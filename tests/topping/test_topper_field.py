@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from topper_fields import TOPPER, machine
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright import InputError, MachineError, topper_field
 from linkwright.kernel.files.library import template
 from linkwright.machine.write import dumps
 from linkwright.topping import coverage as passes
 from linkwright.topping.cautions import field_cautions, field_findings
 from linkwright.topping.coverage import pass_over
 from linkwright.topping.edge import edges_of
-from linkwright.topping.field import TopperField, topper_field
+from linkwright.topping.field import TopperField
 from linkwright.topping.knife import knives
 from linkwright.topping.model.field import RandomField
 from linkwright.topping.required_length import constant_speed_lengths

@@ -12,7 +12,7 @@ from cylinders import BORE, cylinder, diesel, told
 from scipy.integrate import cumulative_simpson, quad, solve_ivp
 from scipy.interpolate import CubicSpline
 
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright import InputError, MachineError
 from linkwright.torsion.model.engine import combustion, cycle_pressure
 from linkwright.torsion.model.engine.closed_cycle import GAS_CONSTANT, STOICHIOMETRIC, ClosedTrace, heat_ratio
 from linkwright.torsion.model.engine.combustion import Combustion

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError
 from linkwright.torsion.model.engine.crank_concentration import (
     ThrowRatios,
     bore_bending,

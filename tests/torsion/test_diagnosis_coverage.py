@@ -15,7 +15,7 @@ import pytest
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError
+from linkwright import ConvergenceError
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import fitted
 from linkwright.torsion.diagnosis.engine_speed import EngineSpeed

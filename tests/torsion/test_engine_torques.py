@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError, forced_vibration, torsion_study
 from linkwright.torsion.excitation.engine_torques import cylinder_torques, engine_sources
 from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.limits.survey import between
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, reduced_throw
-from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.study import torsion_study
 
 DEG = math.pi / 180
 ROD = {"length": 0.32, "mass": 5.0, "distribution": 0.3}

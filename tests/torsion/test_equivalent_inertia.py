@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, ConvergenceError
+from linkwright import AssemblyError, ConvergenceError
 from linkwright.torsion.model.engine import equivalent_inertia as published
 from linkwright.torsion.model.engine.equivalent_inertia import central_mean_inertia, mean_inertia
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod

@@ -9,7 +9,7 @@ import pytest
 from cylinders import BORE, CRANK, ROD, crank_position, cylinder, diesel
 from scipy.integrate import quad
 
-from linkwright.kernel.errors import MachineError, ShapeError
+from linkwright import MachineError, ShapeError
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
 from linkwright.torsion.model.engine.cylinder import Cylinder, gas_torque, torque_orders
 

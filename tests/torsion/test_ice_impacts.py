@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
 from linkwright.torsion.in_time.ice_impacts import _SAMPLES, pulses
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.model.ice_impacts import IceImpacts, IcePropeller

@@ -13,8 +13,8 @@ from cylinders import cylinder, diesel, measured, told
 from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
+from linkwright import MachineError
 from linkwright.kernel.description.problems import WholeDescription
-from linkwright.kernel.errors import MachineError
 from linkwright.machine.read import read_as
 from linkwright.torsion.model.engine.cycle_pressure import periodic_cubic
 from linkwright.torsion.model.engine.cylinder import GasTorque, gas_torque

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.excitation.harmonics import orders_together, span
 from linkwright.torsion.modes.holzer import holzer_frequency

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from test_torsion_transient import chain
 
-from linkwright.kernel.errors import ConvergenceError
+from linkwright import ConvergenceError
 from linkwright.torsion.core.torque import DecayingTorque, TrainTorque
 from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.torsion.model.engine import pendulum
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 

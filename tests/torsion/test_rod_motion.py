@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 from sizes import cases
 
-from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright import AssemblyError, InputError
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 from linkwright.torsion.model.engine.rod_motion import slider_crank
 from linkwright.torsion.model.engine.running_gear import RunningGear, dead_centres, throw_motion

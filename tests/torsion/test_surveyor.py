@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
 from linkwright.torsion.figures.stars import star_figure
 from linkwright.torsion.limits.overlay import overlay
 from linkwright.torsion.limits.survey import survey

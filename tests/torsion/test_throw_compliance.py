@@ -13,7 +13,7 @@ from sizes import cases
 from throw_models import frame_stiffness, solid_compliance
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.torsion.model.engine.throw import CrankThrow
 from linkwright.torsion.model.engine.throw_compliance import (
     COMPLIANCE_FORMULAS,

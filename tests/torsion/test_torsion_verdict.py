@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import forced_vibration
 from linkwright.kernel.result import finite
 from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
-from linkwright.torsion.response.forced import forced_vibration, torsion_response
+from linkwright.torsion.response.forced import torsion_response
 
 TRAIN = """
 format = 1

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.response.forced import responded
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along

@@ -8,7 +8,7 @@ from random_diagrams import areas, formula, table
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.machine.address import exchanged
 
 # Share of an entry by which it is varied, and what differences are good for.
