@@ -10,9 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkwright import LawError
-from linkwright.cam.laws.boundary import Boundary, by_conditions, half_law
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam import LAWS, Boundary, MotionLaw
+from linkwright.cam.laws.boundary import by_conditions, half_law
 from linkwright.cam.laws.ramps import SYMMETRIC
 
 # Velocity and acceleration of each letter.

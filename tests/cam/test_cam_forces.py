@@ -23,9 +23,9 @@ from linkwright import (
     least_preload,
     lift_off,
 )
+from linkwright.cam import MotionLaw
 from linkwright.cam.dynamics.contact_force import ContactForce
 from linkwright.cam.dynamics.follower_load import CamCourse, force_along
-from linkwright.cam.laws.motion_law import MotionLaw
 
 BASE, ROLLER = 0.04, 0.012
 LIFT = turn(POLYNOMIAL_345, 0.015)

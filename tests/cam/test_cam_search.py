@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError, Machine, ShapeError, cam_faults, cam_profile, search_cams
-from linkwright.cam.model.motion_law import PlainLaw
+from linkwright.cam import PlainLaw
 from linkwright.cam.search import Cams
 
 SECTIONS = """

@@ -28,9 +28,9 @@ from linkwright import (
     residual_spectrum,
     vibration_over_speed,
 )
+from linkwright.cam import MotionLaw
 from linkwright.cam.dynamics.oscillator import continuity, steps
 from linkwright.cam.dynamics.residual_vibration import residual_amplitude
-from linkwright.cam.laws.motion_law import MotionLaw
 
 # Everything at once: damper in the train and to the frame, closing spring, preload.
 FULL = OneMass(0.8, 3e5, 0.04, 0.03, 2e4, 150.0)

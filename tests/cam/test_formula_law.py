@@ -10,7 +10,7 @@ from command_line import invoke
 
 import linkwright as lw
 from linkwright import LawError, LinkwrightError
-from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam import LAWS
 from linkwright.cam.laws.spline import osculating
 
 HEAD = """

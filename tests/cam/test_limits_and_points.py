@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 from scipy.interpolate import make_interp_spline
 
 from linkwright import LawError
-from linkwright.cam.laws.boundary import Boundary
+from linkwright.cam import Boundary, spline
 from linkwright.cam.laws.limited import Limits, limited_section
-from linkwright.cam.laws.spline import spline
 
 size = st.floats(0.2, 20.0)
 

@@ -10,8 +10,8 @@ import pytest
 import linkwright as lw
 from linkwright import FollowerLoad, Machine, Material, cam_profile, lift_off, line_contact, loaded_cam
 from linkwright.app.feasibility import feasibility
+from linkwright.cam import CamProfile
 from linkwright.cam.dynamics.loaded import LoadedCam
-from linkwright.cam.profile.profile import CamProfile
 
 MASS, RATE, FREE, PIN = 0.6, 4e3, 0.2, 0.25
 BASE, ROLLER, WIDTH = 0.03, 0.008, 0.012

@@ -18,7 +18,7 @@ from command_line import invoke
 
 import linkwright as lw
 from linkwright import InputError, addresses
-from linkwright.machine.address import kind
+from linkwright.machine import kind
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted(

@@ -11,7 +11,7 @@ import pytest
 from command_line import invoke
 
 from linkwright import loads
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 TRAIN = """
 format = 1

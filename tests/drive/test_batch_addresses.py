@@ -10,7 +10,7 @@ from random_drives import random_drive
 
 import linkwright as lw
 from linkwright import InputError, LinkwrightError, Machine
-from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive import ConstantSpeedMotor
 
 MACHINES = sorted(Path("machines").glob("*.toml"))
 

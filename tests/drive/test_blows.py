@@ -10,8 +10,8 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import LinkwrightError
-from linkwright.drive.run_up import accurate_run_up
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.drive import accurate_run_up
+from linkwright.machine import compile_machine
 
 # What rows promise; of peaks of acceleration a digit less.
 _ROWS, _PEAKS = 1e-7, 1e-6

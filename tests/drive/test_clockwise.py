@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import ConvergenceError, SteadyStateError
-from linkwright.drive.motion_events import course
+from linkwright.drive import course
 
 MOTORS: dict[str, dict[str, Any]] = {
     "induction": {

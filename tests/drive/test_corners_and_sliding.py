@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright import SteadyStateError
-from linkwright.machine.program.core import Status
+from linkwright.machine import Status
 
 J = 2.0  # kg m²
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.evenness import constant_energy_of
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.drive import constant_energy_of
+from linkwright.machine import compile_machine
 
 
 @pytest.mark.parametrize("name", ["roller_one_cart", "roller_cam", "topper_crank"])

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 import linkwright as lw
 from linkwright import FindingError, SteadyStateError
 from linkwright.kernel.description.formula import parse, program, terms
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 MACHINE = """
 format = 1

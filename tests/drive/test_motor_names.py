@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke
 
 from linkwright import MachineError, motors
-from linkwright.drive.model.catalogue import motor
+from linkwright.drive import motor
 
 LIFT = str(Path(__file__).parents[2] / "examples" / "scissor_lift" / "machine.toml")
 

@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import SteadyStateError
-from linkwright.machine.program.core import Status
+from linkwright.machine import Status
 
 FILE = """format = 1
 name = "Crank and slider"

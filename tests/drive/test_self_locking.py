@@ -7,8 +7,8 @@ import pytest
 
 import linkwright as lw
 from linkwright import MachineError, StartError, SteadyStateError, loads
+from linkwright.drive import End
 from linkwright.drive.cautions import cautions
-from linkwright.drive.transient import End
 
 HOIST = """
 format = 1

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright.drive.tables_in_time import methods_sentence
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright import ConvergenceError, FindingError, Machine, loads, reduction, steady_state
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 Function = Callable[[np.ndarray], np.ndarray]
 TURN = np.array([0.0, 2 * np.pi])

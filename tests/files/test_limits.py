@@ -20,7 +20,7 @@ from linkwright import (
     loads,
     read,
 )
-from linkwright.drive.step_method import whole_steps
+from linkwright.drive import whole_steps
 from linkwright.kernel.errors import Problem
 from linkwright.kernel.limits import (
     DISCS,
@@ -35,7 +35,7 @@ from linkwright.kernel.limits import (
 )
 from linkwright.kernel.units.kinds import ANGLE, LENGTH, MASS, SPEED, Kind
 from linkwright.kernel.units.reading import parse
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 SLIDER = """format = 1
 name = "S"

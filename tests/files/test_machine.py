@@ -12,12 +12,11 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from linkwright import Machine, MachineError, addresses, get, loads, motors, replace
-from linkwright.drive.model.catalogue import motor
-from linkwright.drive.model.motor import DcMotor, InductionMotor
+from linkwright.drive import DcMotor, InductionMotor, motor
 from linkwright.kernel.files.library import template
 from linkwright.kernel.units.kinds import ANGLE, LENGTH
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.machine.address import kind
+from linkwright.machine import kind
 
 RATED: dict[str, Any] = {
     "kind": "induction",

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sizes import cases
 
 from linkwright import InputError, MachineFileError, loads, read
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive import InductionMotor
 from linkwright.kernel.files.library import template, templates
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from linkwright import InputError, Machine, loads, read, replace, write
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.write import dumps, in_own_units
+from linkwright.machine import dumps, in_own_units
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -16,10 +16,8 @@ from steady_laws import rounding, violations
 
 import linkwright as lw
 from linkwright import FindingError, InputError, SteadyStateError
-from linkwright.drive.batch import SteadyStates
-from linkwright.drive.steady_state import SteadyState
-from linkwright.drive.transient import End
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.drive import End, SteadyState, SteadyStates
+from linkwright.machine import CompiledMachine, compile_machine
 
 Floats = NDArray[np.float64]
 Inputs = Mapping[str, str]

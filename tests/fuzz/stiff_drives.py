@@ -27,8 +27,7 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright import FindingError, MachineError
-from linkwright.drive.steady_state import SteadyState
-from linkwright.drive.transient import Transient
+from linkwright.drive import SteadyState, Transient
 
 Floats = NDArray[np.float64]
 

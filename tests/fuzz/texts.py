@@ -22,7 +22,7 @@ from linkwright import LinkwrightError
 from linkwright.kernel.description import formula
 from linkwright.kernel.files.library import template, templates
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 Floats = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from zoo import animal
 
 import linkwright as lw
 from linkwright import Machine, contact_losses, forces
-from linkwright.drive.model.drive import Drive, Flywheel
-from linkwright.drive.motion_events import states
+from linkwright.drive import Drive, states
+from linkwright.drive.model.drive import Flywheel
 from linkwright.kinetostatics.motion import Motion
 
 MASS, RATE, PRESSED, LIFT, RISE = 0.6, 4e3, 0.01, 0.009, np.radians(100)

@@ -11,7 +11,7 @@ from zoo import ZOO, animal
 
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError, _core
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 pytestmark = pytest.mark.skipif(
     not hasattr(_core, "motions_along"), reason="the core was built before its derivatives of motions"

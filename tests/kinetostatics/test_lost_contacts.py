@@ -10,7 +10,7 @@ from command_line import invoke
 
 import linkwright as lw
 from linkwright import Machine
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 VALVE = "examples/cam_oscillating_valve/machine.toml"
 # A shaft that is driven so fast that no spring holds the finger.

@@ -19,8 +19,8 @@ from steady_laws import violations
 
 import linkwright as lw
 from linkwright import FindingError, Machine, read, steady_state
-from linkwright.drive.steady_state import SteadyState
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.drive import SteadyState
+from linkwright.machine import compile_machine
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError
 from linkwright.linkages.gradient import linkage_tangents
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -18,7 +18,7 @@ from linkwright.linkages.closure import limiter_at
 from linkwright.linkages.cycle import LIMIT, PASSED, REVERSAL
 from linkwright.linkages.grashof import FourBar, four_bars
 from linkwright.linkages.tables import loop_tables
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 # Zeros are located to some units of rounding of the crank angle; what is computed from them keeps nine digits
 # and more.

@@ -10,7 +10,7 @@ import pytest
 import linkwright as lw
 from linkwright import AssemblyError, InputError, loads
 from linkwright.linkages.whole_cycle import over_whole_cycle
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 HEAD = 'format = 1\nname = "linkage"\n'
 FOUR_BAR = """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from linkwright import constant_energy, read, replace, steady_state
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive import InductionMotor
 from linkwright.kernel.files.library import library, library_path
 from linkwright.papers.claim import Cell
 from linkwright.papers.paper1.drive import published_drives, recompute

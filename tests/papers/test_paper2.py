@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from linkwright import cam_profile, forces, read
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.program.drive_line import drive_inertia
+from linkwright.machine import drive_inertia
 from linkwright.papers.page import page
 from linkwright.papers.paper import printed_values
 from linkwright.papers.paper2 import formulas

@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError, InternalError, _core
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 
 @pytest.mark.parametrize("rows", [1, 2])

@@ -17,7 +17,7 @@ from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import BLUE, RED, SMALL, panels, styled
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.reader.numbers import number
-from linkwright.torsion.page import torsion_content
+from linkwright.torsion import torsion_content
 
 
 @pytest.mark.parametrize("machine", ["roller_two_carts", "press_with_flywheel", "four_stroke_speed"])

@@ -17,8 +17,8 @@ from linkwright.kernel.page.html import _page_words
 from linkwright.kernel.page.translation import in_language
 from linkwright.kernel.reader.axes import _said
 from linkwright.kernel.reader.language import ENGLISH, Language, _filled, language
-from linkwright.machine.table import machine_parts
-from linkwright.torsion.page import torsion_content
+from linkwright.machine import machine_parts
+from linkwright.torsion import torsion_content
 
 UKRAINIAN = language("uk")
 

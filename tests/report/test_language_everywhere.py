@@ -22,7 +22,7 @@ from tests.samples.provoked import provoked, shaken
 import linkwright as lw
 from linkwright import LinkwrightError, straight_lines
 from linkwright.app.commands.report import _content
-from linkwright.drive.batch import FAST_STARTS, STATUS
+from linkwright.drive import FAST_STARTS, STATUS
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.formulas import Formula

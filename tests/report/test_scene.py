@@ -13,7 +13,7 @@ import pytest
 from linkwright import loads, read, study
 from linkwright.app.report.scene import scene
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 # A torsional train, a knife that follows a law, and a turning-moment diagram have no mechanism to be drawn.
 GALLERY = [

@@ -13,7 +13,7 @@ import pytest
 from linkwright import loads, read, study
 from linkwright.app.report.page import knife_scene
 from linkwright.kernel.files.library import template
-from linkwright.topping.edge import edges_of
+from linkwright.topping import edges_of
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'

@@ -17,7 +17,7 @@ from linkwright.kernel.quantities import About, Label, over
 from linkwright.kernel.reader.numbers import number
 from linkwright.kernel.reader.out_units import OutUnits, reading
 from linkwright.kernel.result import Result
-from linkwright.machine.table import machine_parts
+from linkwright.machine import machine_parts
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

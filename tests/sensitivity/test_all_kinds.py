@@ -25,9 +25,10 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError
-from linkwright.cam.dynamics.loaded import cam_force
+from linkwright.cam import cam_force
 from linkwright.kernel.arrays import Floats
-from linkwright.machine.address import exchanged, is_given
+from linkwright.machine import exchanged
+from linkwright.machine.address import is_given
 
 # Shares of entries over which they are varied: shorter ones do not reach a kink or a tie of two extremes
 # beside the machine; over longer ones rounding counts less.

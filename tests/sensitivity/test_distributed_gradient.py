@@ -15,7 +15,7 @@ from trains import mode_numbers
 
 import linkwright as lw
 from linkwright import FindingError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Shares of an entry by which it is varied: between two extremes that nearly tie, or over a number of stations
 # that changes, longer steps err; over shorter ones rounding does.

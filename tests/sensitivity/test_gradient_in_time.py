@@ -11,8 +11,8 @@ from test_random_machines import Measure, difference
 
 import linkwright as lw
 from linkwright import LinkwrightError, steady_state
-from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.machine.address import exchanged
+from linkwright.drive import accurate_run_down, accurate_run_up
+from linkwright.machine import exchanged
 
 # A crank with a DC motor on its shaft against constant friction: the speed is ω₀ (1 − exp(−t/τ)) with
 # ω₀ = ω_n (1 − M/M_s) and τ = J ω_n/M_s; without the motor it falls by (M + B)/J.

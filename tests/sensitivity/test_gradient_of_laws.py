@@ -12,8 +12,8 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError
-from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.machine.address import exchanged
+from linkwright.drive import accurate_run_down, accurate_run_up
+from linkwright.machine import exchanged
 
 MACHINE = """
 format = 1

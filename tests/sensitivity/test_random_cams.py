@@ -14,7 +14,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright import LinkwrightError
 from linkwright.cam.gradient import cam_tangents
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied: rounding leaves 1e-13 of a result over it, the extrapolated
 # differences h⁶ of a seventh derivative, which small radii of curvature make large.

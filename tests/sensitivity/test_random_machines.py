@@ -17,7 +17,7 @@ from sizes import cases
 import linkwright as lw
 from linkwright import LinkwrightError
 from linkwright.kinetostatics.result import Forces
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied: rounding over it, and h⁶ of what is left by extrapolation.
 _STEP = 1e-4

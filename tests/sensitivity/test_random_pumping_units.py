@@ -11,7 +11,7 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 from linkwright.sensitivity.sources import source
 
 # Shares of an entry by which it is varied: the shorter where two peaks nearly tie.

@@ -11,7 +11,7 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import FindingError, InputError, LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 from linkwright.pumping.model.rod_rotator import diagonal_extremes
 from linkwright.pumping.rotator_gradient import RotatorAlong
 from linkwright.sensitivity.sources import Source, source

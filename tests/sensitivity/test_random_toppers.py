@@ -11,12 +11,11 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError
-from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam import MotionLaw
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 from linkwright.sensitivity.sources import source
-from linkwright.topping.edge import edges_of, require_topper
-from linkwright.topping.knife import Knife
+from linkwright.topping import Knife, edges_of, require_topper
 from linkwright.topping.knife_along import knife_along, refused_of_law
 
 # Share of an entry by which it is varied: areas are good to 1e-12 of a head.

@@ -8,7 +8,7 @@ from trains import mode_numbers
 
 import linkwright as lw
 from linkwright import InputError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 GEARED = "examples/geared_train_frequencies/machine.toml"
 TURBINE = "examples/marine_turbine/machine.toml"

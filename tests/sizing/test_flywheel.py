@@ -7,7 +7,7 @@ import pytest
 
 from linkwright import InputError, Machine, choose_flywheel, loads, read, replace, steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 from linkwright.sizing.flywheel import classical_flywheel, constant_inertia
 from linkwright.sizing.motor_change import with_flywheel
 

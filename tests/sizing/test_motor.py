@@ -5,10 +5,9 @@ from __future__ import annotations
 import pytest
 
 from linkwright import InputError, Machine, choose_motor, loads, motors, read, replace, run_up, steady_state
-from linkwright.drive.model.catalogue import estimated_inertia, motor
-from linkwright.drive.model.motor import InductionMotor
+from linkwright.drive import InductionMotor, estimated_inertia, motor
 from linkwright.kernel.files.library import library_path, template
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 from linkwright.sizing.checks import PEAK_SHARE, motion_checks
 from linkwright.sizing.motor import MotorChoice
 from linkwright.sizing.motor_change import rotor_inertia

@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError, MachineError, MachineFileError, choose_motor
-from linkwright.drive.model.catalogue import CatalogueMotor
+from linkwright.drive import CatalogueMotor
 from linkwright.sizing.motor import Candidate
 
 HEAD = (

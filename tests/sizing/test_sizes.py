@@ -15,7 +15,7 @@ import linkwright as lw
 from linkwright import FindingError, InputError
 from linkwright.app.application import application
 from linkwright.kernel.command.answer import Answer
-from linkwright.studies.sizes import cam_study, damper_study, drive_study
+from linkwright.studies import cam_study, damper_study, drive_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

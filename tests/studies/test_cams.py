@@ -14,9 +14,9 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import InputError, get
-from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam import LAWS
 from linkwright.cam.profile.check import cam_check
-from linkwright.studies.cams import Levels, cam_search_study, kept
+from linkwright.studies import Levels, cam_search_study, kept
 
 ROLLER = """
 format = 1

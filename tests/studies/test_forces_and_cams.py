@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import linkwright as lw
 from linkwright import MachineError
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies import StudyPlan
 from linkwright.studies.slopes import slopes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

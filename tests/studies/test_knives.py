@@ -13,7 +13,7 @@ from tests.samples.topper_fields import CRANK, FIELD, TOPPER, machine
 
 import linkwright as lw
 from linkwright import InputError, MachineFileError, get, sweep_field
-from linkwright.studies.knives import field_study
+from linkwright.studies import field_study
 
 SMALL = '[topper.field]\nkind = "random"\nroots = 300\nspacing = "0.31 m"\n'
 

@@ -11,7 +11,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import MachineError
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies import StudyPlan
 from linkwright.studies.slopes import slopes as slopes_at
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

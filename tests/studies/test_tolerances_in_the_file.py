@@ -8,8 +8,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError, MachineFileError
-from linkwright.machine.tolerances import tolerance_names
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps, tolerance_names
 from linkwright.studies.plan import with_tolerances
 
 RADIUS = "mechanism.cranks.A1.radius"

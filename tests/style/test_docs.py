@@ -22,7 +22,7 @@ from linkwright.app.commands.run import run
 from linkwright.drive import run_up
 from linkwright.drive.commands import transient
 from linkwright.kernel.files.library import template
-from linkwright.torsion.model.train_transient import TrainTransient
+from linkwright.torsion import TrainTransient
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

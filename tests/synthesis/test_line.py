@@ -7,7 +7,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import InputError, SynthesisError, loads
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 from linkwright.synthesis.line_kinds import KINDS
 from linkwright.synthesis.straight_line import narrowest_strip
 

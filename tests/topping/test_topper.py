@@ -10,9 +10,8 @@ from knife_sweep import Knife, Pass, needed_length, to_and_fro, uncut_by_slices
 
 import linkwright as lw
 from linkwright import study, topper
+from linkwright.topping import TopperStudy, edges_of
 from linkwright.topping.coverage import coverage
-from linkwright.topping.edge import edges_of
-from linkwright.topping.topper import TopperStudy
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'

@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
 from linkwright import barred_ranges
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion import excited_train
 from linkwright.torsion.limits.barred_range import BarredRange, together
 from linkwright.torsion.limits.criteria import exceedances
 from linkwright.torsion.limits.survey import resonances

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from sizes import cases
 
 import linkwright as lw
+from linkwright.torsion import ShaftLimit, Survey, survey
 from linkwright.torsion.excitation.excited_train import is_excited
 from linkwright.torsion.limits.barred_range import surveyed_ranges
 from linkwright.torsion.limits.criteria import VIBRATORY_STRESS
-from linkwright.torsion.limits.survey import Survey, survey, torque_peaks
-from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.limits.survey import torque_peaks
 
 ROOT = Path(__file__).parents[2]
 FILES = [

@@ -17,11 +17,9 @@ from scipy.sparse.csgraph import maximum_bipartite_matching
 from sizes import cases
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion import Survey, excited_train, study_tables, survey
 from linkwright.torsion.limits.critical_response import CriticalResponse, _owned, critical_responses
-from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.tables.limits import critical_table
-from linkwright.torsion.tables.torsion import study_tables
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 RPM = np.pi / 30

@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 import linkwright as lw
 from linkwright import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError, drive_line
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 from linkwright.torsion.excitation.drive_line import mean_inertia
 
 CART = """

@@ -8,10 +8,9 @@ import pytest
 
 import linkwright as lw
 from linkwright import MachineError, forced_vibration
+from linkwright.torsion import Train, excited_train
 from linkwright.torsion.core.train import refer
 from linkwright.torsion.excitation.drive_line import train_of
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.model.train import Train
 
 SHIP = Path(__file__).parents[2] / "examples" / "twin_engine_ship" / "machine.toml"
 

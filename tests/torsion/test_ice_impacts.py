@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright import InputError, MachineFileError
+from linkwright.torsion import TorsionTransient
 from linkwright.torsion.in_time.ice_impacts import _SAMPLES, pulses
-from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.model.ice_impacts import IceImpacts, IcePropeller
 
 RPM = np.pi / 30

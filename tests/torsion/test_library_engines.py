@@ -9,9 +9,7 @@ import pytest
 
 from linkwright import read, torsion_study
 from linkwright.kernel.files.library import library_path
-from linkwright.torsion.model.engine.combustion import Combustion
-from linkwright.torsion.model.engine.engine_motion import running_gears
-from linkwright.torsion.model.engine.running_gear import dead_centres
+from linkwright.torsion import Combustion, dead_centres, running_gears
 
 
 @pytest.mark.parametrize("name", ["v_diesel", "v8_diesel"])

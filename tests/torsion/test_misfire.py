@@ -5,10 +5,8 @@ import pytest
 
 import linkwright as lw
 from linkwright import shaft_stress
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion import excited_train, survey, torsion_response
 from linkwright.torsion.limits.misfire import misfire_verdict, misfires
-from linkwright.torsion.limits.survey import survey
-from linkwright.torsion.response.forced import torsion_response
 
 
 def engine() -> lw.Machine:

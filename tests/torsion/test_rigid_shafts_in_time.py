@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from test_torsion_transient import chain
 
 from linkwright import ConvergenceError
-from linkwright.torsion.core.torque import DecayingTorque, TrainTorque
-from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
+from linkwright.torsion import DecayingTorque, TorsionTransient, TrainTorque, follow_train
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import pytest
 import linkwright as lw
 from linkwright import InputError, MachineError, torsion_transient
 from linkwright.kernel.core.curve import straight
+from linkwright.torsion import TrainTransient
 from linkwright.torsion.in_time.moving_drive import _lossy
-from linkwright.torsion.model.train_transient import TrainTransient
 
 CART = """
 format = 1

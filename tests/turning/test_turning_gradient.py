@@ -9,7 +9,7 @@ from sizes import cases
 
 import linkwright as lw
 from linkwright import InputError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied, and what differences are good for.
 _STEP, _TOLERANCE = 2e-4, 1e-7
