@@ -15,7 +15,7 @@ from found_machines import found_machine
 from numpy.typing import NDArray
 from random_drives import random_drive
 from scipy.optimize import brentq
-from sizes import cases
+from sizes import cases, generator
 from steady_laws import violations
 
 import linkwright as lw
@@ -44,7 +44,7 @@ def test_hard_machines(path: Path) -> None:
 
 
 def random_machine(seed: int) -> Machine:
-    return Machine.model_validate(random_drive(np.random.default_rng(seed)))
+    return Machine.model_validate(random_drive(generator(seed)))
 
 
 def _agree(a: SteadyState, b: SteadyState, accuracy: float) -> None:

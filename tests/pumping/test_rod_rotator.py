@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sizes import generator
 
 import linkwright as lw
 from linkwright import AssemblyError, InputError, rod_rotator
@@ -130,7 +131,7 @@ def test_swing_comes_out_as_wanted(swing: float, assembly: str) -> None:
 
 def rotators(seed: int, many: int) -> Iterator[dict[str, Any]]:
     """Swings over all that can be written, densely near the ends; all else at random."""
-    rng = np.random.default_rng(seed)
+    rng = generator(seed)
     for k in range(many):
         low, high = ((0.01, 180), (0.01, 20), (170, 180))[k % 3]
         yield {

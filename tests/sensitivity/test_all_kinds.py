@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from random_diagrams import areas, formula, table
 from random_drives import Table, torque_size, with_blow
 from random_parts import log_uniform, random_train
-from sizes import cases
+from sizes import random_cases
 
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError
@@ -413,8 +413,8 @@ def _surest(uncertainties: Floats, errors: Floats) -> tuple[Floats, Floats]:
 
 def test_derivatives_are_those_of_the_analyses() -> None:
     counts, coarse = Counter[str](), 0
-    for number in range(cases(len(_QUICK), 10_000)):
-        random, kind = np.random.default_rng([41, number]), KINDS[number % len(KINDS)]
+    for number, random in random_cases(41, len(_QUICK), 10_000):
+        kind = KINDS[number % len(KINDS)]
         try:
             tally = compared(kind(random), random)
         except LinkwrightError:

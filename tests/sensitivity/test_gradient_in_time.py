@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.random import Generator
 from random_drives import random_drive
-from sizes import cases
+from sizes import cases, random_cases
 from test_random_machines import Measure, difference
 
 import linkwright as lw
@@ -167,9 +167,9 @@ def compared_with_differences(
 def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
     names, measure = KINDS[kind]
     compared = 0
-    for case in range(cases(10, 150)):
+    for case, random in random_cases(17, 10, 150):
         try:
-            machine = _drive(np.random.default_rng([17, case]))
+            machine = _drive(random)
             measure(machine)
             wrong = compared_with_differences(machine, names, measure, cases(8, 1))
         except LinkwrightError:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from differences import sixth_order
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
 from linkwright import FindingError, LinkwrightError
@@ -140,8 +140,8 @@ def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
 @pytest.mark.parametrize("kind", ["harmonic", "constant", "one_way", "slider", "cam"])
 def test_derivatives_are_those_of_the_topper(kind: str) -> None:
     compared = 0
-    for case in range(cases(1, 60)):
-        machine = _machine(np.random.default_rng([17, case]), kind)
+    for case, random in random_cases(17, 1, 60):
+        machine = _machine(random, kind)
         one, wrong = _wrong(machine, cases(4, 1))
         assert not wrong, (kind, case, wrong)
         compared += one

@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
-from sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
 from linkwright.torsion import Survey, excited_train, study_tables, survey
@@ -98,7 +98,7 @@ def test_v8() -> None:
 
 def chain(seed: int) -> lw.Machine:
     """A random train in a row: strong dampers, close modes, torques that grow with the speed."""
-    random = np.random.default_rng(seed)
+    random = generator(seed)
     n = int(random.integers(3, 6))
     inertia = random.uniform(0.5, 2.0, n)
     if seed % 2:
