@@ -4,6 +4,7 @@ import gc
 import os
 import re
 from collections import Counter
+from collections.abc import Generator
 from pathlib import Path
 
 # Tests run beside each other: threads of linear algebra would only wait for one another, busily. It counts
@@ -12,7 +13,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import settings
-from sizes import DEEP, cases
+from sizes import DEEP, cases, newest, random_cases, told
 
 settings.register_profile("same cases, any speed", derandomize=True, deadline=None)
 settings.register_profile("other cases each time", max_examples=1000, deadline=None)
@@ -20,10 +21,27 @@ settings.load_profile("other cases each time" if DEEP else "same cases, any spee
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """What sizes its cases by `cases` has more of them in `make test-deep`, which runs what is `deep`."""
+    """What sizes its random cases has more of them in `make test-deep`, which runs what is `deep`."""
     for item in items:
-        if getattr(getattr(item, "module", None), "cases", None) is cases:
+        names = vars(getattr(item, "module", None) or object)
+        if names.get("cases") is cases or names.get("random_cases") is random_cases:
             item.add_marker(pytest.mark.deep)
+
+
+def pytest_runtest_logstart() -> None:
+    """A test has no random case yet."""
+    newest.clear()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    call: pytest.CallInfo[None],
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """A failed test tells its random case, and its machine as a file."""
+    report = yield
+    if report.failed and call.excinfo is not None:
+        report.sections += told(call.excinfo.value).items()
+    return report
 
 
 def pytest_collection_finish() -> None:

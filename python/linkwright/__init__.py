@@ -20,6 +20,7 @@ from importlib import import_module
 # As in `typing`, whose import takes longer than all else here.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import FrameType
     from typing import Any, NoReturn
 
@@ -40,20 +41,33 @@ if _is_ours and _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler
 
 __version__ = "0.1.0"
 
-# Public name → module that holds it, as the stub beside this file lists them; `pathlib` takes long to import.
-with open(f"{__file__}i", encoding="utf-8") as _stub:  # noqa: PTH123
-    _HOME = {words[3]: words[1] for words in map(str.split, _stub) if words[:1] == ["from"]}
 
-__all__ = ["__version__", *_HOME]
+def _homes(init: str) -> dict[str, str]:
+    """Exported name → module that holds it, as the stub beside an ``__init__.py`` lists them."""
+    # `pathlib` takes long to import.
+    with open(f"{init}i", encoding="utf-8") as stub:  # noqa: PTH123
+        return {words[3]: words[1] for words in map(str.split, stub) if words[:1] == ["from"]}
 
 
-def __getattr__(name: str) -> Any:
-    """Load a public name on first use."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'linkwright' has no attribute {name!r}")
-    value = getattr(import_module(_HOME[name]), name)
-    globals()[name] = value
-    return value
+def exports(package: dict[str, Any], homes: dict[str, str] | None = None) -> Callable[[str], Any]:
+    """``__getattr__`` of this package or of a room, of which these are the globals: names on first use."""
+
+    def load(name: str) -> Any:
+        nonlocal homes
+        homes = homes or _homes(package["__file__"])
+        if name not in homes:
+            raise AttributeError(f"module {package['__name__']!r} has no attribute {name!r}")
+        package[name] = getattr(import_module(homes[name]), name)
+        return package[name]
+
+    return load
+
+
+_public = _homes(__file__)
+
+__all__ = ["__version__", *_public]
+
+__getattr__ = exports(globals(), _public)
 
 
 def __dir__() -> list[str]:

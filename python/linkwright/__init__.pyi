@@ -60,7 +60,7 @@ from linkwright.kernel.errors import StartError as StartError
 from linkwright.kernel.errors import SteadyStateError as SteadyStateError
 from linkwright.kernel.errors import SynthesisError as SynthesisError
 from linkwright.kernel.errors import UnitError as UnitError
-from linkwright.kernel.page.out_units import shown_in as shown_in
+from linkwright.kernel.reader.out_units import shown_in as shown_in
 from linkwright.kinetostatics.balancing import balance as balance
 from linkwright.kinetostatics.balancing import partial_balance as partial_balance
 from linkwright.kinetostatics.contact_in_time import contact_losses as contact_losses

@@ -12,9 +12,8 @@ import pytest
 from sizes import DEEP
 
 import linkwright as lw
+from linkwright import FindingError, InputError, Machine
 from linkwright.app.feasibility import feasibility
-from linkwright.kernel.errors import FindingError, InputError
-from linkwright.machine.machine import Machine
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = sorted([*ROOT.glob("machines/*.toml"), *ROOT.glob("examples/*/machine.toml")])

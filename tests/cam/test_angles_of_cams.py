@@ -14,9 +14,9 @@ import linkwright as lw
 from linkwright.app.curves import chosen, curves_figure, curves_of
 from linkwright.cam.figures.captions import cam_figures
 from linkwright.cam.tables import cam_tables
-from linkwright.drive.motion_events import course as course_of
+from linkwright.drive import course as course_of
 from linkwright.drive.tables_in_time import in_time_tables
-from linkwright.kernel.page.angle_zero import Zero
+from linkwright.kernel.reader.angle_zero import Zero
 from linkwright.linkages.motion import motion_along
 
 TURN = 2 * np.pi

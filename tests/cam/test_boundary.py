@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.cam.laws.boundary import Boundary, by_conditions, half_law
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright import LawError
+from linkwright.cam import LAWS, Boundary, MotionLaw
+from linkwright.cam.laws.boundary import by_conditions, half_law
 from linkwright.cam.laws.ramps import SYMMETRIC
-from linkwright.kernel.errors import LawError
 
 # Velocity and acceleration of each letter.
 ENDS = {"R": (0.0, 0.0), "G": (0.7, 0.0), "U": (0.0, -1.3), "B": (-0.4, 2.1)}

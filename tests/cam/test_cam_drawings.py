@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.cam.manufacture.curve import Track
-from linkwright.cam.manufacture.drawing import Drawing
+from linkwright.cam import Drawing, Track
 
 ROOT = Path(__file__).parents[2]
 

@@ -9,18 +9,10 @@ import pytest
 from cam_cases import TURN, contact, fitted, machine, turned
 
 import linkwright as lw
+from linkwright import FindingError, InputError, cam_cautions, cam_faults, cam_profile
+from linkwright.cam import CamCurve, CamProfile, Sizes, base_for_pressure_angle, largest_roller
 from linkwright.cam.core import crossings
-from linkwright.cam.model.follower import Sizes
-from linkwright.cam.profile.contact import CamCurve
-from linkwright.cam.profile.faults import cam_cautions, cam_faults
-from linkwright.cam.profile.least_sizes import (
-    base_for_curvature,
-    base_for_pressure_angle,
-    largest_roller,
-    least_sound_base,
-)
-from linkwright.cam.profile.profile import CamProfile, cam_profile
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.cam.profile.least_sizes import base_for_curvature, least_sound_base
 
 DENSE = np.linspace(0.0, TURN, 20001)
 

@@ -11,12 +11,21 @@ import pytest
 from cam_laws import CYCLOIDAL, PARABOLIC, POLYNOMIAL_345, POLYNOMIAL_4567, SKEW, UNIFORM, turn
 from scipy.optimize import brentq, minimize_scalar
 
-from linkwright.cam.dynamics.bearing import ArmPivot, StemGuide
-from linkwright.cam.dynamics.contact_force import ContactForce, contact_force
-from linkwright.cam.dynamics.follower_load import CamCourse, FollowerLoad, cam_course, force_along
-from linkwright.cam.dynamics.lift_off import least_preload, lift_off
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import FindingError, InputError, ShapeError
+from linkwright import (
+    ArmPivot,
+    FindingError,
+    FollowerLoad,
+    InputError,
+    ShapeError,
+    StemGuide,
+    cam_course,
+    contact_force,
+    least_preload,
+    lift_off,
+)
+from linkwright.cam import MotionLaw
+from linkwright.cam.dynamics.contact_force import ContactForce
+from linkwright.cam.dynamics.follower_load import CamCourse, force_along
 
 BASE, ROLLER = 0.04, 0.012
 LIFT = turn(POLYNOMIAL_345, 0.015)

@@ -7,11 +7,9 @@ import pytest
 from cam_cases import CIRCLES, TURN, Circle, contact, fitted, machine, profile_of, turned, unit
 
 import linkwright as lw
-from linkwright.cam.core import cam_kernel
-from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
-from linkwright.cam.model.follower import Sizes
-from linkwright.cam.profile.contact import CamCurve
-from linkwright.cam.profile.profile import cam_profile
+from linkwright import cam_profile
+from linkwright.cam import CamCurve, MotionLaw, Sizes, cam_kernel
+from linkwright.cam.laws.motion_law import Harmonic, Piece
 
 SEARCHED = ("tan_pressure_angle", "soundness", "bend_max", "bend_min")
 

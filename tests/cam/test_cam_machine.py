@@ -7,8 +7,7 @@ import pytest
 from cam_cases import RISE, SWING, TURN, machine
 
 import linkwright as lw
-from linkwright.cam.profile.profile import cam_profile
-from linkwright.kernel.errors import MachineError, ShapeError
+from linkwright import MachineError, ShapeError, cam_profile
 
 PHI = np.linspace(0.0, TURN, 361)[:-1] + 0.003
 

@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.cam.model.motion_law import PlainLaw
-from linkwright.cam.profile.faults import cam_faults
-from linkwright.cam.profile.profile import cam_profile
-from linkwright.cam.search import Cams, search_cams
-from linkwright.kernel.errors import InputError, ShapeError
-from linkwright.machine.machine import Machine
+from linkwright import InputError, Machine, ShapeError, cam_faults, cam_profile, search_cams
+from linkwright.cam import PlainLaw
+from linkwright.cam.search import Cams
 
 SECTIONS = """
 sections = [

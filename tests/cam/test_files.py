@@ -15,11 +15,9 @@ from brute_force import distances, samples
 from cam_outlines import CAMS, Cam, eccentric
 from sizes import DEEP
 
-from linkwright.cam.manufacture.curve import Track
-from linkwright.cam.manufacture.drawing import Drawing
-from linkwright.cam.manufacture.fit import FORMS, Form
-from linkwright.cam.manufacture.write import read_back, write_drawing
-from linkwright.kernel.errors import ExchangeError, InputError
+from linkwright import ExchangeError, InputError, write_drawing
+from linkwright.cam import Drawing, Form, Track, read_back
+from linkwright.cam.manufacture.fit import FORMS
 
 CAM = CAMS["dwells, cycloidal, roller"]
 DRAWING = Drawing("Presser cam", {"PROFILE": CAM, "PITCH_CURVE": CAMS["flat face"]}, zero_angle=0.5)

@@ -22,13 +22,11 @@ from cam_outlines import (
 )
 from sizes import DEEP
 
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.piece import Piece
+from linkwright import ConvergenceError, ExchangeError, InputError
+from linkwright.cam import Form, MotionLaw, Piece, Track
 from linkwright.cam.manufacture.arcs import equal_errors
-from linkwright.cam.manufacture.curve import Track
-from linkwright.cam.manufacture.fit import Form, Path, deviation, fit
+from linkwright.cam.manufacture.fit import Path, deviation, fit
 from linkwright.cam.manufacture.outline import Outline
-from linkwright.kernel.errors import ConvergenceError, ExchangeError, InputError
 
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8) if DEEP else (1e-4, 1e-8)
 

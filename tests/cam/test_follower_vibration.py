@@ -18,17 +18,19 @@ from cam_laws import (
 )
 from scipy.integrate import quad, solve_ivp
 
-from linkwright.cam.dynamics.follower_vibration import follower_vibration, vibration_over_speed
-from linkwright.cam.dynamics.one_mass import OneMass
-from linkwright.cam.dynamics.oscillator import continuity, steps
-from linkwright.cam.dynamics.polydyne import polydyne
-from linkwright.cam.dynamics.residual_vibration import (
-    residual_amplitude,
+from linkwright import (
+    FindingError,
+    InputError,
+    OneMass,
+    follower_vibration,
+    polydyne,
     residual_over_speed,
     residual_spectrum,
+    vibration_over_speed,
 )
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.cam import MotionLaw
+from linkwright.cam.dynamics.oscillator import continuity, steps
+from linkwright.cam.dynamics.residual_vibration import residual_amplitude
 
 # Everything at once: damper in the train and to the frame, closing spring, preload.
 FULL = OneMass(0.8, 3e5, 0.04, 0.03, 2e4, 150.0)

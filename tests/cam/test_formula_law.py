@@ -9,9 +9,9 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.cam.laws.catalogue import LAWS
+from linkwright import LawError, LinkwrightError
+from linkwright.cam import LAWS
 from linkwright.cam.laws.spline import osculating
-from linkwright.kernel.errors import LawError, LinkwrightError
 
 HEAD = """
 format = 1

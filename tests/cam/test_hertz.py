@@ -7,15 +7,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize
 
-from linkwright.cam.dynamics.hertz import (
-    SHEAR_DEPTH,
-    SHEAR_MAX,
-    STEEL,
-    Material,
-    line_contact,
-    von_mises_largest,
-)
-from linkwright.kernel.errors import FindingError, InputError, ShapeError
+from linkwright import FindingError, InputError, Material, ShapeError, line_contact
+from linkwright.cam.dynamics.hertz import SHEAR_DEPTH, SHEAR_MAX, STEEL, von_mises_largest
 
 BRONZE = Material(110e9, 0.34)
 

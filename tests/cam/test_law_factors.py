@@ -14,13 +14,9 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from linkwright.cam.law_factors import cam_laws, law_factors
-from linkwright.cam.laws.boundary import Boundary
-from linkwright.cam.laws.catalogue import BOUNDS, LAWS
-from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.polynomial import polynomial
-from linkwright.cam.laws.spline import spline
+from linkwright import cam_laws, law_factors
+from linkwright.cam import LAWS, Boundary, MotionLaw, modified_sine, modified_trapezoid, polynomial, spline
+from linkwright.cam.laws.catalogue import BOUNDS
 
 pi, sin, cos, sqrt = math.pi, math.sin, math.cos, math.sqrt
 FACTORS = cam_laws()

@@ -8,15 +8,14 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from linkwright.cam.laws.boundary import Boundary, is_symmetric
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.handbook import modified_sine, modified_trapezoid
-from linkwright.cam.laws.polynomial import polynomial, polynomial_3_4_5, polynomial_4_5_6_7
-from linkwright.cam.laws.ramps import RAMPS, ramp_of, s_curve, start_and_stop, trapezoidal_velocity
-from linkwright.cam.model.motion_law import CombinedLaw, PlainLaw
+from linkwright import LawError
+from linkwright.cam import LAWS, Boundary, PlainLaw, modified_sine, modified_trapezoid, polynomial, ramp_of
+from linkwright.cam.laws.boundary import is_symmetric
+from linkwright.cam.laws.polynomial import polynomial_3_4_5, polynomial_4_5_6_7
+from linkwright.cam.laws.ramps import RAMPS, s_curve, start_and_stop, trapezoidal_velocity
+from linkwright.cam.model.motion_law import CombinedLaw
 from linkwright.cam.model.motion_section import AnyLaw
 from linkwright.kernel.description.schema_walk import kinds_of
-from linkwright.kernel.errors import LawError
 
 Z = np.linspace(0.0, 1.0, 101)
 # Rounding of a sum of ten terms of the size of the law.

@@ -10,10 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import make_interp_spline
 
-from linkwright.cam.laws.boundary import Boundary
+from linkwright import LawError
+from linkwright.cam import Boundary, spline
 from linkwright.cam.laws.limited import Limits, limited_section
-from linkwright.cam.laws.spline import spline
-from linkwright.kernel.errors import LawError
 
 size = st.floats(0.2, 20.0)
 

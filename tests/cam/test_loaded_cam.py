@@ -8,13 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import FollowerLoad, Machine, Material, cam_profile, lift_off, line_contact, loaded_cam
 from linkwright.app.feasibility import feasibility
-from linkwright.cam.dynamics.follower_load import FollowerLoad
-from linkwright.cam.dynamics.hertz import Material, line_contact
-from linkwright.cam.dynamics.lift_off import lift_off
-from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
-from linkwright.cam.profile.profile import CamProfile, cam_profile
-from linkwright.machine.machine import Machine
+from linkwright.cam import CamProfile
+from linkwright.cam.dynamics.loaded import LoadedCam
 
 MASS, RATE, FREE, PIN = 0.6, 4e3, 0.2, 0.25
 BASE, ROLLER, WIDTH = 0.03, 0.008, 0.012

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.cam.laws.motion_law import MotionLaw, combined, joined
-from linkwright.cam.laws.piece import Harmonic, Piece, zeros
+from linkwright.cam import Harmonic, MotionLaw, Piece, joined
+from linkwright.cam.laws.motion_law import combined
+from linkwright.cam.laws.piece import zeros
 
 LAW = MotionLaw(
     (0.5, 1.0, 3.0),

@@ -11,12 +11,9 @@ from hypothesis import strategies as st
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from linkwright.cam.laws.boundary import Boundary
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.optimal import optimal, optimal_section
-from linkwright.cam.laws.ramps import ramp_of
-from linkwright.kernel.errors import LawError
+from linkwright import LawError
+from linkwright.cam import LAWS, Boundary, MotionLaw, optimal, ramp_of
+from linkwright.cam.laws.optimal import optimal_section
 
 Floats = NDArray[np.float64]
 VALUES_START, VALUES_END = (0.0, 0.3, -1.0, 2.0, 0.5), (1.0, -0.2, 0.7, 1.0, -3.0)

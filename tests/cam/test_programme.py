@@ -8,11 +8,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from linkwright.cam.laws.boundary import Boundary
-from linkwright.cam.laws.catalogue import LAWS
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.programme import Programme, Section, programme
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
+from linkwright.cam import LAWS, Boundary, MotionLaw, Programme
+from linkwright.cam.laws.programme import Section, programme
 
 THIRD = 2 * math.pi / 3
 

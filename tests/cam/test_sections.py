@@ -12,12 +12,14 @@ from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 import linkwright as lw
-from linkwright.cam.laws.programme import Programme
+from linkwright import MachineFileError
+from linkwright.cam import Programme
 from linkwright.cam.model.motion_section import Family, MotionSection, programme, section_faults
 from linkwright.kernel.description.base import CheckedDescription
 from linkwright.kernel.description.problems import WholeDescription
-from linkwright.kernel.errors import MachineFileError, Problem
-from linkwright.machine.read import loads_as, read_as
+from linkwright.kernel.errors import Problem
+from linkwright.machine import read_as
+from linkwright.machine.read import loads_as
 
 
 class SomeCam(CheckedDescription):

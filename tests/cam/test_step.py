@@ -10,9 +10,8 @@ import pytest
 from brute_force import area
 from cam_outlines import CAMS
 
-from linkwright.cam.manufacture.drawing import Drawing
-from linkwright.cam.manufacture.write import read_back, write_drawing
-from linkwright.kernel.errors import ExchangeError, InputError
+from linkwright import ExchangeError, InputError, write_drawing
+from linkwright.cam import Drawing, read_back
 
 needs_kernel = pytest.mark.skipif(importlib.util.find_spec("OCP") is None, reason="extra step not installed")
 

@@ -12,8 +12,8 @@ from command_line import invoke
 
 import linkwright as lw
 from linkwright.kernel.figure.style import panels, styled, turn_axis
-from linkwright.kernel.page.angle_zero import Zero, counted_columns, counting
-from linkwright.kernel.page.sentences import sentence
+from linkwright.kernel.reader.angle_zero import Zero, counted_columns, counting
+from linkwright.kernel.reader.sentences import sentence
 
 # The top dead centre of its ram is at 90°; nothing but the crank depends on the angle.
 PRESS = "press_with_flywheel"

@@ -19,10 +19,10 @@ from tests.samples.tasks import FUNCTION, POSES
 from tests.samples.topper_fields import FIELD, TOPPER
 
 import linkwright as lw
+from linkwright import InputError, InternalError
 from linkwright.app.application import COMMANDS, GROUPS, application
 from linkwright.kernel.command.answer import Answer, hand_over, json_text
 from linkwright.kernel.command.group import Commands
-from linkwright.kernel.errors import InputError, InternalError
 from linkwright.studies.sweep import begun
 
 ROOT = Path(__file__).parents[2]

@@ -13,10 +13,10 @@ import pytest
 from click.testing import CliRunner
 from command_line import invoke
 
-from linkwright.cam.laws.catalogue import LAWS
+from linkwright.cam import LAWS
 from linkwright.kernel.command.group import Commands, Entry
 from linkwright.kernel.command.parameter import Option, command
-from linkwright.machine.file_argument import File
+from linkwright.machine import File
 
 RUNNER = CliRunner()
 

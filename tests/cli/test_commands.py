@@ -14,11 +14,10 @@ import pytest
 from click.testing import CliRunner
 from command_line import invoke as run
 
+from linkwright import StartError, loads
 from linkwright.kernel.command.common import reports_errors
 from linkwright.kernel.command.parameter import Option, command
-from linkwright.kernel.errors import StartError
 from linkwright.kernel.files.library import templates
-from linkwright.machine.read import loads
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from linkwright import _core
-from linkwright.kernel.errors import CoreError
+from linkwright import CoreError, _core
 from linkwright.machine.program.core import FORMAT, check_format
 
 ROOT = Path(__file__).parents[2]

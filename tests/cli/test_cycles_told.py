@@ -11,7 +11,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.page.numbers import crank_angle
+from linkwright.kernel.reader.numbers import crank_angle
 
 FOUND = Path(__file__).parents[1] / "found"
 OTHER_ZERO = ("--set", "mechanism.cranks.B.phase=200 deg", "--set", "mechanism.sliders.C.assembly=negative")

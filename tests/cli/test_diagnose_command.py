@@ -11,7 +11,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.torsion.response.forced import forced_vibration
+from linkwright import forced_vibration
 
 ENGINE = Path(__file__).parents[2] / "examples" / "weak_cylinder" / "machine.toml"
 SPEED = 50 * np.pi

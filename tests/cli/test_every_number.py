@@ -17,8 +17,8 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.machine.address import addresses, kind
+from linkwright import InputError, addresses
+from linkwright.machine import kind
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted(

@@ -12,11 +12,9 @@ import pytest
 from command_line import invoke
 from sizes import DEEP
 
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError, forces, loads
 from linkwright.kernel.page.table import csv_text
 from linkwright.kinetostatics.figures import hodograph_figure
-from linkwright.kinetostatics.forces import forces
-from linkwright.machine.read import loads
 
 # What each would do where it is taken for more than a name.
 NASTY = [

@@ -13,8 +13,8 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
+from linkwright import study
 from linkwright.app.curves import chosen, curves_figure
-from linkwright.app.study import study
 from linkwright.kernel.command.console import _head
 from linkwright.kernel.page.table import Table
 

@@ -12,9 +12,8 @@ from typing import Any
 import pytest
 from command_line import invoke
 
-from linkwright.drive.steady_state import steady_state
+from linkwright import read, steady_state
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.read import read
 
 ROOT = Path(__file__).parents[2]
 TWO_CARTS = ROOT / "machines" / "roller_two_carts.toml"

@@ -12,9 +12,9 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.page.numbers import degrees, measured, quantity
-from linkwright.kernel.page.out_units import OutUnits, reading
-from linkwright.linkages.cycle import linkage
+from linkwright import linkage
+from linkwright.kernel.reader.numbers import degrees, measured, quantity
+from linkwright.kernel.reader.out_units import OutUnits, reading
 
 WIDE = {"COLUMNS": "300"}
 

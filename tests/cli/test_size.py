@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 from command_line import invoke as run
 
-from linkwright.drive.steady_state import steady_state
+from linkwright import read, steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.read import read
 from linkwright.papers.paper import paper
 
 TWO_CARTS = library_path("roller_two_carts")

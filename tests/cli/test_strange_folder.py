@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
+from linkwright import InputError, LinkwrightError, MachineFileError
 from linkwright.app.report.company import svg_fault
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineFileError
 from linkwright.kernel.files.library import template
 from linkwright.studio.worker import Worker
 

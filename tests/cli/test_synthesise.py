@@ -11,8 +11,7 @@ import pytest
 from command_line import invoke
 from tests.samples.tasks import FUNCTION, POSES
 
-from linkwright.linkages.kinematics import kinematics
-from linkwright.machine.read import read
+from linkwright import kinematics, read
 
 PATH = """
 x = "60, 40, 0, -30, 0, 40 mm"

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from command_line import invoke
 
-from linkwright.machine.read import loads
-from linkwright.machine.write import dumps
+from linkwright import loads
+from linkwright.machine import dumps
 
 TRAIN = """
 format = 1
@@ -172,8 +172,7 @@ def test_drive_study_without_motor(tmp_path: Path, speed: str, parts: set[str]) 
 
 
 def discs_of(path: Path) -> list[dict[str, float]]:
-    from linkwright.machine.read import read
-    from linkwright.torsion.excitation.drive_line import drive_line
+    from linkwright import drive_line, read
 
     return [{"inertia": disc.inertia} for disc in drive_line(read(path)).discs.values()]
 

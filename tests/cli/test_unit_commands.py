@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from command_line import invoke as run
 
-from linkwright.machine.read import loads
-from linkwright.pumping.model.unit_catalogue import pumping_units
+from linkwright import loads, pumping_units
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

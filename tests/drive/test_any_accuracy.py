@@ -6,91 +6,14 @@ import re
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError
-
-# A shaper with a limited motor: from the balance Newton's method finds the motion on some meshes alone.
-SHAPER = """
-format = 1
-name = "Shaper with a limited motor"
-[drive.motor]
-kind = "dc"
-torque_stall = 1672.9558985163528
-speed_no_load = 115.14747703471802
-inertia = 0.025672464661521184
-torque_max = 16.868291834980795
-[drive.gearbox]
-ratio = 3.0
-efficiency = 0.95
-[mechanism.cranks.A]
-radius = 0.19112368438373467
-[mechanism.points]
-D = { x = 0.4445429385517161 }
-[mechanism.slotted_levers.L]
-pin = "A"
-pivot = "D"
-length = 0.9556184219186734
-[mechanism.rigid_points.K]
-link = "L"
-along = 0.7644947375349387
-[mechanism.sliders.E]
-crank = "K"
-rod = 1.5289894750698774
-offset = 0.7644947375349387
-through = "D"
-[bodies]
-E = { mass = 15.319047815869585 }
-A = { mass = 6.8122403812574, inertia = 0.001663229141738987 }
-[loads.d]
-kind = "force_position"
-on = "E"
-position = [
-  -1.5289894750698774, 0.0, 0.19112368438373467, 0.38224736876746934, 0.573371053151204, 1.720113159453612,
-]
-forward = [0.0, 0.0, 1328.3843529218502, 0.0, 28.90614741265782, 0.0]
-return = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
-[loads.fan]
-kind = "formula"
-on = "A"
-torque = "-c*omega*abs(omega)"
-constants = { c = 0.0448533563192348 }
-"""
-
-# A yoke under a soft sign two ten-thousandths of a radian wide at the dead centres.
-YOKE = """
-format = 1
-name = "Yoke with soft friction"
-[drive.motor]
-kind = "table"
-speed = [0.0, 24.187583806659465, 31.098322037133602, 34.55369115237067, 41.4644293828448]
-torque = [21.719734852659624, 20.27175252914898, 28.95964647021283, 0.0, -14.479823235106416]
-inertia = 6.6900620458422
-[drive.gearbox]
-ratio = 10.0
-efficiency = 0.95
-[mechanism.cranks.A]
-radius = 0.16894538151107322
-[mechanism.yokes.E]
-pin = "A"
-[bodies]
-E = { mass = 5.687759620074418 }
-A = { mass = 2.3232641385197415, inertia = 0.00042711301042290463 }
-[loads.d]
-kind = "formula"
-on = "E"
-force = "-F*tanh(v/0.00010038184116341449)"
-constants = { F = 32.96546057963524 }
-[loads.fan]
-kind = "formula"
-on = "A"
-torque = "-c*omega*abs(omega)"
-constants = { c = 0.06372341255478396 }
-"""
+from linkwright import ConvergenceError
 
 
 def test_every_accuracy_has_the_motion_and_a_batch_too() -> None:
-    machine = lw.loads(SHAPER)
+    machine = found_machine("shaper_with_limited_motor")
     finest = lw.steady_state(machine, accuracy=1e-12).speed_max
     for accuracy in (1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
         assert lw.steady_state(machine, accuracy=accuracy).speed_max == pytest.approx(finest, rel=1e-6)
@@ -101,7 +24,7 @@ def test_every_accuracy_has_the_motion_and_a_batch_too() -> None:
 
 def test_a_peak_within_a_soft_sign_is_the_same_in_a_batch() -> None:
     """To the 1e-6 that batches promise of peaks: read where the series has its top, it was 4.4e-6 low."""
-    machine = lw.loads(YOKE)
+    machine = found_machine("yoke_with_soft_friction")
     alone = lw.steady_state(machine, accuracy=1e-12)
     rows = lw.steady_states(machine, {"bodies.E.mass": np.full(2, lw.get(machine, "bodies.E.mass"))})
     assert rows.acceleration_max == pytest.approx(alone.acceleration_max, rel=1e-6)
@@ -155,42 +78,10 @@ def test_extremes_beside_a_kink_of_a_steep_motor() -> None:
                 assert abs(getattr(motion, name) - getattr(best, name)) <= told, (number, name, accuracy)
 
 
-# A speed controller: the full torque up to the speed that is wanted, and the full brake above it.
-CONTROLLED = """
-format = 1
-name = "Rocker under a speed controller"
-[drive.motor]
-kind = "table"
-inertia = 8.95222534682408e-06
-speed = [0.0, {low}, 122.61576206758242, {high}]
-torque = [0.015917580739390248, 0.015917580739390248, 0.0, -0.015917580739390248]
-[drive.gearbox]
-ratio = 3.0
-efficiency = 0.9
-reverse = "same"
-[mechanism.points]
-P = {{ x = -0.0959711764732497, y = 0.3407535204045866 }}
-[mechanism.cranks.A]
-radius = 0.08983606790420712
-[mechanism.rockers.R]
-crank = "A"
-pivot = "P"
-coupler = 0.23076310911831346
-rocker = 0.25612772715830323
-assembly = "right"
-[bodies]
-A = {{ inertia = 1.6522213457252124e-05 }}
-"R.rocker" = {{ inertia = 0.0007018443528230996 }}
-"R.coupler" = {{ mass_per_length = 0.15746368042543368 }}
-[loads]
-friction = {{ kind = "dry", on = "R.rocker", torque = 0.005140104113344058 }}
-gravity = {{ kind = "gravity" }}
-"""
-
-
 def controlled(band: float) -> lw.Machine:
-    idle = 122.61576206758242
-    return lw.loads(CONTROLLED.format(low=idle * (1 - band), high=idle * (1 + band)))
+    machine = found_machine("rocker_under_speed_controller")
+    idle = lw.get(machine, "drive.motor.speed")[2]
+    return lw.replace(machine, {"drive.motor.speed": [0.0, idle * (1 - band), idle, idle * (1 + band)]})
 
 
 def test_a_controller_with_a_narrow_band_is_no_refusal() -> None:

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 from random_drives import random_drive
+from sizes import generator
 
 import linkwright as lw
-from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.machine.machine import Machine
+from linkwright import InputError, LinkwrightError, Machine
+from linkwright.drive import ConstantSpeedMotor
 
 MACHINES = sorted(Path("machines").glob("*.toml"))
 
@@ -175,7 +176,7 @@ def test_no_row_changes_the_bits_of_another_whatever_the_machine() -> None:
     """Random drives: motors, kinks, springs, dry friction; a row far from the others among them."""
     compared = 0
     for n in range(40):
-        random = np.random.default_rng([20261128, n])
+        random = generator(20261128, n)
         try:
             machine = lw.Machine.model_validate(random_drive(random))
             entries = [(address, value) for address, value in lw.addresses(machine).items() if value]
@@ -193,38 +194,9 @@ def test_no_row_changes_the_bits_of_another_whatever_the_machine() -> None:
     assert compared > 10
 
 
-ROCKER = """
-format = 1
-name = "Rocker under dry friction"
-[drive.motor]
-kind = "dc"
-speed_no_load = 296.75116829297866
-torque_stall = 14319.955060072441
-inertia = 0.011562052906180276
-[drive.gearbox]
-ratio = 9.8
-efficiency = 0.7
-[mechanism.cranks.A]
-radius = 0.37274173972050395
-[mechanism.points]
-P = { x = 1.0542211189171806, y = -0.23661882499122175 }
-[mechanism.rockers.R]
-crank = "A"
-pivot = "P"
-coupler = 1.039747403439322
-rocker = 0.853359606851832
-[bodies]
-A = { inertia = 0.5633921825582711 }
-"R.rocker" = { inertia = 7.524275676320809 }
-"R.coupler" = { mass_per_length = 26.459267880119818 }
-[loads]
-l0 = { kind = "dry", on = "R.rocker", torque = 4.327219518326267 }
-"""
-
-
 def test_dead_centres_do_not_depend_on_a_row_that_does_not_close() -> None:
     """They are found lane by lane: one without any is looked for longest."""
-    machine = lw.loads(ROCKER)
+    machine = found_machine("rocker_under_dry_friction")
     entries = {
         "mechanism.points.P.x": np.array(
             [1.07219822, 1.09614006, 0.95702984, 0.95953933, 0.95695376, 1.14561111, 0.99023333, 0.97657207]

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from random_drives import BLOWS, Table, random_drive, torque_size, with_blow
 from scipy.optimize import brentq
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright.drive.run_up import accurate_run_up
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.machine.program.compiled import compile_machine
+from linkwright import LinkwrightError
+from linkwright.drive import accurate_run_up
+from linkwright.machine import compile_machine
 
 # What rows promise; of peaks of acceleration a digit less.
 _ROWS, _PEAKS = 1e-7, 1e-6
@@ -19,8 +19,7 @@ _ROWS, _PEAKS = 1e-7, 1e-6
 
 def _blows() -> list[tuple[lw.Machine, lw.SteadyState]]:
     found = []
-    for case in range(cases(60, 1000)):
-        random = np.random.default_rng([61, case])
+    for _, random in random_cases(61, 60, 1000):
         drive: Table = random_drive(random)
         try:
             state = lw.steady_state(lw.Machine.model_validate(drive))

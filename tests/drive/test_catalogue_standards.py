@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.model.catalogue import OVERLOAD, CatalogueMotor
-from linkwright.drive.model.catalogue import motor as catalogue_motor
+from linkwright.drive import OVERLOAD, CatalogueMotor
+from linkwright.drive import motor as catalogue_motor
 from linkwright.sizing.motor_change import rotor_inertia
 
 INDUCTION = [motor for motor in lw.motors() if motor.kind == "induction"]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.motion_events import course
-from linkwright.kernel.errors import ConvergenceError, SteadyStateError
+from linkwright import ConvergenceError, SteadyStateError
+from linkwright.drive import course
 
 MOTORS: dict[str, dict[str, Any]] = {
     "induction": {

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
-from linkwright.machine.program.core import Status
+from linkwright import SteadyStateError
+from linkwright.machine import Status
 
 J = 2.0  # kg m²
 

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
+from linkwright import SteadyStateError
 
 STALL, NO_LOAD, J = 3.0, 40.0, 0.3  # N m, rad/s, kg m²
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import loads
 from linkwright.linkages.motion import motion_along
-from linkwright.machine.read import loads
 
 CRANK, ROD, SPEED = 0.08, 0.5, 7.0
 

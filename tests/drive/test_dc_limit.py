@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.model.motor import DcMotor
-from linkwright.kernel.errors import InputError, MachineFileError, ShapeError
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.torsion.core.torque import motor_curve
+from linkwright import InputError, MachineFileError, ShapeError
+from linkwright.drive import DcMotor
+from linkwright.machine import compile_machine
+from linkwright.torsion import motor_curve
 
 STALL, NO_LOAD, MOST, INERTIA = 200.0, 100.0, 50.0, 4.0
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 
 import linkwright as lw
-from linkwright.drive.evenness import constant_energy_of
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.drive import constant_energy_of
+from linkwright.machine import compile_machine
 
 
 @pytest.mark.parametrize("name", ["roller_one_cart", "roller_cam", "topper_crank"])
@@ -91,40 +92,7 @@ def test_acceleration_has_its_peak_in_a_corner_inside_a_step() -> None:
     The peak is known: at the corner the drive has no torque and the crank turns at the synchronous speed, so
     that the acceleration is that of the load alone.
     """
-    made = lw.loads("""
-    format = 1
-    name = "four-bar that changes sides"
-    [drive.gearbox]
-    efficiency = 0.7276598009585635
-    [drive.motor]
-    kind = "induction"
-    speed_synchronous = 9.39170163521806
-    speed_rated = 9.286536091361187
-    torque_rated = 279.373679027012
-    torque_breakdown = 743.9453755119408
-    inertia = 0.0010111628965230272
-    [mechanism.points.P]
-    x = -0.19673419009151977
-    y = -0.38008325321589914
-    [mechanism.cranks.A]
-    radius = 0.15573199856832115
-    phase = -0.9403747811199694
-    [mechanism.rockers.Q]
-    crank = "A"
-    pivot = "P"
-    coupler = 0.7716212124685026
-    rocker = 0.5727702341787579
-    [mechanism.sliders.S]
-    crank = "A"
-    rod = 2.700674243639759
-    offset = 0.015573199856832115
-    angle = -0.3400730892290833
-    [bodies]
-    A = { mass = 12.961105756919633, inertia = 0.0035527302460160383, along = 0.15573199856832115 }
-    rocker = { on = "Q.rocker", mass = 70.4436596383489 }
-    [loads]
-    push = { kind = "force", on = "S", force = 65.35034170880719, direction = -1.881982087933023 }
-    """)
+    made = found_machine("four_bar_that_changes_sides")
     speed = made.drive.motor.speed_synchronous  # type: ignore[union-attr]
     for accuracy in (1e-9, 1e-11):
         found = lw.steady_state(made, accuracy=accuracy)
@@ -181,45 +149,8 @@ def test_rows_whose_peaks_rounding_forbids_have_a_status() -> None:
     assert np.isnan(rows.speed_max[~solved]).all()
 
 
-# A motor on a steep curve that brakes in a part of each revolution: where its torque changes its sign the
-# acceleration has a corner, behind which it falls much faster.
-BRAKED = """
-format = 1
-name = "Slider-crank and crank-rocker that their motor brakes"
-[mechanism]
-points.P1 = { x = -0.3139067590271544, y = -0.02006443524751568 }
-cranks.A = { radius = 0.06162607718187589, phase = 1.6299833169095361 }
-sliders.S0 = { crank = "A", rod = 0.272729067933465, offset = 0.0023873128359632252, angle = "90 deg" }
-[mechanism.rockers.R1]
-crank = "A"
-pivot = "P1"
-coupler = 0.10598042143538632
-rocker = 0.3286857729160318
-assembly = "right"
-[bodies]
-A = { mass = 0.1893246491090905, inertia = 0.602621085072352 }
-S0 = { mass = 38.24958875739521 }
-R1 = { mass = 0.9129519668814794 }
-"R1.coupler" = { mass = 3.4128545696395047 }
-"R1.rocker" = { mass = 0.19251383914364878 }
-[loads]
-gravity = { kind = "gravity" }
-[drive]
-flywheel.inertia = 0.27503111612158115
-[drive.motor]
-kind = "table"
-speed = [0.0, 4.7187238118696575, 9.437447623739315, 14.156171435608973]
-torque = [926.6780369511877, 1158.3475461889846, 463.33901847559383, -926.6780369511877]
-inertia = 1.251900986749936
-[drive.gearbox]
-ratio = 40.0
-efficiency = 0.7
-reverse = 1.2
-"""
-
-
 def test_a_corner_under_a_steep_drive_is_the_same_at_every_accuracy() -> None:
-    machine = lw.loads(BRAKED)
+    machine = found_machine("braked_by_its_motor")
     states = [lw.steady_state(machine, accuracy=accuracy) for accuracy in (1e-8, 1e-9, 1e-10, 1e-11, 1e-12)]
     size = max(abs(states[0].acceleration_max), 1e-4 * states[0].speed_max ** 2)
     for state in states:

@@ -10,9 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright import FindingError, SteadyStateError
 from linkwright.kernel.description.formula import parse, program, terms
-from linkwright.kernel.errors import FindingError, SteadyStateError
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 MACHINE = """
 format = 1

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
+from linkwright import SteadyStateError
 
 J = 0.3  # kg m²
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
@@ -183,49 +184,13 @@ def test_two_jumps_at_one_speed_are_one(inertia: float, accuracy: float) -> None
     assert derivatives == pytest.approx(expected, rel=1e-6)
 
 
-# Its load falls at a speed that the motion passes at a flat angle, right below the synchronous speed.
-FLAT = """format = 1
-name = "Two sliders"
-[mechanism.cranks]
-A = { radius = 0.24772155292309797, phase = 0.0 }
-A1 = { radius = 0.13289210530418333, phase = 3.5038445580393445 }
-[mechanism.sliders]
-S0 = { crank = "A", rod = 0.7608675299271993, offset = -0.07426075920324829, angle = -2.2104325079136933 }
-S1 = { crank = "A1", rod = 0.6268936499292482 }
-[bodies]
-A = { inertia = 0.0034138200735078094 }
-S0 = { mass = 4.769698215923612 }
-S1 = { mass = 97.64583105726729 }
-[drive.motor]
-kind = "induction"
-speed_synchronous = 58.334682224072544
-torque_breakdown = 29.283448479995304
-speed_breakdown = 47.132369652285455
-inertia = 2.8981523156179232e-06
-[drive.gearbox]
-ratio = 5.0
-efficiency = 1.0
-[loads]
-dry0 = { kind = "dry", on = "S0", force = 108.71869020846131 }
-vis0 = { kind = "viscous", on = "S0", damping = 9.642055919448845 }
-spr0 = { kind = "spring", between = ["S0", "O"], stiffness = 231.8027, free_length = 0.3166431 }
-dry1 = { kind = "dry", on = "S1", force = 108.71869020846131 }
-spr1 = { kind = "spring", between = ["S1", "O"], stiffness = 9.470811, free_length = 0.01029046 }
-g = { kind = "gravity" }
-[loads.f]
-kind = "formula"
-on = "A"
-torque = "-(25.54456861 + 29.22187053*cos(phi) + where(omega > 11.633067343, -12.76493489, 0))"
-"""
-
-
 @pytest.mark.parametrize("accuracy", [1e-9, 1e-11])
 def test_speed_does_not_leap_at_a_jump(accuracy: float) -> None:
     """Between two angles u changes by no more than the largest acceleration makes of it.
 
     SciPy's LSODA, stopped at the jumps, follows the same curve with this period.
     """
-    motion = lw.steady_state(lw.loads(FLAT), accuracy=accuracy, n=3600)
+    motion = lw.steady_state(found_machine("load_that_falls_at_a_flat_angle"), accuracy=accuracy, n=3600)
     most = max(motion.acceleration_max, -motion.acceleration_min) * 2 * np.pi / 3600
     assert np.abs(np.diff(0.5 * motion.speed**2)).max() <= most * (1 + 1e-9)
     assert motion.period == pytest.approx(0.566666719083, rel=1e-8)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.model.catalogue import CatalogueMotor
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.drive import CatalogueMotor
+from linkwright.machine import compile_machine
 
 TYPE = "IE3 11 kW 4-pole frame 160"
 

@@ -10,17 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
+from linkwright import AssemblyError, InputError, MachineError, ShapeError, StartError, SteadyStateError
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import (
-    AssemblyError,
-    InputError,
-    MachineError,
-    ShapeError,
-    StartError,
-    SteadyStateError,
-)
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import NoSteadyMotion, SteadyMotion
+from linkwright.machine import CompiledMachine, NoSteadyMotion, SteadyMotion, compile_machine
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

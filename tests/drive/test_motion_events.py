@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import AssemblyError, InputError, LinkwrightError
+from linkwright.drive import course
 from linkwright.drive.figures import in_time_figure
-from linkwright.drive.motion_events import course
-from linkwright.kernel.errors import AssemblyError, InputError, LinkwrightError
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 ROOT = Path(__file__).parents[2]
 PRESS = ROOT / "examples" / "press_with_flywheel" / "machine.toml"

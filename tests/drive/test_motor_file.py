@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError
 
 HEAD = """
 format = 1

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from command_line import invoke
 
-from linkwright.drive.model.catalogue import motor, motors
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError, motors
+from linkwright.drive import motor
 
 LIFT = str(Path(__file__).parents[2] / "examples" / "scissor_lift" / "machine.toml")
 

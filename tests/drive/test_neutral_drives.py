@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
-from linkwright.machine.program.core import Status
+from linkwright import SteadyStateError
+from linkwright.machine import Status
 
 FILE = """format = 1
 name = "Crank and slider"

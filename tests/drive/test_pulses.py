@@ -15,7 +15,7 @@ from scipy.special import i0e
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError
+from linkwright import ConvergenceError
 
 FILE = """format = 1
 name = "Press"

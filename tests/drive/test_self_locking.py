@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.transient import End
+from linkwright import MachineError, StartError, SteadyStateError, loads
+from linkwright.drive import End
 from linkwright.drive.warnings import drive_warnings
-from linkwright.kernel.errors import MachineError, StartError, SteadyStateError
-from linkwright.machine.read import loads
 
 HOIST = """
 format = 1

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, MachineError
+from linkwright import AssemblyError, MachineError
 
 FOUR_PI = 4 * np.pi
 

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
+from linkwright import FindingError
 
 Array = NDArray[np.float64]
 
@@ -218,14 +218,14 @@ def test_spring_through_its_own_anchor() -> None:
     assert np.isfinite(reduced.torque_load).all()
     found = lw.steady_state(anchored, accuracy=1e-11)
     assert found.energy_drive == pytest.approx(found.energy_load, rel=1e-9)
-    from linkwright.machine.program.compiled import compile_machine
+    from linkwright.machine import compile_machine
 
     kinks = compile_machine(anchored).kinks()
     assert np.abs(kinks - at).min() < 1e-9
 
 
 def test_knots_of_forward_and_return_are_watched_once() -> None:
-    from linkwright.machine.program.compiled import compile_machine
+    from linkwright.machine import compile_machine
 
     load = (
         '{ kind = "force_position", on = "S", position = [0.45, 0.5, 0.55], forward = [0, 9, 0], '

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright.drive.tables_in_time import methods_sentence
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 MACHINES = Path(__file__).parents[2] / "machines"
 
@@ -168,46 +169,7 @@ def test_a_load_that_jumps_over_time_acts_from_its_instant_on(stall: float) -> N
 
 def test_time_runs_on_over_steps_of_no_length() -> None:
     """Where rounding lets two ends of steps fall on each other, the time between the steps is not shifted."""
-    # Friction holds the crank at an even speed: 404 s a revolution, relaxed within a picosecond.
-    machine = lw.Machine.model_validate(
-        {
-            "format": 1,
-            "name": "slow crank",
-            "drive": {
-                "motor": {
-                    "kind": "dc",
-                    "speed_no_load": 6.787254157444434,
-                    "torque_stall": 63.607062258699976,
-                    "inertia": 0.021404867713041134,
-                },
-                "gearbox": {"ratio": 40.0, "efficiency": 0.7},
-            },
-            "mechanism": {
-                "points": {"P0": {"x": -0.43878027981606127, "y": 1.1689306234365553}},
-                "cranks": {"A": {"radius": 0.5556985328464964, "phase": -0.04839209900725017}},
-                "rockers": {
-                    "R0": {
-                        "crank": "A",
-                        "pivot": "P0",
-                        "coupler": 2.6611594673845085,
-                        "rocker": 3.055624875971245,
-                        "assembly": "right",
-                    }
-                },
-            },
-            "bodies": {"A": {"mass": 0.3044624501026665}, "R0.coupler": {"mass": 0.2662156492280465}},
-            "loads": {
-                "dry": {"kind": "dry", "on": "A", "force": 2837.9601559503876},
-                "drag": {
-                    "kind": "torque_speed",
-                    "speed": [0.0, 20.0, 60.0],
-                    "torque": [0.0, 315.41005898768896, 2837.9601559503876],
-                },
-                "oil": {"kind": "viscous", "on": "A", "damping": 8430.17742710655},
-            },
-        }
-    )
-    steady = lw.steady_state(machine, accuracy=1e-8)
+    steady = lw.steady_state(found_machine("slow_crank"), accuracy=1e-8)
     assert steady.time[-1] == pytest.approx(steady.period, rel=1e-12)
     # The speed is even to 1e-6, so that time is angle over speed.
     assert steady.time == pytest.approx(steady.crank_angle / steady.speed.mean(), rel=2e-6)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.machine.machine import Machine
+from linkwright import Machine
 
 ONE_CART = "machines/roller_one_cart.toml"
 

@@ -8,13 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.reduction import reduction
-from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import ConvergenceError, FindingError
+from linkwright import ConvergenceError, FindingError, Machine, loads, reduction, steady_state
 from linkwright.kernel.numerics.turn_fit import turn_curve
-from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.read import loads
+from linkwright.machine import compile_machine
 
 Function = Callable[[np.ndarray], np.ndarray]
 TURN = np.array([0.0, 2 * np.pi])

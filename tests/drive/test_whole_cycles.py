@@ -13,11 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command_line import invoke
-from samples.sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
-from linkwright.kernel.errors import SteadyStateError
-from linkwright.machine.machine import Machine
+from linkwright import Machine, SteadyStateError
 
 FOUND = Path(__file__).parents[1] / "found"
 
@@ -145,9 +144,9 @@ def numbers(machine: Machine) -> dict[str, float]:
 def test_another_zero_of_the_crank_gives_the_same_numbers(
     family: Callable[[np.random.Generator, float], Machine], seed: int
 ) -> None:
-    zero = float(np.random.default_rng(seed + 1000).uniform(0.2, 6.0))
-    first = numbers(family(np.random.default_rng(seed), 0.0))
-    second = numbers(family(np.random.default_rng(seed), zero))
+    zero = float(generator(seed + 1000).uniform(0.2, 6.0))
+    first = numbers(family(generator(seed), 0.0))
+    second = numbers(family(generator(seed), zero))
     size = max(abs(value) for name, value in first.items() if "torque" in name)
     for name, value in first.items():
         # A mean torque may vanish beside its peak.
@@ -160,8 +159,8 @@ def test_forces_and_counterweights_do_not_depend_on_the_zero(
     family: Callable[[np.random.Generator, float], Machine], seed: int
 ) -> None:
     # Whole degrees, so that both are asked for at the same poses.
-    zero = float(np.radians(np.random.default_rng(seed + 1000).integers(20, 340)))
-    first, second = (family(np.random.default_rng(seed), at) for at in (0.0, zero))
+    zero = float(np.radians(generator(seed + 1000).integers(20, 340)))
+    first, second = (family(generator(seed), at) for at in (0.0, zero))
     peaks = []
     for machine in (first, second):
         result = lw.forces(machine, speed=9.0)

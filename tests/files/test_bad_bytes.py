@@ -11,11 +11,10 @@ from typing import Any
 
 import pytest
 
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError, read
 from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.units.kinds import ANGLE, TIME
 from linkwright.linkages.law import read_law_table
-from linkwright.machine.read import read
 
 HEAD = "time [s], angle [rad]\n"
 ROWS = "0,0\n1,1\n2,3\n"

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.kernel.errors import MachineFileError
-from linkwright.machine.read import read
+from linkwright import MachineFileError, read
 
 BROKEN = sorted((Path(__file__).parent / "broken").glob("*.toml"))
 

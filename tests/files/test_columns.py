@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError, read
 from linkwright.kernel.files.points import read_columns
 from linkwright.kernel.units.kinds import ANGLE, SPEED
-from linkwright.machine.read import read
 
 KINDS = {"angle": ANGLE, "speed": SPEED}
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
+from linkwright import MachineFileError
 from linkwright.kernel.description.place import former_keys
-from linkwright.kernel.errors import MachineFileError
-from linkwright.machine.write import dumps
-from linkwright.studies.model import Distribution
+from linkwright.machine import dumps
+from linkwright.studies import Distribution
 from linkwright.topping.model.scatter import NormalScatter, UniformScatter
-from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion import ShaftLimit
 
 FIELD = """
 format = 1

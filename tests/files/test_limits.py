@@ -10,10 +10,18 @@ from typing import Any
 
 import pytest
 
-from linkwright.cam.dynamics.follower_vibration import follower_vibration
-from linkwright.cam.dynamics.one_mass import OneMass
-from linkwright.drive.step_method import whole_steps
-from linkwright.kernel.errors import InputError, MachineError, MachineFileError, Problem, UnitError
+from linkwright import (
+    InputError,
+    MachineError,
+    MachineFileError,
+    OneMass,
+    UnitError,
+    follower_vibration,
+    loads,
+    read,
+)
+from linkwright.drive import whole_steps
+from linkwright.kernel.errors import Problem
 from linkwright.kernel.limits import (
     DISCS,
     ENTRIES,
@@ -27,8 +35,7 @@ from linkwright.kernel.limits import (
 )
 from linkwright.kernel.units.kinds import ANGLE, LENGTH, MASS, SPEED, Kind
 from linkwright.kernel.units.reading import parse
-from linkwright.machine.read import loads, read
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 SLIDER = """format = 1
 name = "S"

@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
+from linkwright import LinkwrightError
 from linkwright.kernel.description.formula import FormulaError
 from linkwright.kernel.description.formula import parse as formula
 from linkwright.kernel.description.place import split
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.files.points import columns_of
 from linkwright.kernel.files.text_file import deep_line, long_number_line
 from linkwright.kernel.units.kinds import LENGTH
 from linkwright.kernel.units.reading import parse, parse_list
+from linkwright.machine import size_and_limits
 from linkwright.machine.overrides import parse as override
-from linkwright.machine.size_limits import size_and_limits
 from linkwright.studio.controls import controls
 from linkwright.studio.document import written
 

@@ -11,15 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from linkwright.drive.model.catalogue import motor, motors
-from linkwright.drive.model.motor import DcMotor, InductionMotor
-from linkwright.kernel.errors import MachineError
+from linkwright import Machine, MachineError, addresses, get, loads, motors, replace
+from linkwright.drive import DcMotor, InductionMotor, motor
 from linkwright.kernel.files.library import template
 from linkwright.kernel.units.kinds import ANGLE, LENGTH
 from linkwright.linkages.model.mechanism import Mechanism
-from linkwright.machine.address import addresses, get, kind, replace
-from linkwright.machine.machine import Machine
-from linkwright.machine.read import loads
+from linkwright.machine import kind
 
 RATED: dict[str, Any] = {
     "kind": "induction",

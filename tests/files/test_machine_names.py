@@ -8,7 +8,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError
 from linkwright.kernel.files.library import library, library_path
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineFileError
+from linkwright import InputError, LinkwrightError, MachineFileError
 
 ROOT = Path(__file__).parents[2]
 PRESS = ROOT / "examples" / "knuckle_press_drawing"

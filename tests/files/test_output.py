@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.files.output import MARKER, OutputFolder, file_name, file_names, trial, write_file
 
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"

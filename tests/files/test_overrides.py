@@ -7,9 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.kernel.errors import InputError, MachineFileError
-from linkwright.machine.address import get
-from linkwright.machine.read import read
+from linkwright import InputError, MachineFileError, get, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -10,10 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sizes import cases
 
-from linkwright.drive.model.motor import InductionMotor
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError, loads, read
+from linkwright.drive import InductionMotor
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.read import loads, read
 
 MACHINES = sorted((Path(__file__).parents[2] / "machines").glob("*.toml"))
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

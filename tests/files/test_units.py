@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from linkwright.kernel.errors import UnitError
+from linkwright import UnitError
 from linkwright.kernel.units import kinds, marks, reading, spellings
 from linkwright.kernel.units.spellings import factor_of, unknown
 

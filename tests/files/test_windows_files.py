@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from linkwright import InputError
 from linkwright.kernel import system
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.files import library, output
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.files.text_file import TextError, data_of

@@ -8,12 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, Machine, loads, read, replace, write
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.address import replace
-from linkwright.machine.machine import Machine
-from linkwright.machine.read import loads, read
-from linkwright.machine.write import dumps, in_own_units, write
+from linkwright.machine import dumps, in_own_units
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
 
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 
 # Processor time that a call may take [s]: far more than any needs, far less than anyone would wait. On a
 # machine with much else to do a call waits, which is no fault of its own.

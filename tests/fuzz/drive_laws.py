@@ -15,11 +15,9 @@ from scipy.integrate import solve_ivp
 from steady_laws import rounding, violations
 
 import linkwright as lw
-from linkwright.drive.batch import SteadyStates
-from linkwright.drive.steady_state import SteadyState
-from linkwright.drive.transient import End
-from linkwright.kernel.errors import FindingError, InputError, SteadyStateError
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright import FindingError, InputError, SteadyStateError
+from linkwright.drive import End, SteadyState, SteadyStates
+from linkwright.machine import CompiledMachine, compile_machine
 
 Floats = NDArray[np.float64]
 Inputs = Mapping[str, str]

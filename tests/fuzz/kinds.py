@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import drive_laws
 import features
-import numpy as np
 import plans
 import random_parts
 import stiff_drives
 import studies
 import texts
 from numpy.random import Generator
+from sizes import generator
 
 
 class Kind(NamedTuple):
@@ -60,4 +60,4 @@ KINDS: dict[str, Kind] = {
 
 
 def run(kind: str, seed: int) -> None:
-    KINDS[kind].case(np.random.default_rng([zlib.crc32(kind.encode()), seed]))
+    KINDS[kind].case(generator(zlib.crc32(kind.encode()), seed))

@@ -16,9 +16,8 @@ from broken import deadline
 from numpy.random import Generator
 from texts import _machine_of, machine_files
 
-from linkwright import _core
-from linkwright.kernel.errors import InternalError, LinkwrightError
-from linkwright.machine.program.compiled import compile_machine
+from linkwright import InternalError, LinkwrightError, _core
+from linkwright.machine import compile_machine
 
 # Integers that are wrong in most places: just outside, far outside, what no index can be.
 INTEGERS = (-1, 0, 1, 2, 3, 4, 5, 8, 12, 21, 100, 4000, 2**31, 2**63, 2**64 - 1, 2**70)

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright import FindingError, LinkwrightError
 from linkwright.kernel.units.kinds import LENGTH
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.response.forced import ForcedVibration, responded
+from linkwright.torsion import ForcedVibration, excited_train, responded
 
 Floats = NDArray[np.float64]
 

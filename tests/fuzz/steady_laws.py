@@ -10,10 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.drive.steady_state import SteadyState
-from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import SteadyMotion
+from linkwright import Machine
+from linkwright.drive import SteadyState
+from linkwright.machine import CompiledMachine, SteadyMotion, compile_machine
 
 Floats = NDArray[np.float64]
 

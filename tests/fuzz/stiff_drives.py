@@ -24,11 +24,11 @@ from numpy.typing import NDArray
 from random_drives import Table, bodies, linkage, load
 from random_parts import log_uniform
 from scipy.integrate import solve_ivp
+from sizes import generator
 
 import linkwright as lw
-from linkwright.drive.steady_state import SteadyState
-from linkwright.drive.transient import Transient
-from linkwright.kernel.errors import FindingError, MachineError
+from linkwright import FindingError, MachineError
+from linkwright.drive import SteadyState, Transient
 
 Floats = NDArray[np.float64]
 
@@ -422,7 +422,7 @@ def main() -> None:
     figures, begun = Figures(), time.process_time()
     for seed in range(given.start, given.start + given.cases):
         try:
-            compare(np.random.default_rng([1, seed]), figures, seed)
+            compare(generator(1, seed), figures, seed)
         except PromiseError as broken:
             figures.off.append(f"{seed}: {broken.what}")
     print(

@@ -12,8 +12,10 @@ import kinds
 import pytest
 from broken import PromiseError, watched
 from numpy.random import Generator
+from sizes import generator, told
 
-from linkwright.kernel.errors import AssemblyError
+import linkwright as lw
+from linkwright import AssemblyError
 
 pytest.importorskip("resource", reason="limits of Unix")
 import deep
@@ -48,6 +50,17 @@ def test_an_error_that_escapes_a_case_is_told_and_the_next_case_runs(monkeypatch
     assert what == "the case itself failed: AssemblyError: the links do not close at 30 deg"
     assert "in case" in inputs["traceback.txt"]
     assert answer is None
+
+
+def test_a_failed_case_is_told_by_its_seeds_and_its_machine_as_a_file() -> None:
+    generator(7, 12)
+    machine = lw.read("press_with_flywheel")
+    with pytest.raises(PromiseError) as failed:
+        raise PromiseError("energy", {"command": "run"})
+    texts = told(failed.value)
+    assert texts["command"] == "run"
+    assert texts["random case"] == "generator(7, 12)"
+    assert lw.loads(texts["machine.toml"]) == machine
 
 
 def test_a_case_is_judged_by_the_processor_time_that_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,11 +18,11 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 import linkwright as lw
+from linkwright import LinkwrightError
 from linkwright.kernel.description import formula
-from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.files.library import template, templates
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 Floats = NDArray[np.float64]
 

@@ -15,8 +15,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from linkwright.drive.steady_state import steady_state
-from linkwright.machine.machine import Machine
+from linkwright import Machine, steady_state
 
 G = 9.81
 

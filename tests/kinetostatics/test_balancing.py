@@ -7,10 +7,18 @@ import pytest
 from zoo import animal
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError, ShapeError
-from linkwright.kinetostatics.balancing import balance, four_bar_moments, partial_balance
-from linkwright.kinetostatics.envelope import envelope, harmonics, load_cases
-from linkwright.kinetostatics.forces import forces
+from linkwright import (
+    InputError,
+    MachineError,
+    ShapeError,
+    balance,
+    envelope,
+    forces,
+    harmonics,
+    load_cases,
+    partial_balance,
+)
+from linkwright.kinetostatics.balancing import four_bar_moments
 from linkwright.kinetostatics.motion import motion_at
 
 FOUR_BAR = "four-bar with coupler point"

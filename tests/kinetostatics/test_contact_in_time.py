@@ -11,12 +11,10 @@ from command_line import invoke
 from zoo import animal
 
 import linkwright as lw
-from linkwright.drive.model.drive import Drive, Flywheel
-from linkwright.drive.motion_events import states
-from linkwright.kinetostatics.contact_in_time import contact_losses
-from linkwright.kinetostatics.forces import forces
+from linkwright import Machine, contact_losses, forces
+from linkwright.drive import Drive, states
+from linkwright.drive.model.drive import Flywheel
 from linkwright.kinetostatics.motion import Motion
-from linkwright.machine.machine import Machine
 
 MASS, RATE, PRESSED, LIFT, RISE = 0.6, 4e3, 0.01, 0.009, np.radians(100)
 SEAT = 0.038

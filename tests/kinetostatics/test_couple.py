@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 
 RADIUS, ROD, MASS, SPACING, SPEED = 0.05, 0.2, 0.8, 0.1, 300.0
 RATIO = RADIUS / ROD

@@ -6,13 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sizes import cases
+from sizes import cases, generator
 from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright import _core
-from linkwright.kernel.errors import FindingError, LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright import FindingError, LinkwrightError, _core
+from linkwright.machine import exchanged
 
 pytestmark = pytest.mark.skipif(
     not hasattr(_core, "motions_along"), reason="the core was built before its derivatives of motions"
@@ -106,11 +105,11 @@ def test_derivatives_are_those_of_the_forces(name: str) -> None:
     """On random machines of every kind of pair and load, at constant speed and behind a motor."""
     compared = 0
     for case in range(cases(2, 20)):
-        rng = np.random.default_rng([case, len(name)])
+        rng = generator(case, len(name))
         machine = animal(name, _DRIVES[case % 2])
         try:
             lw.forces(_varied(machine, rng))
-            machine = _varied(machine, np.random.default_rng([case, len(name)]))
+            machine = _varied(machine, generator(case, len(name)))
         except LinkwrightError:
             # Redundant bars fit with their own lengths alone.
             if not name.startswith("bars"):

@@ -10,18 +10,15 @@ import pytest
 from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright.cam.profile.contact import contacts, touch
-from linkwright.kernel.errors import FindingError, InputError, MachineError, ShapeError
+from linkwright import FindingError, Friction, InputError, MachineError, ShapeError, forces, mobility
+from linkwright.cam import contacts, touch
 from linkwright.kinetostatics.cam_contact import follower_at
-from linkwright.kinetostatics.forces import forces
-from linkwright.kinetostatics.friction import Friction
 from linkwright.kinetostatics.motion import motion_at
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.result import Forces
 from linkwright.kinetostatics.wrench import masses
-from linkwright.linkages.model.mobility import mobility
 from linkwright.linkages.model.structure import FRAME, structure
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 SPEED, ACCELERATION = 3.0, 1.5
 

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
+from linkwright import FindingError, Friction
 from linkwright.kernel.limits import Limit
 from linkwright.kinetostatics import equilibrium
 from linkwright.kinetostatics.figures import captioned_forces
-from linkwright.kinetostatics.friction import Friction
 
 
 @pytest.mark.parametrize("friction", [None, {"cart1": Friction(coefficient=0.1, radius=0.02, viscous=3.0)}])

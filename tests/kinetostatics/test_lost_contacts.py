@@ -9,8 +9,8 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.machine.machine import Machine
-from linkwright.machine.write import dumps
+from linkwright import Machine
+from linkwright.machine import dumps
 
 VALVE = "examples/cam_oscillating_valve/machine.toml"
 # A shaft that is driven so fast that no spring holds the finger.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 
 HEAD = """
 format = 1

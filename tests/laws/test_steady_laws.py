@@ -11,18 +11,17 @@ from pathlib import Path
 import kinds
 import numpy as np
 import pytest
+from found_machines import found_machine
 from numpy.typing import NDArray
 from random_drives import random_drive
 from scipy.optimize import brentq
-from sizes import cases
+from sizes import cases, generator
 from steady_laws import violations
 
 import linkwright as lw
-from linkwright.drive.steady_state import SteadyState, steady_state
-from linkwright.kernel.errors import FindingError
-from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.read import read
+from linkwright import FindingError, Machine, read, steady_state
+from linkwright.drive import SteadyState
+from linkwright.machine import compile_machine
 
 Floats = NDArray[np.float64]
 
@@ -45,7 +44,7 @@ def test_hard_machines(path: Path) -> None:
 
 
 def random_machine(seed: int) -> Machine:
-    return Machine.model_validate(random_drive(np.random.default_rng(seed)))
+    return Machine.model_validate(random_drive(generator(seed)))
 
 
 def _agree(a: SteadyState, b: SteadyState, accuracy: float) -> None:
@@ -179,36 +178,7 @@ def test_every_other_motion_is_a_warning_and_is_written_out() -> None:
 @pytest.mark.parametrize("free_length", [0.19279829159075335, 0.1994])
 def test_a_row_that_does_not_converge_is_refused(free_length: float) -> None:
     """Newton in lanes ends at 90 to 913 rad/s with a motor of 13 rad/s: no step in halves bears that out."""
-    machine = Machine.model_validate(
-        {
-            "format": 1,
-            "name": "stiff spring",
-            "mechanism": {
-                "cranks": {"A": {"radius": 0.222364487830005, "phase": -1.5065874818779363}},
-                "sliders": {"S": {"crank": "A", "rod": 0.6511568990003243, "angle": 2.7669510909322392}},
-            },
-            "bodies": {"A": {"inertia": 0.052257668249688576, "mass": 0.9090181905704572}},
-            "loads": {
-                "gravity": {"kind": "gravity"},
-                "spring": {
-                    "kind": "spring",
-                    "between": ["S", "O"],
-                    "free_length": 0.2035150337610216,
-                    "stiffness": 139395.93406986273,
-                },
-            },
-            "drive": {
-                "motor": {
-                    "kind": "induction",
-                    "inertia": 0.0047441085702000976,
-                    "speed_rated": 12.989500281326327,
-                    "speed_synchronous": 13.343187021943711,
-                    "torque_breakdown": 2003.084033011586,
-                    "torque_rated": 639.6465097439935,
-                }
-            },
-        }
-    )
+    machine = found_machine("stiff_spring")
     rows = lw.steady_states(machine, {"loads.spring.free_length": np.array([free_length])})
     assert rows.status[0] != 0
     with pytest.raises(FindingError):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 
 
 def test_the_centre_of_a_rod_lies_on_the_crank_above_the_slider() -> None:

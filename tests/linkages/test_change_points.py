@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError
+from linkwright import AssemblyError
 
 
 def four_bar(crank: float, coupler: float, rocker: float, frame: float, side: str = "left") -> lw.Machine:

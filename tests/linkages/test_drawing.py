@@ -13,7 +13,7 @@ import pytest
 from zoo import ZOO
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 
 # What a drawing tells, by table.
 TOLD = {

@@ -11,7 +11,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
+from linkwright import FindingError
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_jumps, law_warnings
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from command_line import invoke
 from random_drives import random_drive
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright import FindingError, LinkwrightError
 from linkwright.linkages.gradient import linkage_tangents
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -139,8 +139,7 @@ def test_derivatives_are_those_of_the_linkage(name: str) -> None:
 
 def test_derivatives_of_random_mechanisms() -> None:
     compared = 0
-    for case in range(cases(10, 1000)):
-        random = np.random.default_rng([53, case])
+    for case, random in random_cases(53, 10, 1000):
         try:
             machine = lw.Machine.model_validate(random_drive(random))
             one, wrong = _wrong(machine, cases(3, 1))

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright import AssemblyError, InputError, loads
 from linkwright.linkages.whole_cycle import over_whole_cycle
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.read import loads
+from linkwright.machine import compile_machine
 
 HEAD = 'format = 1\nname = "linkage"\n'
 FOUR_BAR = """

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError
+from linkwright import AssemblyError
 from linkwright.linkages.dyads import dyads_of
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 # Nothing here is to be computed with what is not finite.
 pytestmark = pytest.mark.filterwarnings("error::RuntimeWarning")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError, ShapeError
+from linkwright import AssemblyError, InputError, ShapeError
 from linkwright.kernel.numerics.taylor import Taylor
 from linkwright.linkages.law import (
     FormulaLaw,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError
+from linkwright import AssemblyError
 
 FOUND = Path(__file__).parents[1] / "found"
 

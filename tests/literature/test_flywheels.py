@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.turning.diagram import TurningMomentDiagram
 from linkwright.turning.tables import turning_tables
 

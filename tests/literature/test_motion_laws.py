@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from linkwright.cam.law_factors import cam_laws
+from linkwright import cam_laws
 
 CASES = tomllib.loads(Path(__file__).with_name("motion_laws.toml").read_text(encoding="utf-8"))["case"]
 

@@ -8,15 +8,10 @@ from typing import Any
 
 import pytest
 
-from linkwright.drive.evenness import constant_energy
-from linkwright.drive.reduction import reduction
-from linkwright.drive.steady_state import steady_state
+from linkwright import Machine, constant_energy, read, reduction, required_power, steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.machine import Machine
-from linkwright.machine.read import read
 from linkwright.papers.paper1.paper import load_by_steps
 from linkwright.papers.paper1.scheme import published_scheme, turns_to_steady
-from linkwright.sizing.power import required_power
 
 CASES = tomllib.loads((Path(__file__).parent / "paper1.toml").read_text(encoding="utf-8"))["case"]
 

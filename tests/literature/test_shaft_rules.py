@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from linkwright.torsion import ShaftLimit
 from linkwright.torsion.model.permitted_stress import (
     DESIGN_FACTORS,
     barred_speeds,
@@ -16,7 +17,6 @@ from linkwright.torsion.model.permitted_stress import (
     speed_factor,
     transient_stress,
 )
-from linkwright.torsion.model.shaft_limit import ShaftLimit
 
 MPA = 1e6
 

@@ -9,8 +9,7 @@ import pytest
 from linkwright.papers.paper import printed_values
 from linkwright.papers.paper5.paper import printed_claim
 from linkwright.papers.published_lengths import PAPER
-from linkwright.topping.required_length import published_lengths
-from linkwright.topping.roots import head_diameter
+from linkwright.topping import head_diameter, published_lengths
 
 # D, h_p, Δ [m], α [°], v, v_h [m/s], L [m].
 CASES = [

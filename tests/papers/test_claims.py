@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.papers.claim import judged, tolerance
 from linkwright.papers.page import conclusion, filled, rounded_up, shown
 from linkwright.papers.paper import PAPERS, Paper, paper, printed_values

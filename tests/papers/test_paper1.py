@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.drive.evenness import constant_energy
-from linkwright.drive.model.motor import InductionMotor
-from linkwright.drive.steady_state import steady_state
+from linkwright import constant_energy, read, replace, steady_state
+from linkwright.drive import InductionMotor
 from linkwright.kernel.files.library import library, library_path
-from linkwright.machine.address import replace
-from linkwright.machine.read import read
 from linkwright.papers.claim import Cell
 from linkwright.papers.paper1.drive import published_drives, recompute
 from linkwright.papers.paper1.paper import Paper1, paper1

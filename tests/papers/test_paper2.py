@@ -11,11 +11,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from linkwright.cam.profile.profile import cam_profile
+from linkwright import cam_profile, forces, read
 from linkwright.kernel.files.library import library_path
-from linkwright.kinetostatics.forces import forces
-from linkwright.machine.program.drive_line import drive_inertia
-from linkwright.machine.read import read
+from linkwright.machine import drive_inertia
 from linkwright.papers.page import page
 from linkwright.papers.paper import printed_values
 from linkwright.papers.paper2 import formulas

@@ -170,7 +170,7 @@ def test_change_of_a_frequency_follows_the_energy(paper: Paper3) -> None:
 
 def test_rigid_unevenness_by_the_torques(paper: Paper3) -> None:
     """δ if nothing twisted: all torques added up and integrated over the angle."""
-    from linkwright.torsion.excitation.excited_train import excited_train
+    from linkwright.torsion import excited_train
 
     speed = paper.trial.service
     at = excited_train(paper.trial.machine, np.array([speed]))

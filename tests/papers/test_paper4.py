@@ -7,9 +7,8 @@ import json
 import numpy as np
 import pytest
 
+from linkwright import closure, read
 from linkwright.kernel.files.library import library_path
-from linkwright.linkages.closure import closure
-from linkwright.machine.read import read
 from linkwright.papers.page import page
 from linkwright.papers.paper4.formulas import LeverFormula
 from linkwright.papers.paper4.paper import Paper4, paper4

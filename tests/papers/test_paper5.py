@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from linkwright.papers.page import page, shown
 from linkwright.papers.paper5.paper import Paper5, _heads, paper5
 from linkwright.papers.paper5.steps import exact_over, factors
-from linkwright.topping.required_length import length_consistent, length_published, published_lengths
+from linkwright.topping import length_consistent, length_published, published_lengths
 
 
 @pytest.fixture(scope="module")

@@ -8,20 +8,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkwright.machine.read import loads
-from linkwright.papers.published_lengths import (
-    PAPER,
-    WAYS,
-    Claim,
-    Stroke,
-    bands_of,
-    length_verdict,
-    lengths_over,
+from linkwright import length_verdict, loads
+from linkwright.papers.published_lengths import PAPER, WAYS, Claim, Stroke, bands_of, lengths_over
+from linkwright.topping import (
+    Edge,
+    Knife,
+    constant_speed_lengths,
+    knives,
+    length_consistent,
+    length_published,
 )
 from linkwright.topping.coverage import coverage
-from linkwright.topping.edge import Edge
-from linkwright.topping.knife import Knife, knives
-from linkwright.topping.required_length import constant_speed_lengths, length_consistent, length_published
 
 Floats = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import pytest
 import linkwright as lw
 from linkwright import _core
 from linkwright.kernel.description import formula
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine import compile_machine
 
 STUB = Path(lw.__file__).with_name("_core.pyi")
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright import _core
-from linkwright.kernel.errors import InputError, InternalError
-from linkwright.machine.program.compiled import compile_machine
+from linkwright import InputError, InternalError, _core
+from linkwright.machine import compile_machine
 
 
 @pytest.mark.parametrize("rows", [1, 2])

@@ -16,9 +16,9 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
+from linkwright import InputError
 from linkwright.app.report.moving import mp4
 from linkwright.kernel import extras, system
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.extras import install_command, require
 from linkwright.kernel.page.typeset import _compiler
 from linkwright.studies.parquet import require_pyarrow

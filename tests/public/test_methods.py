@@ -14,9 +14,10 @@ import pytest
 from tests.public.test_misuse import WRONG, right_calls
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, LinkwrightError
+from linkwright import InputError, LinkwrightError
 from linkwright.kernel.result import PlainRecord
-from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis, record_diagnosis
+from linkwright.torsion import record_diagnosis
+from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 
 LAW = lw.read("machines/roller_cam.toml").mechanism.cams["cart"].motion.lift
 CART = lw.read("machines/roller_one_cart.toml")

@@ -19,10 +19,10 @@ import pytest
 from numpy.exceptions import ComplexWarning
 
 import linkwright as lw
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
+from linkwright import InputError, LinkwrightError, MachineError, ShapeError, SteadyStateError
+from linkwright.cam import MotionLaw
 from linkwright.kernel.public.arguments import checks_of
-from linkwright.machine.write import dumps as lw_dumps
+from linkwright.machine import dumps as lw_dumps
 from linkwright.papers.published_lengths import PAPER
 
 TURN = np.linspace(0.0, 6.0, 7)

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 
 ROOT = Path(__file__).parents[2]
 # From -inf to inf, beyond the ranges of all kinds.

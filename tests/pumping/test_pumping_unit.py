@@ -10,10 +10,10 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError
+from linkwright import AssemblyError, FindingError, InputError, MachineError, pumping_unit, pumping_units
 from linkwright.pumping.model.unit import PumpingUnit
-from linkwright.pumping.model.unit_catalogue import catalogue_unit, pumping_units
-from linkwright.pumping.unit import PumpingUnitMotion, pumping_unit
+from linkwright.pumping.model.unit_catalogue import catalogue_unit
+from linkwright.pumping.unit import PumpingUnitMotion
 
 INCH = 0.0254
 

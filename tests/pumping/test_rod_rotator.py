@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sizes import generator
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError
+from linkwright import AssemblyError, InputError, rod_rotator
 from linkwright.papers.paper4.formulas import LeverFormula, Unit
 from linkwright.pumping.model.rod_rotator import diagonal_extremes
 from linkwright.pumping.model.rotator_lengths import lengths
-from linkwright.pumping.rod_rotator import RodRotatorMotion, rod_rotator
+from linkwright.pumping.rod_rotator import RodRotatorMotion
 
 CONTINUOUS = lw.read("machines/rod_rotator_continuous.toml")
 INTERMITTENT = lw.read("machines/rod_rotator_intermittent.toml")
@@ -129,7 +130,7 @@ def test_swing_comes_out_as_wanted(swing: float, assembly: str) -> None:
 
 def rotators(seed: int, many: int) -> Iterator[dict[str, Any]]:
     """Swings over all that can be written, densely near the ends; all else at random."""
-    rng = np.random.default_rng(seed)
+    rng = generator(seed)
     for k in range(many):
         low, high = ((0.01, 180), (0.01, 20), (170, 180))[k % 3]
         yield {

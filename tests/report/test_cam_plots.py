@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.cam import MotionLaw
 from linkwright.cam.figures.cam import residual_figure
-from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
+from linkwright.cam.laws.motion_law import Harmonic, Piece
 
 RISE = MotionLaw.of(0.0, (1.0, Piece((0.0, 1.0), (Harmonic(2 * np.pi, 0.0, -0.5 / np.pi),))))
 

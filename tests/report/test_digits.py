@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.sentences import sentence
 from linkwright.kernel.page.table import row
+from linkwright.kernel.reader.numbers import number
+from linkwright.kernel.reader.sentences import sentence
 from linkwright.kinetostatics.tables import envelope_table
 
 

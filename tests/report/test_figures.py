@@ -11,16 +11,16 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import linkwright as lw
+from linkwright import InputError, torsion_study
 from linkwright.app.report.page import content
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
-from linkwright.kernel.figure.style import BLUE, RED, SMALL, legend_above, panels, styled
+from linkwright.kernel.figure.style import BLUE, RED, SMALL, panels, styled
 from linkwright.kernel.figure.svg import svg
-from linkwright.kernel.page.language import language
-from linkwright.kernel.page.numbers import number
 from linkwright.kernel.page.translation import in_language
-from linkwright.torsion.page import torsion_content
-from linkwright.torsion.study import torsion_study
+from linkwright.kernel.reader.language import language
+from linkwright.kernel.reader.numbers import number
+from linkwright.torsion import torsion_content
 
 
 @pytest.mark.parametrize("machine", ["roller_two_carts", "press_with_flywheel", "four_stroke_speed"])

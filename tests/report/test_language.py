@@ -10,16 +10,15 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
+from linkwright import InputError, torsion_study
 from linkwright.app.commands.report import _content
-from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.for_reader import _said
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.html import _page_words
-from linkwright.kernel.page.language import ENGLISH, Language, _filled, language
 from linkwright.kernel.page.translation import in_language
-from linkwright.machine.table import machine_parts
-from linkwright.torsion.page import torsion_content
-from linkwright.torsion.study import torsion_study
+from linkwright.kernel.reader.axes import _said
+from linkwright.kernel.reader.language import ENGLISH, Language, _filled, language
+from linkwright.machine import machine_parts
+from linkwright.torsion import torsion_content
 
 UKRAINIAN = language("uk")
 

@@ -20,9 +20,9 @@ from tests.report.test_language import UKRAINIAN
 from tests.samples.provoked import provoked, shaken
 
 import linkwright as lw
+from linkwright import LinkwrightError, straight_lines
 from linkwright.app.commands.report import _content
-from linkwright.drive.batch import FAST_STARTS, STATUS
-from linkwright.kernel.errors import LinkwrightError
+from linkwright.drive import FAST_STARTS, STATUS
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.page.content import Content
 from linkwright.kernel.page.formulas import Formula
@@ -31,7 +31,6 @@ from linkwright.kernel.page.translation import in_language
 from linkwright.machine.table import Part
 from linkwright.studies.point_responses import OPEN
 from linkwright.studies.rows import NO_NUMBER
-from linkwright.synthesis.straight_line import straight_lines
 
 __all__ = ["known"]
 

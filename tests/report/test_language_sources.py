@@ -14,9 +14,9 @@ from docs.tables import descriptions, results
 from tests.report.test_language import UKRAINIAN
 
 import linkwright
+from linkwright import FindingError
 from linkwright.kernel import errors
 from linkwright.kernel.description.place import field_names
-from linkwright.kernel.errors import FindingError
 from linkwright.kernel.quantities import quantities_of
 
 SOURCE = Path(linkwright.__file__).parent

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 
 CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

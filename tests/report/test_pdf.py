@@ -10,8 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 
 import linkwright as lw
+from linkwright import study
 from linkwright.app.report.page import content
-from linkwright.app.study import study
 from linkwright.kernel.figure.style import WIDTH
 from linkwright.kernel.page.formulas import Formula, typst
 from linkwright.kernel.page.table import Table

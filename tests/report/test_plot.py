@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.app.study import Study, study
+from linkwright import loads, read, study
+from linkwright.app.study import Study
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.figures import motor_figure, reduction_figure, run_up_figure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kinetostatics.figures import forces_figure
-from linkwright.machine.read import loads, read
 from linkwright.sensitivity.figures import influence_figure
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"

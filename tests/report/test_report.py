@@ -10,13 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.app.report.page import report_html, write_report
-from linkwright.app.study import Study, study
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, loads, read, study, write_report
+from linkwright.app.report.page import report_html
+from linkwright.app.study import Study
 from linkwright.kernel.files.library import template, templates
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.sentences import sentence
-from linkwright.machine.read import loads, read
+from linkwright.kernel.reader.numbers import number
+from linkwright.kernel.reader.sentences import sentence
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from linkwright import loads, read, study
 from linkwright.app.report.scene import scene
-from linkwright.app.study import study
 from linkwright.kernel.files.library import template, templates
-from linkwright.machine.read import loads, read
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 
 # A torsional train, a knife that follows a law, and a turning-moment diagram have no mechanism to be drawn.
 GALLERY = [

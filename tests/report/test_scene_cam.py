@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from linkwright import loads
 from linkwright.app.report.scene import scene
-from linkwright.machine.read import loads
 
 SECTIONS = """
 sections = [

@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from linkwright import loads, read, study
 from linkwright.app.report.page import knife_scene
-from linkwright.app.study import study
 from linkwright.kernel.files.library import template
-from linkwright.machine.read import loads, read
-from linkwright.topping.edge import edges_of
+from linkwright.topping import edges_of
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'

@@ -15,9 +15,9 @@ from sizes import cases
 from trains import Gear, Shaft, text
 
 import linkwright as lw
+from linkwright import scheme
 from linkwright.kernel.figure.svg import svg
-from linkwright.torsion.figures.scheme import scheme_figure
-from linkwright.torsion.modes.scheme import Scheme, scheme
+from linkwright.torsion import Scheme, scheme_figure
 
 THROWS = {"hub": 0.8, **{f"throw_{n}": 1.35 for n in range(1, 13)}, "flywheel": 38.0, "propeller": 52.0}
 MARINE = {"engine_1": 420.0, "hub_1": 35.0, "pinion_1": 12.0, "wheel": 310.0, "thrust": 40.0}

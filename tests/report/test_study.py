@@ -10,13 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.app.study import Study, study
+from linkwright import InputError, loads, read, steady_state, study
+from linkwright.app.study import Study
 from linkwright.drive.characteristic import characteristic
-from linkwright.drive.steady_state import steady_state
 from linkwright.drive.warnings import drive_warnings
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import template
-from linkwright.machine.read import loads, read
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 ALONE = 'format = 1\nname = "alone"\n[mechanism.cranks.A]\nradius = 0.1\n[bodies]\nA = { mass = 1 }\n'

@@ -9,16 +9,15 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from linkwright.app.study import study
+from linkwright import loads, read, study
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.files.library import template
-from linkwright.kernel.page.numbers import number
-from linkwright.kernel.page.out_units import OutUnits, reading
 from linkwright.kernel.page.table import columns_csv, curves_csv, part_table, parts_of
 from linkwright.kernel.quantities import About, Label, over
+from linkwright.kernel.reader.numbers import number
+from linkwright.kernel.reader.out_units import OutUnits, reading
 from linkwright.kernel.result import Result
-from linkwright.machine.read import loads, read
-from linkwright.machine.table import machine_parts
+from linkwright.machine import machine_parts
 
 TWO_CARTS = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

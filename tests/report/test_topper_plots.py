@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.machine.read import read
+from linkwright import read, topper
 from linkwright.papers.published_lengths import Stroke
-from linkwright.topping.charts import length_chart, verdict_chart
-from linkwright.topping.edge import edges_of
+from linkwright.topping import HeadPass, TopperStudy, constant_speed_lengths, edges_of, length_chart
+from linkwright.topping.charts import verdict_chart
 from linkwright.topping.figures.lengths import (
     edge_use_figure,
     length_chart_figure,
@@ -19,9 +19,7 @@ from linkwright.topping.figures.lengths import (
     verdict_figure,
 )
 from linkwright.topping.figures.view import top_view_figure
-from linkwright.topping.head_pass import HeadPass, head_pass
-from linkwright.topping.required_length import constant_speed_lengths
-from linkwright.topping.topper import TopperStudy, topper
+from linkwright.topping.head_pass import head_pass
 
 MACHINE = Path(__file__).parents[2] / "machines" / "topper.toml"
 

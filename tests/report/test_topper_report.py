@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 from command_line import invoke
 
+from linkwright import read, study
 from linkwright.app.commands.check import summary
 from linkwright.app.report.page import report_html
-from linkwright.app.study import Study, study
-from linkwright.kernel.page.numbers import number
+from linkwright.app.study import Study
 from linkwright.kernel.page.table import Table, curves_csv
-from linkwright.machine.read import read
-from linkwright.machine.table import machine_parts
-from linkwright.topping.tables.topper import edge_csv
+from linkwright.kernel.reader.numbers import number
+from linkwright.machine import machine_parts
+from linkwright.topping import edge_csv
 
 MACHINES = Path(__file__).parents[2] / "machines"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import linkwright as lw
+from linkwright import torsion_study
 from linkwright.torsion.figures.captions import worst_shaft
-from linkwright.torsion.study import torsion_study
 
 THREE = """
 format = 1

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 
 import linkwright as lw
-from linkwright.cam.core import cam_kernel
-from linkwright.cam.laws.motion_law import MotionLaw, Piece
-from linkwright.cam.model.follower import Sizes
-from linkwright.cam.profile.contact import CamCurve, Contact
+from linkwright.cam import CamCurve, MotionLaw, Sizes, cam_kernel
+from linkwright.cam.laws.motion_law import Piece
+from linkwright.cam.profile.contact import Contact
 
 Floats = np.ndarray
 TURN = 2 * np.pi

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece, joined
+from linkwright.cam import MotionLaw, joined
+from linkwright.cam.laws.motion_law import Harmonic, Piece
 
 CYCLOIDAL = MotionLaw.of(0.0, (1.0, Piece((0.0, 1.0), (Harmonic(2 * np.pi, 0.0, -0.5 / np.pi),))))
 HARMONIC = MotionLaw.of(0.0, (1.0, Piece((0.5,), (Harmonic(np.pi, -0.5, 0.0),))))

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.cam.laws.piece import Harmonic, Piece
+from linkwright.cam import Harmonic, MotionLaw, Piece
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

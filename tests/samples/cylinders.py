@@ -9,10 +9,7 @@ from numpy.typing import NDArray
 from pydantic import TypeAdapter, ValidationError
 
 from linkwright.kernel.errors import Problem
-from linkwright.torsion.model.engine.combustion import Combustion
-from linkwright.torsion.model.engine.cylinder import Cylinder
-from linkwright.torsion.model.engine.engine import AnyGas
-from linkwright.torsion.model.engine.indicator import Indicator
+from linkwright.torsion import AnyGas, Combustion, Cylinder, Indicator
 
 Array = NDArray[np.float64]
 

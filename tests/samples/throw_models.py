@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import splu
 
-from linkwright.torsion.model.engine.throw import CrankThrow
+from linkwright.torsion import CrankThrow
 
 Floats = NDArray[np.float64]
 

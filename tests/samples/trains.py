@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.torsion.modes.free import FreeVibration
+from linkwright.torsion import FreeVibration
 
 Floats = NDArray[np.float64]
 Shaft = tuple[str, str, float]

@@ -21,13 +21,14 @@ from numpy.typing import NDArray
 from random_diagrams import areas, formula, table
 from random_drives import Table, torque_size, with_blow
 from random_parts import log_uniform, random_train
-from sizes import cases
+from sizes import random_cases
 
 import linkwright as lw
-from linkwright.cam.dynamics.loaded import cam_force
+from linkwright import FindingError, LinkwrightError
+from linkwright.cam import cam_force
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import FindingError, LinkwrightError
-from linkwright.machine.address import exchanged, is_given
+from linkwright.machine import exchanged
+from linkwright.machine.address import is_given
 
 # Shares of entries over which they are varied: shorter ones do not reach a kink or a tie of two extremes
 # beside the machine; over longer ones rounding counts less.
@@ -405,8 +406,8 @@ def _surest(uncertainties: Floats, errors: Floats) -> tuple[Floats, Floats]:
 
 def test_derivatives_are_those_of_the_analyses() -> None:
     counts, coarse = Counter[str](), 0
-    for number in range(cases(len(_QUICK), 10_000)):
-        random, kind = np.random.default_rng([41, number]), KINDS[number % len(KINDS)]
+    for number, random in random_cases(41, len(_QUICK), 10_000):
+        kind = KINDS[number % len(KINDS)]
         try:
             tally = compared(kind(random), random)
         except LinkwrightError:

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from differences import sixth_order
 from numpy.random import Generator
-from sizes import cases
+from sizes import random_cases
 from trains import mode_numbers
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError
-from linkwright.machine.address import exchanged
+from linkwright import FindingError
+from linkwright.machine import exchanged
 
 # Shares of an entry by which it is varied: between two extremes that nearly tie, or over a number of stations
 # that changes, longer steps err; over shorter ones rounding does.
@@ -171,8 +171,7 @@ def _shares(random: Generator, machine: lw.Machine, found: lw.Gradient) -> dict[
 
 
 def test_modes_of_random_trains() -> None:
-    for case in range(cases(12, 300)):
-        random = np.random.default_rng([11, case])
+    for case, random in random_cases(11, 12, 300):
         machine = _machine(random)
         found = lw.gradient(machine, ["free_vibration.natural_frequencies", "free_vibration.mode_shapes"])
         measure = _modes(list(found.responses))
@@ -182,8 +181,7 @@ def test_modes_of_random_trains() -> None:
 
 
 def test_torques_of_random_trains() -> None:
-    for case in range(cases(32, 300)):
-        random = np.random.default_rng([11, case])
+    for case, random in random_cases(11, 32, 300):
         machine = _machine(random)
         found = lw.gradient(machine, ["forced_vibration"])
         measure = _forced(machine, list(found.responses))

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.numerics.differences import slopes
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 VEE, V8 = "machines/v_diesel.toml", "machines/v8_diesel.toml"
 

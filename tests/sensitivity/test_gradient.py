@@ -8,11 +8,10 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.drive.gradient import gradient_along, solved_along
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
-from linkwright.machine.address import exchanged
-from linkwright.machine.program.compiled import Translation, compile_machine
-from linkwright.machine.tangents import directions
+from linkwright import FindingError, InputError, LinkwrightError
+from linkwright.drive import gradient_along, solved_along
+from linkwright.machine import compile_machine, directions, exchanged
+from linkwright.machine.program.compiled import Translation
 
 TWO_CARTS = "machines/roller_two_carts.toml"
 MACHINES = [

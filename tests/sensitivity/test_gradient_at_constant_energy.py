@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, LinkwrightError
-from linkwright.machine.machine import Machine
+from linkwright import FindingError, LinkwrightError, Machine
 
 NAMES = ("unevenness", "dynamism", "motion_coefficient")
 MACHINES = sorted(

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 from numpy.random import Generator
 from random_drives import random_drive
-from sizes import cases
+from sizes import cases, random_cases
 from test_random_machines import Measure, difference
 
 import linkwright as lw
-from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright import LinkwrightError, steady_state
+from linkwright.drive import accurate_run_down, accurate_run_up
+from linkwright.machine import exchanged
 
 # A crank with a DC motor on its shaft against constant friction: the speed is ω₀ (1 − exp(−t/τ)) with
 # ω₀ = ω_n (1 − M/M_s) and τ = J ω_n/M_s; without the motor it falls by (M + B)/J.
@@ -168,9 +167,9 @@ def compared_with_differences(
 def test_derivatives_are_those_of_the_analysis(kind: str) -> None:
     names, measure = KINDS[kind]
     compared = 0
-    for case in range(cases(10, 150)):
+    for case, random in random_cases(17, 10, 150):
         try:
-            machine = _drive(np.random.default_rng([17, case]))
+            machine = _drive(random)
             measure(machine)
             wrong = compared_with_differences(machine, names, measure, cases(8, 1))
         except LinkwrightError:

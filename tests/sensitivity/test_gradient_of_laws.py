@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.run_up import accurate_run_down, accurate_run_up
-from linkwright.kernel.errors import InputError
-from linkwright.machine.address import exchanged
+from linkwright import InputError
+from linkwright.drive import accurate_run_down, accurate_run_up
+from linkwright.machine import exchanged
 
 MACHINE = """
 format = 1

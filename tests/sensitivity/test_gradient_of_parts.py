@@ -9,8 +9,8 @@ import pytest
 from differences import sixth_order
 
 import linkwright as lw
-from linkwright.cam.dynamics.loaded import cam_force
-from linkwright.machine.address import exchanged
+from linkwright.cam import cam_force
+from linkwright.machine import exchanged
 from linkwright.sensitivity.sources import source
 
 # A roller in line with the cam, pressed by a spring or held in a groove, on which inertia prevails.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from found_machines import found_machine
 
 import linkwright as lw
 
@@ -167,34 +168,12 @@ def test_a_peak_at_a_corner_goes_with_the_corner(address: str) -> None:
     assert abs(found.derivatives[0, 0] - (4 * once - twice) / 3) < 1e-6 * abs(found.derivatives[0, 0])
 
 
-# A light crank behind a steep motor: rounding of its speed is acceleration, whose slope is 1e-5 off by it.
-STEEP = """format = 1
-name = "Constant force on a crank pin"
-[drive]
-gearbox = { ratio = 3, efficiency = 0.9 }
-[drive.motor]
-kind = "induction"
-inertia = 1.5486869905007519e-4
-speed_rated = 15.774653874735744
-speed_synchronous = 16.836306858273723
-torque_rated = 183.42231931562662
-torque_breakdown = 493.3614997868001
-[mechanism]
-points.P0.y = -0.6296878779033444
-cranks.A = { radius = 0.22277556026507692, phase = 1.611981337138218 }
-slotted_levers.L0 = { pin = "A", pivot = "P0", length = 0.6262515261154957 }
-[bodies]
-A.mass = 1.9229191186365113
-L0.mass = 0.31608961629721927
-[loads]
-l0 = { kind = "force", on = "A", force = 1955.345211063773, direction = -0.20647795766706079 }
-"""
-
-
 def test_rounding_of_a_steep_drive_does_not_place_a_peak() -> None:
     """Nothing but the crank's own phase says where it is: no extreme has a derivative by it."""
     found = lw.gradient(
-        lw.loads(STEEP), ["steady_state.acceleration_min"], variables=["mechanism.cranks.A.phase"]
+        found_machine("light_crank_of_steep_motor"),
+        ["steady_state.acceleration_min"],
+        variables=["mechanism.cranks.A.phase"],
     )
     # ε″ = 950 at the peak, whose angle is known to 1e-9; by differences of readings it is to 1e-8.
     assert abs(found.derivatives[0, 0]) < 1e-6 * abs(found.values[0]), found.derivatives

@@ -8,7 +8,7 @@ import pytest
 from test_gradient_of_laws import _forces, _run_up, _steady, errors
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright import FindingError, InputError
 
 CART = "machines/roller_one_cart.toml"
 

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from differences import sixth_order
 from random_parts import log_uniform
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
+from linkwright import LinkwrightError
 from linkwright.cam.gradient import cam_tangents
-from linkwright.kernel.errors import LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied: rounding leaves 1e-13 of a result over it, the extrapolated
 # differences h⁶ of a seventh derivative, which small radii of curvature make large.
@@ -156,9 +156,9 @@ _BESIDE_JOINTS = (5025,)
 
 def test_derivatives_are_those_of_the_cam() -> None:
     compared = 0
-    for case in (*range(cases(12, 1000)), *_BESIDE_JOINTS):
+    for case, random in random_cases(7, 12, 1000, also=_BESIDE_JOINTS):
         try:
-            machine = _machine(np.random.default_rng([7, case]))
+            machine = _machine(random)
             faults = lw.cam_faults(lw.cam_profile(machine, "c"))
         except (LinkwrightError, ValueError):
             # A follower that does not reach its cam, a law that cannot do what is asked.

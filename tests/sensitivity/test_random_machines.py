@@ -12,12 +12,12 @@ from differences import sixth_order
 from numpy.random import Generator
 from random_drives import random_drive, torque_size, with_jump
 from random_parts import random_train
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
+from linkwright import LinkwrightError
 from linkwright.kinetostatics.result import Forces
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied: rounding over it, and h⁶ of what is left by extrapolation.
 _STEP = 1e-4
@@ -169,9 +169,9 @@ def check(
 @pytest.mark.parametrize(("kind", "few", "many"), [(_drive, 12, 1000), (_train, 12, 1000), (_forces, 4, 300)])
 def test_derivatives_are_those_of_the_analysis(kind, few: int, many: int) -> None:
     compared, refused = 0, Counter[str]()
-    for case in range(cases(few, many)):
+    for case, random in random_cases(3, few, many):
         try:
-            machine, names, measure = kind(np.random.default_rng([3, case]))
+            machine, names, measure = kind(random)
             measure(machine)
             alike = _ALIKE if kind is _forces else None
             one, wrong = check(machine, names, measure, cases(5, 1), alike=alike)
@@ -186,7 +186,7 @@ def test_derivatives_are_those_of_the_analysis(kind, few: int, many: int) -> Non
 
 
 # What jumps leave of derivatives that are zero, or found by moving ends of steps in turn, which took turns.
-_JUMPS = (1, 23, 164, 222, 349)
+_JUMPS = (1, 23, 164, 222, 349, *range(400, cases(413, 1500)))
 
 # Below, rounding of slow drives makes thousands of steps.
 _BESIDE_JUMPS = partial(_measures, accuracy=1e-12)
@@ -194,9 +194,9 @@ _BESIDE_JUMPS = partial(_measures, accuracy=1e-12)
 
 def test_derivatives_are_found_where_a_load_jumps_over_speed() -> None:
     compared, refused = 0, Counter[str]()
-    for case in (*_JUMPS, *range(400, cases(413, 1500))):
+    for case, random in random_cases(11, 0, 0, also=_JUMPS):
         try:
-            machine = _jumping_drive(np.random.default_rng([11, case]))
+            machine = _jumping_drive(random)
             _BESIDE_JUMPS(machine)
         except LinkwrightError as error:
             refused[_reason(error)] += 1

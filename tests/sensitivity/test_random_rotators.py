@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 from differences import sixth_order
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError, LinkwrightError
-from linkwright.machine.address import exchanged
+from linkwright import FindingError, InputError, LinkwrightError
+from linkwright.machine import exchanged
 from linkwright.pumping.model.rod_rotator import diagonal_extremes
 from linkwright.pumping.rotator_gradient import RotatorAlong
 from linkwright.sensitivity.sources import Source, source
@@ -113,8 +113,7 @@ def _wrong(machine: lw.Machine, derived: Source, many: int, rng: np.random.Gener
 @pytest.mark.parametrize("regime", ["continuous", "intermittent"])
 def test_derivatives_are_those_of_the_rotator(regime: str, lengths: str) -> None:
     compared = 0
-    for case in range(cases(7, 80)):
-        rng = np.random.default_rng([31, case])
+    for case, rng in random_cases(31, 7, 80):
         try:
             machine = _machine(rng, regime, lengths)
             lw.rod_rotator(machine, n=8)

@@ -7,16 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 from differences import sixth_order
-from sizes import cases
+from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright.cam.laws.motion_law import MotionLaw
-from linkwright.kernel.errors import FindingError, LinkwrightError
+from linkwright import FindingError, LinkwrightError
+from linkwright.cam import MotionLaw
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.machine.address import exchanged
+from linkwright.machine import exchanged
 from linkwright.sensitivity.sources import source
-from linkwright.topping.edge import edges_of, require_topper
-from linkwright.topping.knife import Knife
+from linkwright.topping import Knife, edges_of, require_topper
 from linkwright.topping.knife_along import knife_along, refused_of_law
 
 # Share of an entry by which it is varied: areas are good to 1e-12 of a head.
@@ -141,8 +140,8 @@ def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
 @pytest.mark.parametrize("kind", ["harmonic", "constant", "one_way", "slider", "cam"])
 def test_derivatives_are_those_of_the_topper(kind: str) -> None:
     compared = 0
-    for case in range(cases(1, 60)):
-        machine = _machine(np.random.default_rng([17, case]), kind)
+    for case, random in random_cases(17, 1, 60):
+        machine = _machine(random, kind)
         one, wrong = _wrong(machine, cases(4, 1))
         assert not wrong, (kind, case, wrong)
         compared += one

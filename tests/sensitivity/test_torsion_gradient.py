@@ -7,8 +7,8 @@ import pytest
 from trains import mode_numbers
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.machine.address import exchanged
+from linkwright import InputError
+from linkwright.machine import exchanged
 
 GEARED = "examples/geared_train_frequencies/machine.toml"
 TURBINE = "examples/marine_turbine/machine.toml"

@@ -5,14 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, Machine, choose_flywheel, loads, read, replace, steady_state
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.address import replace
-from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.machine.read import loads, read
-from linkwright.sizing.flywheel import choose_flywheel, classical_flywheel, constant_inertia
+from linkwright.machine import compile_machine
+from linkwright.sizing.flywheel import classical_flywheel, constant_inertia
 from linkwright.sizing.motor_change import with_flywheel
 
 

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from linkwright.drive.model.catalogue import estimated_inertia, motor, motors
-from linkwright.drive.model.motor import InductionMotor
-from linkwright.drive.run_up import run_up
-from linkwright.drive.steady_state import steady_state
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, Machine, choose_motor, loads, motors, read, replace, run_up, steady_state
+from linkwright.drive import InductionMotor, estimated_inertia, motor
 from linkwright.kernel.files.library import library_path, template
-from linkwright.machine.address import replace
-from linkwright.machine.machine import Machine
-from linkwright.machine.read import loads, read
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
 from linkwright.sizing.checks import PEAK_SHARE, motion_checks
-from linkwright.sizing.motor import MotorChoice, choose_motor
+from linkwright.sizing.motor import MotorChoice
 from linkwright.sizing.motor_change import rotor_inertia
 
 DRIVES = ("one_cart", "two_carts", "three_carts", "four_carts")

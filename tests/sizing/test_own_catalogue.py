@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.drive.model.catalogue import CatalogueMotor
-from linkwright.kernel.errors import InputError, MachineError, MachineFileError
-from linkwright.sizing.motor import Candidate, choose_motor
+from linkwright import InputError, MachineError, MachineFileError, choose_motor
+from linkwright.drive import CatalogueMotor
+from linkwright.sizing.motor import Candidate
 
 HEAD = (
     "type, kind, power_rated [kW], speed_rated [rpm], speed_synchronous [rpm], torque_breakdown_ratio, "

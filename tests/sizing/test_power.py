@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, read, replace, required_power
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.address import replace
-from linkwright.machine.read import read
-from linkwright.sizing.power import required_power
 
 
 @pytest.mark.parametrize(

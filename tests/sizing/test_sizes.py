@@ -12,10 +12,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 import linkwright as lw
+from linkwright import FindingError, InputError
 from linkwright.app.application import application
 from linkwright.kernel.command.answer import Answer
-from linkwright.kernel.errors import FindingError, InputError
-from linkwright.studies.sizes import cam_study, damper_study, drive_study
+from linkwright.studies import cam_study, damper_study, drive_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

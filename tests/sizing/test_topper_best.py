@@ -11,10 +11,10 @@ from sizes import cases
 from tests.samples import topper_fields
 
 import linkwright as lw
-from linkwright.topping.best.best_knife import KnifeSearch, best_knife
+from linkwright import best_knife, topper_field
+from linkwright.topping import draw_roots, head_diameter
+from linkwright.topping.best.best_knife import KnifeSearch
 from linkwright.topping.best.knife_trial import Trials, thinned
-from linkwright.topping.field import topper_field
-from linkwright.topping.roots import draw_roots, head_diameter
 
 FIELD = """
 [topper.field]

@@ -90,7 +90,7 @@ def test_not_all_checks_are_passed_where_a_row_fails() -> None:
 @pytest.mark.parametrize("more", [(), ("--by", "fixed-start")])
 def test_the_headline_in_ukrainian(more: tuple[str, ...]) -> None:
     """No part of the headline stays English."""
-    from linkwright.kernel.page.language import language
+    from linkwright.kernel.reader.language import language
 
     ukrainian = language("uk")
     _, text = size(PRESS, *more)

@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright import FindingError, InputError
 
 # At the outer dead centre the cart stands at r + l: a chain of two lengths.
 CHAIN = """

@@ -13,11 +13,10 @@ from command_line import invoke as run
 from sizes import cases
 
 import linkwright as lw
-from linkwright.cam.laws.catalogue import LAWS
+from linkwright import InputError, get
+from linkwright.cam import LAWS
 from linkwright.cam.profile.check import cam_check
-from linkwright.kernel.errors import InputError
-from linkwright.machine.address import get
-from linkwright.studies.cams import Levels, cam_search_study, kept
+from linkwright.studies import Levels, cam_search_study, kept
 
 ROLLER = """
 format = 1

@@ -11,8 +11,8 @@ from command_line import invoke
 from tests.samples.fast_starts import FILE
 
 import linkwright as lw
-from linkwright.drive.batch import FAST_STARTS
-from linkwright.studies.parquet import columns_of
+from linkwright.drive import FAST_STARTS
+from linkwright.studies import columns_of
 
 SWEPT = """
 [study.variables.dry]

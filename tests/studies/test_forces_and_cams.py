@@ -9,8 +9,8 @@ import pytest
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
-from linkwright.studies.plan import StudyPlan
+from linkwright import MachineError
+from linkwright.studies import StudyPlan
 from linkwright.studies.slopes import slopes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.machine import iso286
 
 # Geometric means of the ends of the ranges [mm]; the first is counted from 1 mm.

@@ -12,9 +12,8 @@ from command_line import invoke as run
 from tests.samples.topper_fields import CRANK, FIELD, TOPPER, machine
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
-from linkwright.machine.address import get
-from linkwright.studies.knives import field_study, sweep_field
+from linkwright import InputError, MachineFileError, get, sweep_field
+from linkwright.studies import field_study
 
 SMALL = '[topper.field]\nkind = "random"\nroots = 300\nspacing = "0.31 m"\n'
 

@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.studies.fit_search import STEP, begun
 
 # A disc of 2 kg m² with a dry and a viscous brake: ω = (ω₀ + M/d) exp(−d t/J) − M/d.

@@ -12,7 +12,7 @@ from command_line import invoke
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright import FindingError, InputError
 from linkwright.studies import engine, search_log, slopes
 from linkwright.studies.optimise import Optimum, searched
 

@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke as run
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, FindingError, InputError, MachineError, MachineFileError
+from linkwright import AssemblyError, FindingError, InputError, MachineError, MachineFileError
 from linkwright.linkages.nearest_places import ClosedCurves, disorder, nearest_in_order
 from linkwright.studies.slopes import _differences, slopes
 

@@ -10,7 +10,7 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError, MachineFileError
+from linkwright import MachineError, MachineFileError
 from linkwright.studies.responses import ANALYSES, analysis
 from linkwright.studies.slopes import slopes
 

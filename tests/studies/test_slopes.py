@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies import StudyPlan
 from linkwright.studies.slopes import _differences, slopes
 
 TEXT = """

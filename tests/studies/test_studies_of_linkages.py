@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
-from linkwright.studies.plan import StudyPlan
+from linkwright import MachineError
+from linkwright.studies import StudyPlan
 from linkwright.studies.slopes import slopes as slopes_at
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -13,14 +13,8 @@ from matplotlib.figure import Figure
 from scipy.stats.qmc import Sobol
 
 from linkwright.kernel.figure.style import broken
-from linkwright.studies.figures import (
-    StudyRows,
-    _drawn,
-    _mixed,
-    curve_figure,
-    parallel_figure,
-    scatter_figure,
-)
+from linkwright.studies import StudyRows
+from linkwright.studies.figures import _drawn, _mixed, curve_figure, parallel_figure, scatter_figure
 
 VARIABLES = ("crank_radius_of_first_cart", "phase_of_second_crank", "mass_of_both_carts", "gearbox_ratio")
 RESPONSES = ("coefficient_of_speed_fluctuation", "dynamic_factor_H", "mean_speed_over_time")

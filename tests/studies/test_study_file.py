@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
 from linkwright.kernel.files.library import study_templates, template
 
 Files = Callable[..., Path]

@@ -20,14 +20,14 @@ from command_line import invoke
 from matplotlib.text import Text
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.files.points import place_of
+from linkwright.studies import StudyRows, columns_of, opened, shown_of
 from linkwright.studies.choices import choice_names
-from linkwright.studies.commands.sweep import shown_of
 from linkwright.studies.engine import numbers, sound_variant
-from linkwright.studies.figures import StudyRows, figures
-from linkwright.studies.folder import MANIFEST, opened, plan_of
-from linkwright.studies.parquet import columns_of, one_by_one
+from linkwright.studies.figures import figures
+from linkwright.studies.folder import MANIFEST, plan_of
+from linkwright.studies.parquet import one_by_one
 from linkwright.studies.plan import plan as plan_with
 from linkwright.studies.rows import LAYOUT
 

@@ -13,12 +13,12 @@ from command_line import invoke
 from scipy.stats import norm
 
 import linkwright as lw
+from linkwright import InputError
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
+from linkwright.studies import Distribution, StudyPlan
 from linkwright.studies.axes import axis
 from linkwright.studies.indices import intervals, of_blocks
-from linkwright.studies.model import Distribution, Variable
-from linkwright.studies.plan import StudyPlan
+from linkwright.studies.model import Variable
 
 MACHINE = Path(__file__).parents[2] / "machines" / "roller_two_carts.toml"
 

@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
-from linkwright.machine.tolerances import tolerance_names
-from linkwright.machine.write import dumps
+from linkwright import InputError, MachineFileError
+from linkwright.machine import dumps, tolerance_names
 from linkwright.studies.plan import with_tolerances
 
 RADIUS = "mechanism.cranks.A1.radius"

@@ -8,9 +8,8 @@ import tomllib
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, loads
 from linkwright.linkages.model.topology import TABLES
-from linkwright.machine.read import loads
 from linkwright.studio.building import KINDS, End, added, drawn
 
 from .conftest import Tab
@@ -41,8 +40,8 @@ def test_every_table_of_the_mechanism_and_every_load_is_among_them() -> None:
     raw = tomllib.loads(text)
     assert set(TABLES) <= raw["mechanism"].keys()
     kinds = {load["kind"] for load in raw["loads"].values()}
+    from linkwright import Machine
     from linkwright.kernel.description.schema_walk import annotation_at, kinds_at
-    from linkwright.machine.machine import Machine
 
     assert set(kinds_at(annotation_at(Machine, ("loads", "x"), {}))) <= kinds
     names = [name for table in TABLES for name in raw["mechanism"].get(table, {})]

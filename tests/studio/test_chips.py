@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.page.language import language
-from linkwright.machine.read import loads
+from linkwright import loads
+from linkwright.kernel.reader.language import language
 from linkwright.studio.analyses import chips, fast, found, said
 from linkwright.studio.document import changed
 from linkwright.studio.language import as_read, in_units

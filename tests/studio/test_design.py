@@ -7,8 +7,8 @@ import pytest
 from tests.samples.fast_starts import FILE
 
 import linkwright as lw
-from linkwright.drive.batch import FAST_STARTS
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
+from linkwright.drive import FAST_STARTS
 from linkwright.studio.design import goals, reach, slopes
 from linkwright.studio.search import search
 

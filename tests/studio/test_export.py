@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.files.library import library_path
 from linkwright.studio.export import export
 from linkwright.studio.files import Folder

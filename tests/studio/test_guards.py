@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from linkwright import InputError
 from linkwright.kernel import system
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.library import template
 from linkwright.studio.files import Folder
 from linkwright.studio.server import Studio

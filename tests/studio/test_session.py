@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import kinematics, loads
 from linkwright.kernel.files.library import template
-from linkwright.linkages.kinematics import kinematics
-from linkwright.machine.read import loads
 from linkwright.studio.controls import controls
 from linkwright.studio.document import changed, merged
 from linkwright.studio.drag import drag

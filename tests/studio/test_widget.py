@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright import FindingError, InputError
 from linkwright.studio.widget import LAYERS, module
 
 

@@ -16,13 +16,13 @@ from command_line import invoke
 from docs_scripts import docs_script
 
 import linkwright as lw
+from linkwright import loads
 from linkwright.app.application import application
 from linkwright.app.commands.run import run
 from linkwright.drive import run_up
 from linkwright.drive.commands import transient
 from linkwright.kernel.files.library import template
-from linkwright.machine.read import loads
-from linkwright.torsion.model.train_transient import TrainTransient
+from linkwright.torsion import TrainTransient
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

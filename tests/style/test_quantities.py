@@ -15,15 +15,15 @@ from test_docs import tables
 from test_docstrings import entries, section
 
 import linkwright as lw
+from linkwright import InputError
 from linkwright.app.subjects import ANALYSES
-from linkwright.drive.steady_state import SteadyState
+from linkwright.drive import SteadyState
 from linkwright.drive.tables import drive_tables
-from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.table import curves_csv
 from linkwright.kernel.quantities import About, Label, declared, in_table, quantities_of
 from linkwright.kernel.result import Result
 from linkwright.studio.language import in_words
-from linkwright.torsion.study import TorsionStudy
+from linkwright.torsion import TorsionStudy
 
 REGISTRY = pint.UnitRegistry()
 RESULTS = [each for each in tables().results() if is_dataclass(each)]

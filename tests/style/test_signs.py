@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.topping.coverage import Coverage, coverage
-from linkwright.topping.edge import edges_of
+from linkwright.topping import Coverage, edges_of
+from linkwright.topping.coverage import coverage
 
 MACHINE = """
 format = 1
@@ -71,7 +71,7 @@ def test_offset_is_to_the_left_of_the_guide() -> None:
 
 
 def test_gear_efficiency_acts_by_direction() -> None:
-    from linkwright.machine.program.compiled import compile_machine
+    from linkwright.machine import compile_machine
 
     drive = '[drive.motor]\nkind = "dc"\nspeed_no_load = 100\ntorque_stall = 10\n'
     text = MACHINE.format(load='{ kind = "gravity" }', slider="") + drive

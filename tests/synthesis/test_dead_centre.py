@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, SynthesisError
+from linkwright import InputError, SynthesisError
 from linkwright.synthesis.dead_centre import CrankRocker
 from linkwright.synthesis.four_bar import worst_transmission
 

@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError, SynthesisError
+from linkwright import InputError, MachineError, SynthesisError
 from linkwright.synthesis.expression import chebyshev_points, function_of
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.freudenstein import lengths, solve

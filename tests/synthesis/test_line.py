@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, SynthesisError
-from linkwright.machine.read import loads
-from linkwright.machine.write import dumps
+from linkwright import InputError, SynthesisError, loads
+from linkwright.machine import dumps
 from linkwright.synthesis.line_kinds import KINDS
 from linkwright.synthesis.straight_line import narrowest_strip
 

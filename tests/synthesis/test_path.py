@@ -8,7 +8,7 @@ from scipy.optimize import least_squares
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError, SynthesisError
+from linkwright import MachineError, SynthesisError
 from linkwright.linkages.nearest_places import disorder
 from linkwright.synthesis.four_bar import FourBar, turn_spare, type_of
 from linkwright.synthesis.path_model import SPARE, Linkages, PathModel, shape

@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError, SynthesisError
-from linkwright.machine.read import loads
-from linkwright.machine.write import dumps
+from linkwright import MachineError, SynthesisError, loads
+from linkwright.machine import dumps
 from linkwright.synthesis.four_bar import FourBar
 from linkwright.synthesis.slider_pose import circle_of_sliders
 from linkwright.synthesis.task import MovingPoint, Poses, PoseTask

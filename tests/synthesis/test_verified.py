@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, SynthesisError
+from linkwright import AssemblyError, SynthesisError, crank_rocker, slider_crank
 from linkwright.synthesis import verification
-from linkwright.synthesis.dead_centre import crank_rocker
-from linkwright.synthesis.stroke import slider_crank
 
 # Rounding of dead centres that are found by their zeros, in linkages whose links are up to a thousand times
 # as long as one another.

@@ -21,17 +21,18 @@ from knife_sweep import (
 from numpy.typing import NDArray
 from scipy.integrate import quad
 
-from linkwright.machine.machine import Machine
-from linkwright.topping.edge import Edge
-from linkwright.topping.knife import knives
-from linkwright.topping.model.topper import Topper
-from linkwright.topping.required_length import (
+from linkwright import Machine
+from linkwright.topping import (
+    Edge,
+    Topper,
+    cap_volume,
     constant_speed_lengths,
+    head_diameter,
+    knives,
     length_consistent,
     length_published,
     published_lengths,
 )
-from linkwright.topping.roots import cap_volume, head_diameter
 
 Floats = NDArray[np.float64]
 

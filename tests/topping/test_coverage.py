@@ -32,12 +32,10 @@ from knife_sweep import (
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.numerics.zeros import zero
-from linkwright.topping.coverage import COARSE, Coverage, coverage
-from linkwright.topping.edge import Edge
-from linkwright.topping.knife import Knife, knives
-from linkwright.topping.required_length import constant_speed_lengths
+from linkwright.topping import Coverage, Edge, Knife, constant_speed_lengths, knives
+from linkwright.topping.coverage import COARSE, coverage
 from linkwright.topping.worst_head import worst_head
 
 LAWS: dict[str, Law] = {

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy import stats
 from topper_fields import machine
 
-from linkwright.topping.field import topper_field
+from linkwright import topper_field
 from linkwright.topping.intervals import Clusters, ShareCurve
 
 Floats = NDArray[np.float64]

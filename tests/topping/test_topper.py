@@ -9,10 +9,9 @@ import pytest
 from knife_sweep import Knife, Pass, needed_length, to_and_fro, uncut_by_slices
 
 import linkwright as lw
-from linkwright.app.study import study
+from linkwright import study, topper
+from linkwright.topping import TopperStudy, edges_of
 from linkwright.topping.coverage import coverage
-from linkwright.topping.edge import edges_of
-from linkwright.topping.topper import TopperStudy, topper
 
 MACHINES = Path(__file__).parents[2] / "machines"
 ONE_WAY = 'topper.motion={kind="constant"}'

@@ -10,17 +10,14 @@ from numpy.typing import NDArray
 from topper_fields import TOPPER, machine
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright import InputError, MachineError, topper_field
 from linkwright.kernel.files.library import template
-from linkwright.machine.write import dumps
+from linkwright.machine import dumps
+from linkwright.topping import cap_volume, constant_speed_lengths, draw_roots, edges_of, head_diameter, knives
 from linkwright.topping import coverage as passes
 from linkwright.topping.coverage import pass_over
-from linkwright.topping.edge import edges_of
-from linkwright.topping.field import TopperField, topper_field
-from linkwright.topping.knife import knives
+from linkwright.topping.field import TopperField
 from linkwright.topping.model.field import RandomField
-from linkwright.topping.required_length import constant_speed_lengths
-from linkwright.topping.roots import cap_volume, draw_roots, head_diameter
 from linkwright.topping.warnings import field_findings, field_warnings
 
 Floats = NDArray[np.float64]

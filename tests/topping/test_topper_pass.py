@@ -8,14 +8,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from linkwright.machine.machine import Machine
-from linkwright.machine.read import read
-from linkwright.topping.charts import length_chart
+from linkwright import Machine, read, topper
+from linkwright.topping import Edge, HeadPass, edges_of, length_chart
 from linkwright.topping.coverage import coverage
-from linkwright.topping.edge import Edge, edges_of
-from linkwright.topping.head_pass import HeadPass, head_pass, worse_edge
+from linkwright.topping.head_pass import head_pass, worse_edge
 from linkwright.topping.slicing import edge_use, slicing_over_phase
-from linkwright.topping.topper import topper
 
 MACHINES = Path(__file__).parents[2] / "machines"
 D = 0.098

@@ -7,10 +7,8 @@ import pytest
 from topper_fields import CRANK, machine
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
-from linkwright.studies.knives import sweep_field
-from linkwright.topping.field import topper_field
-from linkwright.topping.roots import cap_volume
+from linkwright import FindingError, InputError, sweep_field, topper_field
+from linkwright.topping import cap_volume
 from linkwright.topping.sweep import edges_with
 
 RANDOM = '[topper.field]\nkind = "random"\nroots = 2000\nspacing = "0.31 m"\n'

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.study import _balance_warnings, is_balanced, torsion_study
+from linkwright import torsion_study
+from linkwright.torsion.study import _balance_warnings, is_balanced
 
 DRIVEN = """
 format = 1

@@ -10,8 +10,9 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.limits.barred_range import BarredRange, barred_ranges, together
+from linkwright import barred_ranges
+from linkwright.torsion import excited_train
+from linkwright.torsion.limits.barred_range import BarredRange, together
 from linkwright.torsion.limits.criteria import exceedances
 from linkwright.torsion.limits.survey import resonances
 

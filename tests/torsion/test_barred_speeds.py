@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
+from linkwright.torsion import ShaftLimit, Survey, survey
 from linkwright.torsion.excitation.excited_train import is_excited
 from linkwright.torsion.limits.barred_range import surveyed_ranges
 from linkwright.torsion.limits.criteria import VIBRATORY_STRESS
-from linkwright.torsion.limits.survey import Survey, survey, torque_peaks
-from linkwright.torsion.model.shaft_limit import ShaftLimit
+from linkwright.torsion.limits.survey import torque_peaks
 
 ROOT = Path(__file__).parents[2]
 FILES = [
@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 
 def random_train(seed: int) -> str:
     """Three to six discs in a row, a ring in a fluid, orders that meet several modes."""
-    rng = np.random.default_rng(seed)
+    rng = generator(seed)
     n = int(rng.integers(3, 7))
     discs = "".join(f"d{k} = {{ inertia = {10 ** rng.uniform(-1, 1):.6g} }}\n" for k in range(n))
     shafts = "".join(

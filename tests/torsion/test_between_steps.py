@@ -14,8 +14,7 @@ from scipy.integrate import solve_ivp
 from test_torsion_transient import chain, sine
 
 import linkwright as lw
-from linkwright.torsion.core.transient import MovingTrain, variable_inertia
-from linkwright.torsion.in_time.transient import follow_train
+from linkwright.torsion import MovingTrain, follow_train, variable_inertia
 
 Floats = NDArray[np.float64]
 

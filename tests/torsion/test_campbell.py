@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, forced_vibration
 from linkwright.torsion.figures.modes import campbell_figure
-from linkwright.torsion.response.forced import forced_vibration
 
 J1, J2, K = 2.0, 5.0, 3e4
 OMEGA = np.sqrt(K * (J1 + J2) / (J1 * J2))

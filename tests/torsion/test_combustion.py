@@ -12,12 +12,11 @@ from cylinders import BORE, cylinder, diesel, told
 from scipy.integrate import cumulative_simpson, quad, solve_ivp
 from scipy.interpolate import CubicSpline
 
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright import InputError, MachineError
+from linkwright.torsion import Combustion, GasTorque, gas_torque
 from linkwright.torsion.model.engine import combustion, cycle_pressure
 from linkwright.torsion.model.engine.closed_cycle import GAS_CONSTANT, STOICHIOMETRIC, ClosedTrace, heat_ratio
-from linkwright.torsion.model.engine.combustion import Combustion
 from linkwright.torsion.model.engine.cycle_pressure import peak
-from linkwright.torsion.model.engine.cylinder import GasTorque, gas_torque
 from linkwright.torsion.model.engine.heat import GasState, Hohenberg, Wiebe, Woschni
 from linkwright.torsion.model.engine.working_cycle import WorkingCycle
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineFileError
+from linkwright import MachineFileError
+from linkwright.torsion import Cylinder, firing_angles, piston_positions, running_gears, throw_reduction
 from linkwright.torsion.model.engine.crank_concentration import (
     ThrowRatios,
     bore_bending,
@@ -17,10 +18,6 @@ from linkwright.torsion.model.engine.crank_concentration import (
     pin_bending,
     torsion,
 )
-from linkwright.torsion.model.engine.cylinder import Cylinder
-from linkwright.torsion.model.engine.engine import firing_angles
-from linkwright.torsion.model.engine.engine_motion import piston_positions, running_gears
-from linkwright.torsion.model.engine.running_gear import throw_reduction
 from linkwright.torsion.response.crank_bending import bending, pin_forces, rod_places, shear
 
 SPEED = 157.0

@@ -13,10 +13,10 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 from sizes import cases
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
+from linkwright.torsion import CrankThrow, published_inertia
 from linkwright.torsion.model.engine.polygon import area_moments, first_crossing, holds, signed_area
-from linkwright.torsion.model.engine.throw import CrankThrow
-from linkwright.torsion.model.engine.throw_inertia import published_inertia, throw_inertia
+from linkwright.torsion.model.engine.throw_inertia import throw_inertia
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

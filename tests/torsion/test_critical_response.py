@@ -14,14 +14,12 @@ import pytest
 from scipy.optimize import minimize_scalar
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
-from sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion import Survey, excited_train, study_tables, survey
 from linkwright.torsion.limits.critical_response import CriticalResponse, _owned, critical_responses
-from linkwright.torsion.limits.survey import Survey, survey
 from linkwright.torsion.tables.limits import critical_table
-from linkwright.torsion.tables.torsion import study_tables
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 RPM = np.pi / 30
@@ -100,7 +98,7 @@ def test_v8() -> None:
 
 def chain(seed: int) -> lw.Machine:
     """A random train in a row: strong dampers, close modes, torques that grow with the speed."""
-    random = np.random.default_rng(seed)
+    random = generator(seed)
     n = int(random.integers(3, 6))
     inertia = random.uniform(0.5, 2.0, n)
     if seed % 2:

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from trains import Gear, Shaft, matrices, text
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright import FindingError, InputError, forced_vibration
 from linkwright.torsion.damper.damper_rules import (
     DamperRule,
     hysteretic_heat,
@@ -19,7 +19,6 @@ from linkwright.torsion.damper.damper_rules import (
     viscous_heat,
     viscous_rule,
 )
-from linkwright.torsion.response.forced import forced_vibration
 from linkwright.torsion.tables.engine import damper_lines
 
 Floats = NDArray[np.float64]

@@ -8,13 +8,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from linkwright.kernel.errors import InputError, ShapeError
+from linkwright import InputError, ShapeError, forced_vibration, measured_speed
 from linkwright.kernel.numerics.confidence import coverage_factor
-from linkwright.torsion.diagnosis.diagnosis import Diagnosis, diagnosis
+from linkwright.torsion import Diagnosis, ExcitedTrain, MeasuredSpeed, excited_train
+from linkwright.torsion.diagnosis.diagnosis import diagnosis
 from linkwright.torsion.diagnosis.engine_speed import cylinder_response
-from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed, measured_speed
-from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.response.forced import forced_vibration
 
 Complexes = NDArray[np.complex128]
 

@@ -15,11 +15,9 @@ import pytest
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError
-from linkwright.torsion.diagnosis.diagnosis import Diagnosis
+from linkwright import ConvergenceError
+from linkwright.torsion import Diagnosis, EngineSpeed, MeasuredSpeed
 from linkwright.torsion.diagnosis.engine_diagnosis import fitted
-from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
-from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 
 MACHINES = Path(__file__).parents[2] / "machines"
 SPEED = 1500 * np.pi / 30

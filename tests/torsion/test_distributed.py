@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 
 # Ends of next to no inertia: they change a frequency by less than their share of the rod.
 _TINY = 1e-12

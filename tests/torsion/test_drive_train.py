@@ -9,9 +9,9 @@ import pytest
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia
+from linkwright import AssemblyError, InputError, MachineError, ShapeError, SteadyStateError, drive_line
+from linkwright.machine import compile_machine
+from linkwright.torsion.excitation.drive_line import mean_inertia
 
 CART = """
 format = 1

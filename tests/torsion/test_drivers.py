@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError, forced_vibration
+from linkwright.torsion import Train, excited_train
 from linkwright.torsion.core.train import refer
 from linkwright.torsion.excitation.drive_line import train_of
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.model.train import Train
-from linkwright.torsion.response.forced import forced_vibration
 
 SHIP = Path(__file__).parents[2] / "examples" / "twin_engine_ship" / "machine.toml"
 

@@ -8,15 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError, engine_diagnosis, forced_vibration, read
 from linkwright.kernel.files.library import template
-from linkwright.machine.read import read
-from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
-from linkwright.torsion.diagnosis.engine_speed import EngineSpeed
-from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.limits.survey import _about, between, survey
-from linkwright.torsion.response.forced import forced_vibration
+from linkwright.torsion import EngineSpeed, MeasuredSpeed, between, excited_train, survey
+from linkwright.torsion.limits.survey import _about
 
 SPEED = 1500 * np.pi / 30
 NOISE = 2e-3

@@ -7,14 +7,17 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
-from linkwright.torsion.excitation.engine_torques import cylinder_torques, engine_sources
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.limits.survey import between
-from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
-from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, reduced_throw
-from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.study import torsion_study
+from linkwright import MachineError, forced_vibration, torsion_study
+from linkwright.torsion import (
+    ReciprocatingEngine,
+    between,
+    cylinder_torques,
+    excited_train,
+    firing_angles,
+    reduced_throw,
+)
+from linkwright.torsion.excitation.engine_torques import engine_sources
+from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia
 
 DEG = math.pi / 180
 ROD = {"length": 0.32, "mass": 5.0, "distribution": 0.3}
@@ -157,8 +160,7 @@ def test_torque_of_one_cylinder_over_its_angle() -> None:
     (source,) = engine_sources(one, SPEEDS, highest=48.0)
     phi = np.linspace(0, 4 * math.pi, 721)
     torque = source.mean + (np.exp(1j * np.outer(phi, source.orders)) @ source.harmonics).real  # type: ignore[operator]
-    from linkwright.torsion.model.engine.cylinder import Cylinder
-    from linkwright.torsion.model.engine.engine_motion import piston_positions
+    from linkwright.torsion import Cylinder, piston_positions
 
     cylinder = Cylinder(0.15, 4, piston_positions(one)[0])
     pressure = one.gas.cycle_pressure(cylinder, SPEEDS)

@@ -11,11 +11,17 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import linkwright as lw
-from linkwright.kernel.errors import AssemblyError, ConvergenceError
+from linkwright import AssemblyError, ConvergenceError
+from linkwright.torsion import (
+    ArticulatedRod,
+    Rod,
+    RunningGear,
+    central_mean_inertia,
+    mean_inertia,
+    throw_motion,
+    throw_reduction,
+)
 from linkwright.torsion.model.engine import equivalent_inertia as published
-from linkwright.torsion.model.engine.equivalent_inertia import central_mean_inertia, mean_inertia
-from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
-from linkwright.torsion.model.engine.running_gear import RunningGear, throw_motion, throw_reduction
 
 # Rounding of sums over a revolution.
 ROUNDING = 1e-13

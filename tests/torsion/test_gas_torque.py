@@ -9,9 +9,10 @@ import pytest
 from cylinders import BORE, CRANK, ROD, crank_position, cylinder, diesel
 from scipy.integrate import quad
 
-from linkwright.kernel.errors import MachineError, ShapeError
+from linkwright import MachineError, ShapeError
+from linkwright.torsion import Cylinder, gas_torque
 from linkwright.torsion.model.engine.cycle_pressure import CyclePressure
-from linkwright.torsion.model.engine.cylinder import Cylinder, gas_torque, torque_orders
+from linkwright.torsion.model.engine.cylinder import torque_orders
 
 AREA = math.pi / 4 * BORE**2
 SPEEDS = np.array([100.0, 150.0])

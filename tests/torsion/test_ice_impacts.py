@@ -11,9 +11,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
+from linkwright.torsion import TorsionTransient
 from linkwright.torsion.in_time.ice_impacts import _SAMPLES, pulses
-from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.model.ice_impacts import IceImpacts, IcePropeller
 
 RPM = np.pi / 30

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
 from linkwright import _core
@@ -20,7 +20,7 @@ ROUNDING = 1e-10
 
 def tuned(seed: int, *, damped: bool) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """A random tree at ω = 1, several branches of which are in tune to nothing or to rounding; its matrix."""
-    draw = np.random.default_rng([41, seed])
+    draw = generator(41, seed)
     n = int(draw.integers(2, 10))
     parent = np.array([0, *(draw.integers(0, row) for row in range(1, n))], np.int32)
     inertia, k = draw.uniform(0.3, 3.0, n), draw.uniform(0.3, 3.0, n)
@@ -46,7 +46,7 @@ def test_amplitudes_are_those_of_the_matrix(damped: bool, torque_at_the_end: boo
         if (worse := np.linalg.cond(H)) > 1e5:
             continue
         n = len(H)
-        f = np.random.default_rng([42, seed]).normal(size=n) + 0j
+        f = generator(42, seed).normal(size=n) + 0j
         if not torque_at_the_end:
             f[np.abs(np.diag(H)) < 1e-8] = 0.0
         exact = np.linalg.solve(H, f)

@@ -13,13 +13,11 @@ from cylinders import cylinder, diesel, measured, told
 from pydantic import Field
 from scipy.interpolate import PchipInterpolator
 
+from linkwright import MachineError
 from linkwright.kernel.description.problems import WholeDescription
-from linkwright.kernel.errors import MachineError
-from linkwright.machine.read import read_as
+from linkwright.machine import read_as
+from linkwright.torsion import AnyGas, GasTorque, Indicator, gas_torque
 from linkwright.torsion.model.engine.cycle_pressure import periodic_cubic
-from linkwright.torsion.model.engine.cylinder import GasTorque, gas_torque
-from linkwright.torsion.model.engine.engine import AnyGas
-from linkwright.torsion.model.engine.indicator import Indicator
 
 ROOT = Path(__file__).parents[2]
 SPEEDS = np.array([100.0, 200.0])

@@ -7,12 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from linkwright import read, torsion_study
 from linkwright.kernel.files.library import library_path
-from linkwright.machine.read import read
-from linkwright.torsion.model.engine.combustion import Combustion
-from linkwright.torsion.model.engine.engine_motion import running_gears
-from linkwright.torsion.model.engine.running_gear import dead_centres
-from linkwright.torsion.study import torsion_study
+from linkwright.torsion import Combustion, dead_centres, running_gears
 
 
 @pytest.mark.parametrize("name", ["v_diesel", "v8_diesel"])

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import excited_train, loaded
-from linkwright.torsion.response.forced import torsion_response
-from linkwright.torsion.response.mesh_torque import MeshTorque, mesh_torques, meshed
+from linkwright import mesh_torques
+from linkwright.torsion import excited_train, torsion_response
+from linkwright.torsion.excitation.excited_train import loaded
+from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
 
 TRAIN = """
 format = 1

@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright import shaft_stress
+from linkwright.torsion import excited_train, survey, torsion_response
 from linkwright.torsion.limits.misfire import misfire_verdict, misfires
-from linkwright.torsion.limits.survey import survey
-from linkwright.torsion.response.forced import torsion_response
-from linkwright.torsion.response.stress import shaft_stress
 
 
 def engine() -> lw.Machine:

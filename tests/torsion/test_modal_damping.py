@@ -8,9 +8,7 @@ import pytest
 from scipy.linalg import eigh
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
-from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.response.mesh_torque import mesh_torques
+from linkwright import MachineError, forced_vibration, mesh_torques
 
 
 def machine(**train: Any) -> lw.Machine:

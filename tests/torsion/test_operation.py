@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.limits.survey import survey
-from linkwright.torsion.study import TorsionStudy
-from linkwright.torsion.tables.torsion import study_tables
+from linkwright.torsion import TorsionStudy, study_tables, survey
 
 SHIP = Path(__file__).parents[2] / "examples" / "twin_engine_ship" / "machine.toml"
 RPM = np.pi / 30

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.excitation.harmonics import orders_together, span
+from linkwright import InputError
+from linkwright.torsion import excited_train, orders_together, responded, span
 from linkwright.torsion.modes.holzer import holzer_frequency
-from linkwright.torsion.response.forced import responded
 from linkwright.torsion.tables.orders import excitation_tables, manoeuvre_csv, order_files, order_results
 
 

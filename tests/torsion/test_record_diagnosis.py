@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, ShapeError
+from linkwright import InputError, ShapeError, forced_vibration
 from linkwright.kernel.files.library import template
+from linkwright.torsion import firing_angles, record_diagnosis
 from linkwright.torsion.diagnosis.measured_speed import recorded_speed
-from linkwright.torsion.diagnosis.record_diagnosis import record_diagnosis
-from linkwright.torsion.model.engine.engine import firing_angles
-from linkwright.torsion.response.forced import forced_vibration
 
 SPEED = 150.0
 ORDERS = np.array([0.5, 1.0, 4.5])

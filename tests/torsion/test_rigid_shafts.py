@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.response.forced import ForcedVibration, responded
+from linkwright.torsion import ExcitedTrain, ForcedVibration, excited_train, responded
 
 SPEEDS = np.array([17.0, 40.0, 63.0])
 

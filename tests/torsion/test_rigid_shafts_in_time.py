@@ -9,9 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from test_torsion_transient import chain
 
-from linkwright.kernel.errors import ConvergenceError
-from linkwright.torsion.core.torque import DecayingTorque, TrainTorque
-from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
+from linkwright import ConvergenceError
+from linkwright.torsion import DecayingTorque, TorsionTransient, TrainTorque, follow_train
 
 Floats = NDArray[np.float64]
 

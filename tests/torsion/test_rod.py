@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.integrate import solve_ivp
 
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
+from linkwright.torsion import ArticulatedRod, Rod
 from linkwright.torsion.model.engine import pendulum
-from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

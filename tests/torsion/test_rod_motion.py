@@ -12,10 +12,8 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 from sizes import cases
 
-from linkwright.kernel.errors import AssemblyError, InputError
-from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
-from linkwright.torsion.model.engine.rod_motion import slider_crank
-from linkwright.torsion.model.engine.running_gear import RunningGear, dead_centres, throw_motion
+from linkwright import AssemblyError, InputError
+from linkwright.torsion import ArticulatedRod, Rod, RunningGear, dead_centres, slider_crank, throw_motion
 
 # A V of 60 degrees with a master rod on the left: sizes of a large high-speed diesel, an example.
 RADIUS = 0.09

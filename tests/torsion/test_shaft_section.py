@@ -17,7 +17,7 @@ from sizes import cases
 from torsion_fields import flange_flexibility, keyed_constant, spline_constant, step_length
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 from linkwright.torsion.model import shaft_flexibility as closed
 from linkwright.torsion.model.shaft_flexibility import cone_integral
 from linkwright.torsion.model.shaft_row import end_inertias, flexibilities, place

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineFileError
+from linkwright import InputError, MachineFileError
+from linkwright.torsion import survey
 from linkwright.torsion.figures.stars import star_figure
 from linkwright.torsion.limits.overlay import overlay
-from linkwright.torsion.limits.survey import survey
 from linkwright.torsion.tables.limits import measured_words
 
 GEARED = """

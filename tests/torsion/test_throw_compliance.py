@@ -13,14 +13,12 @@ from sizes import cases
 from throw_models import frame_stiffness, solid_compliance
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.torsion.model.engine.throw import CrankThrow
+from linkwright import InputError
+from linkwright.torsion import CrankThrow, compliances, restraint_length
 from linkwright.torsion.model.engine.throw_compliance import (
     COMPLIANCE_FORMULAS,
     compliance,
     compliance_remarks,
-    compliances,
-    restraint_length,
 )
 
 MACHINES = Path(__file__).parents[2] / "machines"

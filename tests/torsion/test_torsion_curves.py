@@ -7,14 +7,12 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import linkwright as lw
-from linkwright.drive.model.drive import Drive
-from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright import InputError, waterfall
+from linkwright.drive import ConstantTorqueMotor, DcMotor, Drive, InductionMotor, TableMotor
 from linkwright.kernel.core.curve import Curve, product, straight, switched
 from linkwright.kernel.core.periodic_table import smooth, spline, waves
-from linkwright.kernel.errors import InputError
-from linkwright.machine.program.compiled import compile_machine
-from linkwright.torsion.core.torque import motor_curve
-from linkwright.torsion.in_time.waterfall import waterfall
+from linkwright.machine import compile_machine
+from linkwright.torsion import motor_curve
 
 # Rounding of a Fourier transform of some hundred samples, and of its second derivative.
 ROUNDING, ROUNDING_D2 = 1e-13, 1e-9

@@ -14,7 +14,7 @@ from scipy.linalg import eig
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
+from linkwright import InputError
 from linkwright.kernel.result import finite
 from linkwright.torsion.modes.damped import DampedVibration
 

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import InputError, MachineError, torsion_transient
 from linkwright.kernel.core.curve import straight
-from linkwright.kernel.errors import InputError, MachineError
+from linkwright.torsion import TrainTransient
 from linkwright.torsion.in_time.moving_drive import _lossy
-from linkwright.torsion.in_time.transient import torsion_transient
-from linkwright.torsion.model.train_transient import TrainTransient
 
 CART = """
 format = 1

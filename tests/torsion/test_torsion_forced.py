@@ -8,10 +8,10 @@ import pytest
 from scipy.linalg import solve
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError, MachineError
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.excitation.harmonics import coefficients, orders_together, span, waveform
-from linkwright.torsion.response.forced import angular_deflection, forced_vibration
+from linkwright import InputError, MachineError, forced_vibration
+from linkwright.torsion import excited_train, orders_together, span
+from linkwright.torsion.excitation.harmonics import coefficients, waveform
+from linkwright.torsion.response.forced import angular_deflection
 
 
 def machine(**train: Any) -> lw.Machine:

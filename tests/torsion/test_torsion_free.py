@@ -11,7 +11,7 @@ from sizes import cases
 from trains import Gear, Shaft, matrices, omega, text, train
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError, MachineError
+from linkwright import FindingError, InputError, MachineError
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-13

@@ -10,18 +10,13 @@ import pytest
 from command_line import invoke
 
 import linkwright as lw
-from linkwright.kernel.errors import ConvergenceError, InputError, MachineError
-from linkwright.machine.machine import Machine
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright import ConvergenceError, InputError, Machine, MachineError, torsion_transient, waterfall
+from linkwright.torsion import TrainTransient, excited_train, follow_train, responded
 from linkwright.torsion.figures.transient import transient_figure, waterfall_figure
 from linkwright.torsion.in_time.moving_train import combustion_weight, moving_train
 from linkwright.torsion.in_time.peak_judgement import PeakJudgement
 from linkwright.torsion.in_time.steady_start import balanced_start, mean_torques
-from linkwright.torsion.in_time.transient import follow_train, torsion_transient
-from linkwright.torsion.in_time.waterfall import waterfall
-from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.page import torsion_html
-from linkwright.torsion.response.forced import responded
 
 V12 = Path(__file__).parents[2] / "machines" / "v_diesel.toml"
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
-from linkwright.torsion.response.forced import forced_vibration
-from linkwright.torsion.response.stress import ShaftStress, shaft_stress
+from linkwright import MachineError, forced_vibration, shaft_stress
+from linkwright.torsion.response.stress import ShaftStress
 
 TRAIN = """
 format = 1

@@ -12,12 +12,19 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 from scipy.special import ellipk
 
+from linkwright import ConvergenceError, InputError, ShapeError
 from linkwright.kernel.core.curve import Curve, odd, smooth, straight
 from linkwright.kernel.core.periodic_table import waves
-from linkwright.kernel.errors import ConvergenceError, InputError, ShapeError
-from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, Power, TrainTorque, short_circuit
-from linkwright.torsion.core.transient import MovingTrain, VariableInertia, variable_inertia, viscous
-from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
+from linkwright.torsion import (
+    DecayingTorque,
+    MovingTrain,
+    TorsionTransient,
+    TrainTorque,
+    follow_train,
+    variable_inertia,
+)
+from linkwright.torsion.core.torque import GovernorTorque, Power, short_circuit
+from linkwright.torsion.core.transient import VariableInertia, viscous
 
 Floats = NDArray[np.float64]
 

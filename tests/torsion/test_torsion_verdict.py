@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright import forced_vibration
 from linkwright.kernel.result import finite
-from linkwright.torsion.excitation.excited_train import excited_train
+from linkwright.torsion import excited_train, torsion_response
 from linkwright.torsion.limits.criteria import Criterion, criteria
 from linkwright.torsion.limits.verdict import Judgement, Verdict, verdict
-from linkwright.torsion.response.forced import forced_vibration, torsion_response
 
 TRAIN = """
 format = 1

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import MachineError
+from linkwright import MachineError
 
 ENGINE: dict[str, Any] = {
     "bore": 0.1,
@@ -61,7 +61,7 @@ def test_loads_that_ask_for_something_else_are_told() -> None:
 
 
 def test_loads_damp_as_much_as_they_take() -> None:
-    from linkwright.torsion.excitation.excited_train import excited_train
+    from linkwright.torsion import excited_train
 
     made = engine(100.0)
     assert made.train is not None

@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.torsion.excitation.excited_train import excited_train
-from linkwright.torsion.response.forced import responded
-from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
+from linkwright import InputError
+from linkwright.torsion import UnevennessAlong, excited_train, responded, unevenness_along
 
 # Shafts as good as rigid.
 STIFF = {"stiffness": 1e12, "coupling": 1e12}

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from random_diagrams import areas, formula, table
-from sizes import cases
+from sizes import cases, generator
 
 import linkwright as lw
-from linkwright.kernel.errors import InputError
-from linkwright.machine.address import exchanged
+from linkwright import InputError
+from linkwright.machine import exchanged
 
 # Share of an entry by which it is varied, and what differences are good for.
 _STEP, _TOLERANCE = 2e-4, 1e-7
@@ -19,7 +19,7 @@ _STEP, _TOLERANCE = 2e-4, 1e-7
 def test_derivatives_are_those_of_the_diagram(kind) -> None:
     compared = 0
     for case in range(cases(4, 80)):
-        text = kind(np.random.default_rng(case))
+        text = kind(generator(case))
         machine = lw.loads(f'format = 1\nname = "shaft"\n[turning_moment]\nspeed = 25\n{text}\n')
         found = lw.gradient(machine, ["turning_moment"])
         scales = np.nanmax(np.abs(found.derivatives * found.at), axis=1)

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from sizes import cases
 
 import linkwright as lw
-from linkwright.kernel.errors import FindingError, InputError, MachineError
+from linkwright import FindingError, InputError, MachineError
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.page.table import curves_csv

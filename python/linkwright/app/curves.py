@@ -14,11 +14,11 @@ from linkwright.drive.cycle_motion import CycleMotion
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.angle_marks import mark_angles
 from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import LINES, named, styled
-from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.quantities import Label, declared, over
+from linkwright.kernel.reader.angle_marks import mark_angles
+from linkwright.kernel.reader.out_units import reader
 from linkwright.kernel.result import Result
 from linkwright.linkages.motion import Motion
 

@@ -18,3 +18,7 @@
 | `study` | What is known of all cams of a machine |
 | `tables` | Tables of cams, of laws compared, and their theoretical bounds |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

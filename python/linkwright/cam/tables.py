@@ -12,8 +12,8 @@ from linkwright.cam.law_factors import LawFactors, law_factors
 from linkwright.cam.laws.catalogue import BOUNDS, LAWS
 from linkwright.cam.profile.least_sizes import LeastSizes
 from linkwright.cam.profile.profile import CamProfile
-from linkwright.kernel.page.numbers import crank_angle, degrees, measured, number, quantity
 from linkwright.kernel.page.table import Row, Table, known_rows
+from linkwright.kernel.reader.numbers import crank_angle, degrees, measured, number, quantity
 
 # Laws that sections are compared with: the usual ones, from the gentlest velocity on.
 _COMPARED = (

@@ -31,3 +31,7 @@
 | `transient` | How does it move from here on? |
 | `words` | Formulas and assumptions of a report |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

@@ -16,7 +16,7 @@ from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.drive.transient import Transient
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
     from linkwright.linkages.motion import Motion
 
 FromAngle = Annotated[float, Value("--from-angle", ANGLE, 'Crank angle at the start, such as "90 deg".', "0")]
@@ -146,7 +146,7 @@ def transient(
 def _head(motion: Transient, zero: Zero) -> str:
     """How far the angles are from those of the file; the methods of a motion that took implicit steps."""
     from linkwright.drive.tables_in_time import methods_sentence
-    from linkwright.kernel.page.numbers import zero_words
+    from linkwright.kernel.reader.numbers import zero_words
 
     lines = []
     if zero.words:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.reader.numbers import number
 
 if TYPE_CHECKING:
     from linkwright.kernel.arrays import Floats

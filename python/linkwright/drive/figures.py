@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.drive.characteristic import characteristic
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.motion_events import course, sides
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     ACCELERATION,
@@ -24,14 +25,13 @@ from linkwright.kernel.figure.style import (
     SOFT,
     SPEED,
     CaptionedFigure,
-    legend_above,
     panels,
     roomy,
     styled,
     zero_line,
 )
-from linkwright.kernel.page.numbers import number, quantity
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.numbers import number, quantity
+from linkwright.kernel.reader.out_units import reader
 from linkwright.machine.analysis import Results
 
 if TYPE_CHECKING:

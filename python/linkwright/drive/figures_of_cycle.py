@@ -10,10 +10,10 @@ import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
 from linkwright.drive.tables_of_cycle import angle_words, outputs, speed_words
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     LINES,
     CaptionedFigure,
-    legend_above,
     named,
     panels,
     roomy,
@@ -21,7 +21,7 @@ from linkwright.kernel.figure.style import (
     turn_axis,
     zero_line,
 )
-from linkwright.kernel.page.numbers import measured
+from linkwright.kernel.reader.numbers import measured
 from linkwright.linkages.cycle import Linkage
 
 if TYPE_CHECKING:

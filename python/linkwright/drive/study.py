@@ -28,7 +28,7 @@ from linkwright.drive.step_method import StepMotion, step_method
 from linkwright.drive.transient import Transient, transient
 from linkwright.kernel.errors import StartError
 from linkwright.kernel.findings import Findings
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.linkages.closure import closure, is_screw
 from linkwright.linkages.idle_parts import idle_parts
 from linkwright.linkages.law_jumps import law_warnings

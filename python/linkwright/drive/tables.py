@@ -8,9 +8,9 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.step_method import StepMotion
-from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, degrees, measured, number, parted
 from linkwright.kernel.page.table import Row, Table, few, rows_in
 from linkwright.kernel.quantities import in_table, shown
+from linkwright.kernel.reader.numbers import crank_angle, cycle_of_angles, degrees, measured, number, parted
 from linkwright.machine.analysis import Results
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from linkwright.drive.motion_events import MotionEvent, MotionExtreme
 from linkwright.drive.transient import End, Transient
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.angle_zero import Zero
-from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Cell, Row, Table, part_table
+from linkwright.kernel.reader.angle_zero import Zero
+from linkwright.kernel.reader.numbers import degrees, number, quantity
 from linkwright.linkages.motion import Motion
 
 # What rounding leaves of zero, over the largest value of a column.

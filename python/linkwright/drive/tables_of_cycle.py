@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.drive.cycle_motion import CycleMotion, Extremes
-from linkwright.kernel.page.numbers import crank_angle, cycle_of_angles, measured
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import crank_angle, cycle_of_angles, measured
 from linkwright.linkages.cycle import Linkage
 
 # Of each kind: end of the name of the curve, word, symbol.

@@ -14,7 +14,7 @@ from linkwright.drive.model.motor import (
 )
 from linkwright.drive.tables_in_time import methods_sentence
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import number, quantity
+from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.machine.analysis import Results
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia, reverse_factor

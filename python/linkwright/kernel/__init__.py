@@ -14,9 +14,10 @@
 | `later` | Functions that are named by their place, and imported when they are called |
 | `limits` | How much of everything there may be |
 | `numerics/` | Numerics that no library has as it is needed here |
-| `page/` | What all pages share: numbers as text, tables, formulas, templates |
+| `page/` | What all pages share: tables, formulas, templates |
 | `public/` | What public functions have in common |
 | `quantities` | Words, symbols and units of results, declared at their attributes |
+| `reader/` | What a reader wants: units and digits, the zero of crank angles, a language |
 | `result` | Scalars, curves and tables of a result |
 | `system` | What Windows does in another way than Unix |
 | `units/` | Units stop here: a number or a text with a unit comes in, an SI float comes out |

@@ -22,10 +22,10 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, MachineError, Problem
-from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.reader.numbers import NOISE
 from linkwright.kernel.result import Record
 from linkwright.kernel.units.kinds import LENGTH, MASS, RATIO, SPEED
 from linkwright.kernel.units.marks import SHARE, Quantity, not_negative, positive

@@ -16,9 +16,9 @@ from linkwright.drive.motion_events import states
 from linkwright.drive.transient import Transient
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.zeros import zero as zero_of
-from linkwright.kernel.page.angle_zero import Zero
-from linkwright.kernel.page.numbers import degrees, number
 from linkwright.kernel.public import public
+from linkwright.kernel.reader.angle_zero import Zero
+from linkwright.kernel.reader.numbers import degrees, number
 from linkwright.kinetostatics.collect import KEEPS, LEAVES, TIGHTENS
 from linkwright.kinetostatics.contact import contacts
 from linkwright.kinetostatics.forces import forces

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     DRIVE,
@@ -16,13 +17,12 @@ from linkwright.kernel.figure.style import (
     MATH,
     SOFT,
     CaptionedFigure,
-    legend_above,
     named,
     panels,
     styled,
 )
-from linkwright.kernel.page.angle_zero import zero_shown
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.angle_zero import zero_shown
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.kinetostatics.result import Forces
 
 if TYPE_CHECKING:

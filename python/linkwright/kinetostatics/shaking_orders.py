@@ -24,9 +24,9 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.reader.numbers import NOISE
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.couple import inertia_force_and_couple
 from linkwright.kinetostatics.envelope import Harmonics, harmonics

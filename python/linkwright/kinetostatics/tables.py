@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import (
+from linkwright.kernel.page.table import Row, Table, part_table, parts_of
+from linkwright.kernel.quantities import declared, shown
+from linkwright.kernel.reader.numbers import (
     crank_angle,
     cycle_of_angles,
     degrees,
@@ -15,8 +17,6 @@ from linkwright.kernel.page.numbers import (
     parted,
     quantity,
 )
-from linkwright.kernel.page.table import Row, Table, part_table, parts_of
-from linkwright.kernel.quantities import declared, shown
 from linkwright.kinetostatics.balancing import Balance
 from linkwright.kinetostatics.envelope import Extent, envelope
 from linkwright.kinetostatics.result import Forces

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.kernel.page.numbers import degrees, quantity
+from linkwright.kernel.reader.numbers import degrees, quantity
 from linkwright.kinetostatics.model.body import Body
 from linkwright.kinetostatics.model.loads.between import Damper, GasSpring, Spring, TorsionalSpring
 from linkwright.kinetostatics.model.loads.force import DryFriction, FormulaLoad, Gravity, ViscousFriction

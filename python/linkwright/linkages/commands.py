@@ -22,7 +22,7 @@ from linkwright.kernel.units.kinds import ANGLE, ANGULAR_ACCELERATION, SPEED, TI
 from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
     from linkwright.linkages.law import Law
     from linkwright.linkages.motion import Motion
     from linkwright.linkages.pose import Pose
@@ -115,8 +115,8 @@ def motion(
 def _pose(
     machine: Machine, phi: float, speed: CrankSpeed, acceleration: float, zero: Zero, *, json: bool, csv: bool
 ) -> str:
-    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import csv_text
+    from linkwright.kernel.reader.numbers import number
     from linkwright.linkages.pose import pose
 
     placed = pose(machine, phi, speed=speed.value, acceleration=acceleration)
@@ -165,8 +165,8 @@ def _worded(machine: Machine, zero: Zero) -> list[str]:
 
 
 def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, ...]]], head: str) -> Answer:
-    from linkwright.kernel.page.numbers import number
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import number
 
     heads = ("name", "quantity", "position", "velocity", "acceleration")
     cells = [(name, what, *(number(x) for x in numbers)) for name, what, numbers in rows]
@@ -183,7 +183,7 @@ def _pose_answer(machine: Machine, rows: Sequence[tuple[str, str, tuple[float, .
 def _row_shown(row: tuple[str, str, tuple[float, ...]], angle: str) -> tuple[str, str, tuple[float, ...]]:
     """A row in the units that the reader wants; the label says those of all columns where they differ."""
     # `angle`: usual unit of angles; empty for that of the result.
-    from linkwright.kernel.page.out_units import reader
+    from linkwright.kernel.reader.out_units import reader
 
     name, what, numbers = row
     si = "rad" if what.endswith("[rad]") else "m"
@@ -244,7 +244,7 @@ def _turn(machine: Machine, speed: CrankSpeed, zero: Zero, steps: int, *, json: 
 def _under_law(machine: Machine, law: str, end: float, steps: int, *, json: bool, csv: bool) -> str:
     import numpy as np
 
-    from linkwright.kernel.page.angle_zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
 
     driver, start = _law(law), 0.0
     if hasattr(driver, "times"):
@@ -305,9 +305,9 @@ def _lists(curves: dict[str, Any]) -> dict[str, list[float]]:
 
 
 def _table(followed: Motion) -> str:
-    from linkwright.kernel.page.numbers import number
-    from linkwright.kernel.page.out_units import OutUnits, reader, reading, shown_columns
     from linkwright.kernel.page.table import head
+    from linkwright.kernel.reader.numbers import number
+    from linkwright.kernel.reader.out_units import OutUnits, reader, reading, shown_columns
 
     # Angles are in degrees for people, unless they want another unit.
     with reading(reader().over(OutUnits.of("deg"))):

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
     SOFT,
     CaptionedFigure,
-    legend_above,
     named,
     panels,
     styled,
 )
-from linkwright.kernel.page.numbers import degrees, quantity
+from linkwright.kernel.reader.numbers import degrees, quantity
 from linkwright.linkages.coupler_curve import CouplerCurve, coupler_curve
 from linkwright.linkages.cycle import Linkage
 from linkwright.linkages.pose import pose

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import LINES, named, styled
-from linkwright.kernel.page.numbers import crank_angle, measured
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import crank_angle, measured
 from linkwright.linkages.motion import Motion
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, FindingError, InputError
-from linkwright.kernel.page.numbers import degrees
+from linkwright.kernel.reader.numbers import degrees
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine

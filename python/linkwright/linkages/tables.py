@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.kernel.page.numbers import (
+from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import (
     crank_angle,
     cycle_of_angles,
     degrees,
@@ -13,7 +14,6 @@ from linkwright.kernel.page.numbers import (
     parted,
     quantity,
 )
-from linkwright.kernel.page.table import Row, Table
 from linkwright.linkages.cycle import END, DeadPoint, ElementMotion, Linkage
 
 # More dead points than this are the regular ones of many outputs, and tell nothing.

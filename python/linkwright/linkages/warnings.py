@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import cycle_of_angles, degrees
+from linkwright.kernel.reader.numbers import cycle_of_angles, degrees
 from linkwright.linkages.cycle import Linkage
 
 # Links this near to a line go on one way or the other by tolerances of their lengths; nearer than the first

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.errors import InputError, cut
-from linkwright.kernel.page.angle_zero import Zero
 from linkwright.kernel.public import public
+from linkwright.kernel.reader.angle_zero import Zero
 from linkwright.linkages.closure import Closure, in_cycle
 from linkwright.linkages.cycle import ElementMotion, Linkage, linkage
 from linkwright.linkages.kinematics import kinematics_of

@@ -17,3 +17,7 @@
 | `whole_mechanism` | The whole mechanism of a machine |
 | `write` | Write a machine as a TOML file |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from numbers import Number
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
@@ -26,7 +26,9 @@ from linkwright.kernel.public.immutable import held
 from linkwright.kernel.units.kinds import COUNT, Kind
 from linkwright.kernel.units.marks import Quantity, QuantityList
 from linkwright.kernel.units.reading import is_number
-from linkwright.machine.machine import Machine
+
+if TYPE_CHECKING:
+    from linkwright.machine.machine import Machine
 
 
 @public
@@ -92,7 +94,7 @@ def kind(machine: Machine, address: str) -> Kind | None:
     # A description that has been read is of one class, whatever its table may be.
     if isinstance(owner, Description):
         return _kind_of(type(owner), place[-1])
-    mark = mark_of(annotation_at(Machine, place, machine))
+    mark = mark_of(annotation_at(type(machine), place, machine))
     return mark.kind if mark else None
 
 
@@ -217,7 +219,7 @@ def _found_place(machine: Machine, address: str) -> tuple[str, ...]:
 def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
     if isinstance(value, Description):
         return value
-    address, annotation = join(place), annotation_at(Machine, place, machine)
+    address, annotation = join(place), annotation_at(type(machine), place, machine)
     mark, old = mark_of(annotation), entry_at(machine, place)
     holds_number = isinstance(mark, Quantity) or is_number(old)
     if value is not None and holds_number:
@@ -234,7 +236,7 @@ def _checked(machine: Machine, place: tuple[str, ...], value: Any) -> Any:
         data: Any = value
         for key in reversed(place):
             data = {key: data}
-        raise MachineError(problems(error, Machine, data, place)) from None
+        raise MachineError(problems(error, type(machine), data, place)) from None
 
 
 def _require_range(address: str, numbers: Any, mark: Quantity) -> None:
@@ -270,7 +272,7 @@ def _numbers_of(address: str, value: Any, kind: Kind) -> Any:
 
 def outside(machine: Machine, address: str, values: Floats) -> tuple[Bools, str]:
     """Which numbers (n,) an entry cannot have by itself, and the range that it can have."""
-    mark = mark_of(annotation_at(Machine, known_place(machine, address), machine))
+    mark = mark_of(annotation_at(type(machine), known_place(machine, address), machine))
     if not isinstance(mark, Quantity) or not len(values):
         return np.zeros(len(values), dtype=bool), ""
     if mark.holds(float(values.min())) and mark.holds(float(values.max())):

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel
 
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.place import field_names, join, keys, look
 from linkwright.kernel.description.schema_walk import annotation_at
-from linkwright.kernel.page.numbers import measured, number, pretty_unit
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.numbers import measured, number, pretty_unit
+from linkwright.kernel.reader.out_units import reader
 from linkwright.linkages.model.topology import TABLES
 from linkwright.machine.address import kind
-from linkwright.machine.machine import Machine
+
+if TYPE_CHECKING:
+    from linkwright.machine.machine import Machine
 
 Place = tuple[str, ...]
 
@@ -205,7 +207,7 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
         return _list(machine, place, value)
     if isinstance(value, bool | str):
         # A choice is a word; a name or a formula stands as the file has it.
-        branches = get_args(annotation := annotation_at(Machine, place, machine))
+        branches = get_args(annotation := annotation_at(type(machine), place, machine))
         is_choice = any(get_origin(branch) is Literal for branch in (annotation, *branches))
         return str(value).replace("_", " ") if is_choice else str(value)
     quantity = kind(machine, join(place))

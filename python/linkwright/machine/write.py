@@ -11,8 +11,8 @@ from linkwright.kernel.description.place import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError, UnitError, show
 from linkwright.kernel.files.output import write_file
-from linkwright.kernel.page.out_units import OutUnits
 from linkwright.kernel.public import public
+from linkwright.kernel.reader.out_units import OutUnits
 from linkwright.kernel.units.kinds import Kind
 from linkwright.kernel.units.marks import Quantity
 from linkwright.kernel.units.reading import parse, parse_list, to_text

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import BLUE, GREEN, PURPLE, RED, CaptionedFigure, styled
-from linkwright.kernel.page.numbers import degrees, number, quantity
+from linkwright.kernel.reader.numbers import degrees, number, quantity
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.kernel.page.numbers import degrees, measured, number
 from linkwright.kernel.page.table import Row, Table, known_rows, rows_in
+from linkwright.kernel.reader.numbers import degrees, measured, number
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.pumping.rod_rotator import RodRotatorMotion
 from linkwright.pumping.unit import PumpingUnitMotion

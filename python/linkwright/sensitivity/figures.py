@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.figure.style import ADDRESS_LETTERS, BLUE, INK, RED, panels, shortened, styled
-from linkwright.sensitivity.tables import ROWS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from linkwright.sensitivity.gradient import Gradient
+
+# Entries that are shown: what comes after changes a response by less than these.
+ROWS = 12
 
 
 @styled

@@ -6,12 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import measured, number
+from linkwright.sensitivity.figures import ROWS
 from linkwright.sensitivity.gradient import Gradient, derivative_unit
-
-# Rows of a table: what comes after changes a response by less than these.
-ROWS = 12
 
 
 def gradient_tables(gradient: Gradient) -> Iterator[Table]:

@@ -336,7 +336,7 @@ def _table_of_flywheel(flywheel: FlywheelChoice) -> list[Table]:
 
 
 def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str:
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     need = motor.required
     power, speed = quantity(need.power, "W", usual="kW"), quantity(need.speed, "rad/s")
@@ -356,7 +356,7 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
 
 
 def _deciding(motor: MotorChoice) -> list[str]:
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     lines = []
     if decided := motor.decided_by:
@@ -373,8 +373,8 @@ def _deciding(motor: MotorChoice) -> list[str]:
 
 
 def _tables_of_choice(motor: MotorChoice) -> list[Table]:
-    from linkwright.kernel.page.numbers import measured, quantity
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import measured, quantity
 
     tables = [_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
     if chosen := motor.chosen:
@@ -396,8 +396,8 @@ def _tables_of_choice(motor: MotorChoice) -> list[Table]:
 
 
 def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
-    from linkwright.kernel.page.numbers import measured
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import measured
 
     words = {True: "passes", False: "fails", None: "not known"}
     rows: list[Row] = [
@@ -444,7 +444,7 @@ def _verdict(candidate: Candidate, motor: MotorChoice) -> str:
 
 
 def _flywheel_words(flywheel: FlywheelChoice) -> list[str]:
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     if flywheel.kept:
         return [
@@ -558,7 +558,7 @@ def _tables(motors: list[CatalogueMotor]) -> list[Table]:
 
 
 def _row(motor: CatalogueMotor) -> Row:
-    from linkwright.kernel.page.numbers import measured, number, quantity
+    from linkwright.kernel.reader.numbers import measured, number, quantity
 
     entries = _entries(motor)
     mark = "~" if entries["inertia_is_estimated"] else ""

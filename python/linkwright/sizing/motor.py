@@ -266,7 +266,7 @@ def choose_motor(
     )
     required = required_power(machine)
     if not required.power > 0:
-        from linkwright.kernel.page.numbers import quantity
+        from linkwright.kernel.reader.numbers import quantity
 
         raise InputError(
             f"the mean load at the crank is {quantity(required.torque_load_mean, 'N m')}: there is no "

@@ -47,3 +47,7 @@
 | `tables`, `figures` | What is shown |
 | `commands/` | ``linkwright sweep``, ``tolerance``, ``optimise``, ``fit`` |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

@@ -31,7 +31,7 @@ from linkwright.kernel.figure.style import (
     styled,
     turn_axis,
 )
-from linkwright.kernel.page.numbers import number
+from linkwright.kernel.reader.numbers import number
 from linkwright.studies.fit import Fit
 from linkwright.studies.folder import SweepFolder
 from linkwright.studies.parquet import columns_of

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright.kernel.page.numbers import measured, number
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import measured, number
 from linkwright.studies.allocation import Allocation
 from linkwright.studies.axes import Axis
 from linkwright.studies.choices import choice_names

@@ -28,9 +28,9 @@ from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.page.content import Content, Few, Part
-from linkwright.kernel.page.language import ENGLISH, Language
-from linkwright.kernel.page.sentences import sentence
 from linkwright.kernel.page.translation import in_language
+from linkwright.kernel.reader.language import ENGLISH, Language
+from linkwright.kernel.reader.sentences import sentence
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
@@ -195,8 +195,8 @@ def _tables(content: Content, machine: Machine, to: Language) -> Iterator[dict[s
 
 
 def _svg(drawn: CaptionedFigure, to: Language) -> dict[str, str]:
-    from linkwright.kernel.figure.for_reader import translated_figure
     from linkwright.kernel.figure.svg import svg
+    from linkwright.kernel.reader.axes import translated_figure
 
     text = svg(drawn.figure if to is ENGLISH else translated_figure(drawn.figure, to), transparent=True)
     return {"name": drawn.name, "title": drawn.title, "caption": sentence(drawn.caption), "svg": text}

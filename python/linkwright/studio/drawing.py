@@ -24,7 +24,7 @@ from linkwright.app.report.scene import moving_scene
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
-from linkwright.kernel.page.numbers import cycle_of_angles
+from linkwright.kernel.reader.numbers import cycle_of_angles
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.centrodes import centrodes_of
 from linkwright.linkages.kinematics import Kinematics

@@ -72,8 +72,8 @@ def _report(machine: Machine, asked: Body, code: str) -> Content:
     from linkwright.app.report.answered import compared
     from linkwright.app.report.company import read_heading
     from linkwright.kernel.page.content import SECTIONS, Heading
-    from linkwright.kernel.page.language import language
     from linkwright.kernel.page.translation import in_language
+    from linkwright.kernel.reader.language import language
 
     content_of, command = _contents(asked), str(asked.get("command", ""))
     everything = content_of(machine, command)

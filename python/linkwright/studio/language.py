@@ -1,8 +1,8 @@
 """The studio in another language than English: what the server says, and the texts of the page.
 
-A catalogue, ``texts_CODE.toml``, adds texts to that of reports (`linkwright.kernel.page.language`): ``page``
-for those that the page draws itself beside the words of machine files, ``file`` for the declarations of
-entries.
+A catalogue, ``texts_CODE.toml``, adds texts to that of reports (`linkwright.kernel.reader.language`):
+``page`` for those that the page draws itself beside the words of machine files, ``file`` for the
+declarations of entries.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
-from linkwright.kernel.page.language import ENGLISH, Language, language
-from linkwright.kernel.page.out_units import OutUnits, reader, shown_in
-from linkwright.kernel.page.sentences import sentences
+from linkwright.kernel.reader.language import ENGLISH, Language, language
+from linkwright.kernel.reader.out_units import OutUnits, reader, shown_in
+from linkwright.kernel.reader.sentences import sentences
 from linkwright.machine.machine import Machine
 
 # What a message says in sentences or words; everything else is read by the page, or is the user's own.

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import NOISE
 from linkwright.kernel.quantities import DeclaredQuantity, Label, quantities_of
 from linkwright.kernel.quantities import declared as marks
+from linkwright.kernel.reader.numbers import NOISE
 from linkwright.kernel.result import Result
 
 # A column of a result's part, "A1_x [N]".

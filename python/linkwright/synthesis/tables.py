@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from linkwright.kernel.page.numbers import degrees, measured, number
 from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.quantities import Label, declared
+from linkwright.kernel.reader.numbers import degrees, measured, number
 from linkwright.kernel.units.reading import is_number
 
 if TYPE_CHECKING:

@@ -32,3 +32,7 @@
 | `uncut_head` | The head of which most is left, and the mean that is left, with derivatives |
 | `worst_head` | The worst place of a head, and all heads of the range |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import degrees
 
 from linkwright.kernel.findings import Findings
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.machine.machine import Machine
 from linkwright.topping.coverage import require_advance
 from linkwright.topping.edge import edges_of

@@ -19,3 +19,7 @@
 | `study` | All of these as one |
 | `tables/` | Tables of trains |
 """
+
+from linkwright import exports
+
+__getattr__ = exports(globals())

@@ -9,10 +9,10 @@ import numpy as np
 from linkwright.kernel.page.content import Content, Few, Part
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import number, parted
-from linkwright.kernel.page.out_units import with_units_of
-from linkwright.kernel.page.sentences import sentence, sentences
 from linkwright.kernel.page.table import Table
+from linkwright.kernel.reader.numbers import number, parted
+from linkwright.kernel.reader.out_units import with_units_of
+from linkwright.kernel.reader.sentences import sentence, sentences
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import in_own_units
 from linkwright.torsion.excitation.excited_train import ExcitedTrain

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.kernel.findings import Findings
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.machine.machine import Machine
 from linkwright.turning.diagram import turning_moment
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import DRIVE, GRID, INERTIA, LOAD, SPEED, CaptionedFigure, styled
-from linkwright.kernel.page.numbers import degrees, number, quantity
+from linkwright.kernel.reader.numbers import degrees, number, quantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

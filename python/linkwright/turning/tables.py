@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import degrees, measured, number, parted
 from linkwright.kernel.page.table import Row, Table, known_rows
+from linkwright.kernel.reader.numbers import degrees, measured, number, parted
 from linkwright.turning.diagram import TurningMomentDiagram
 from linkwright.turning.model import TurningMoment
 

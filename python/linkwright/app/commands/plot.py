@@ -95,7 +95,7 @@ def plot(
         warnings=results.warnings,
         tables=lambda: [_extremes(results, curves, counted.angle), _values(listed)],
         figures={"curves": later("app.curves:curves_figure", curves, counted.words)},
-        head=later("kernel.page.numbers:zero_words", counted),
+        head=later("kernel.reader.numbers:zero_words", counted),
     )
     if written:
         say_written(written, quiet=True)
@@ -170,8 +170,8 @@ def _write(
 def _csv(curves: Sequence[Curve]) -> str:
     import numpy as np
 
-    from linkwright.kernel.page.out_units import reader
     from linkwright.kernel.page.table import columns_csv
+    from linkwright.kernel.reader.out_units import reader
 
     most = max(len(curve.x) for curve in curves)
     columns: dict[str, Any] = {}
@@ -256,7 +256,7 @@ def _cell(values: Any, k: int, si: str, scale: float = 0.0) -> str:
 
 def _shown(value: float, si: str, scale: float = 0.0) -> str:
     """A value with its unit; zero where it is rounding beside a scale."""
-    from linkwright.kernel.page.numbers import quantity
+    from linkwright.kernel.reader.numbers import quantity
 
     return quantity(value, si, scale=scale, usual=_usual(si))
 

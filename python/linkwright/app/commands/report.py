@@ -69,8 +69,8 @@ def report(
     from linkwright.app.report.answered import variant as of_text
     from linkwright.app.report.company import read_heading
     from linkwright.kernel.page.content import Heading
-    from linkwright.kernel.page.language import language
     from linkwright.kernel.page.translation import in_language
+    from linkwright.kernel.reader.language import language
 
     to_language = language(lang)
     places = output_files("--to", to or ["report.html"], (".html", ".pdf"), force=force)

@@ -11,8 +11,8 @@ from linkwright.kernel.command.answer import Answer, shown_head
 from linkwright.kernel.command.common import named_entries
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.page.content import Content, Part
-from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.sentences import sentences
 from linkwright.machine.machine import Machine
 from linkwright.machine.table import part_names
 

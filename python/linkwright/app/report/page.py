@@ -13,13 +13,13 @@ from linkwright.app.study import Study
 from linkwright.app.subjects import ANALYSES
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.files.output import write_file
-from linkwright.kernel.page.angle_zero import zero_shown
 from linkwright.kernel.page.content import Content, Few, Heading, Part
 from linkwright.kernel.page.html import html
-from linkwright.kernel.page.numbers import zero_words
-from linkwright.kernel.page.out_units import with_units_of
-from linkwright.kernel.page.sentences import sentences
 from linkwright.kernel.public import public
+from linkwright.kernel.reader.angle_zero import zero_shown
+from linkwright.kernel.reader.numbers import zero_words
+from linkwright.kernel.reader.out_units import with_units_of
+from linkwright.kernel.reader.sentences import sentences
 from linkwright.machine.machine import Machine
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import in_own_units
@@ -56,8 +56,8 @@ def write_report(
     InputError
         The file cannot be written, Typst is not installed, or nobody knows the language.
     """
-    from linkwright.kernel.page.language import language as of_code
     from linkwright.kernel.page.translation import in_language
+    from linkwright.kernel.reader.language import language as of_code
 
     to = of_code(language, "language")
     report = in_language(replace(content(study, command), heading=heading or Heading()), to)

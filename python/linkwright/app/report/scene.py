@@ -17,8 +17,8 @@ import numpy as np
 from linkwright.drive.steady_state import SteadyState
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError
-from linkwright.kernel.page.angle_zero import zero_shown
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.angle_zero import zero_shown
+from linkwright.kernel.reader.out_units import reader
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
 from linkwright.linkages.model.topology import DRIVERS

@@ -182,8 +182,8 @@ def _findings(keeps: Bools, best: list[dict[str, Any]]) -> list[str]:
 
 
 def _tables(cams: Cams, best: list[dict[str, Any]]) -> list[Table]:
-    from linkwright.kernel.page.numbers import quantity
     from linkwright.kernel.page.table import Table
+    from linkwright.kernel.reader.numbers import quantity
 
     units = {"face_tilt": ("rad", "deg"), "lift_factor": ("", "")}
     rows = []

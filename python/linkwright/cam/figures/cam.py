@@ -12,6 +12,7 @@ from linkwright.cam.dynamics.loaded import LoadedCam
 from linkwright.cam.profile.contact import CamCurve
 from linkwright.cam.profile.profile import CamProfile, Flank
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Level, Line, Panel, line_figure
 from linkwright.kernel.figure.style import (
     BLUE,
@@ -21,13 +22,12 @@ from linkwright.kernel.figure.style import (
     MATH,
     RED,
     SOFT,
-    legend_above,
     log_height,
     named,
     panels,
     styled,
 )
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,7 +15,7 @@ from linkwright.cam.figures.cam import (
 )
 from linkwright.cam.profile.profile import CamProfile
 from linkwright.kernel.figure.style import CaptionedFigure
-from linkwright.kernel.page.numbers import degrees, quantity
+from linkwright.kernel.reader.numbers import degrees, quantity
 
 
 def cam_figures(cams: Sequence[CamProfile], loaded: Sequence[LoadedCam] = ()) -> Iterator[CaptionedFigure]:

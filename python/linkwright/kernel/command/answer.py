@@ -18,7 +18,7 @@ import click
 from linkwright.kernel.command.out import put, write_folder
 from linkwright.kernel.command.parameter import UNITS
 from linkwright.kernel.errors import InputError, InternalError
-from linkwright.kernel.page.angle_zero import Zero, counting
+from linkwright.kernel.reader.angle_zero import Zero, counting
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -200,14 +200,14 @@ def as_wanted(table: BaseModel | None) -> AbstractContextManager[None]:
     asked = context.meta.get(UNITS) if context else None
     if asked is None and table is None:
         return nullcontext()
-    from linkwright.kernel.page.out_units import OutUnits, reading
+    from linkwright.kernel.reader.out_units import OutUnits, reading
 
     return reading((asked or OutUnits()).over(OutUnits.of_table(table)))
 
 
 def shown_head(answer: Answer) -> str:
     """The head of an answer, and from where its crank angles are counted."""
-    from linkwright.kernel.page.numbers import zero_words
+    from linkwright.kernel.reader.numbers import zero_words
 
     return "\n".join(filter(None, (_text(answer.head), zero_words(answer.zero))))
 
@@ -215,7 +215,7 @@ def shown_head(answer: Answer) -> str:
 def print_answer(answer: Answer) -> None:
     """Print an answer for people: tables, findings in red, warnings in yellow."""
     from linkwright.kernel.command.console import print_tables
-    from linkwright.kernel.page.sentences import sentences
+    from linkwright.kernel.reader.sentences import sentences
 
     findings, warnings = sentences(answer.findings), sentences(answer.warnings)
     print_tables(shown_head(answer), answer.all_tables(), findings, warnings)

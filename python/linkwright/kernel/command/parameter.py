@@ -30,7 +30,7 @@ from linkwright.kernel.command.value import option_value
 from linkwright.kernel.errors import cut
 
 if TYPE_CHECKING:
-    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.reader.out_units import OutUnits
     from linkwright.kernel.units.kinds import Kind
     from linkwright.kernel.units.marks import Quantity
 
@@ -122,7 +122,7 @@ def _keep_units(context: click.Context, option: click.Parameter, text: str | Non
     if text is None:
         return
     from linkwright.kernel.errors import InputError
-    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.reader.out_units import OutUnits
 
     try:
         context.meta[UNITS] = replace(_asked(context), chosen=OutUnits.of(text).chosen)
@@ -132,7 +132,7 @@ def _keep_units(context: click.Context, option: click.Parameter, text: str | Non
 
 def _digits_option() -> click.Option:
     """``--digits``: with how many significant digits a command shows its numbers."""
-    from linkwright.kernel.page.out_units import DIGITS, DIGITS_MAX
+    from linkwright.kernel.reader.out_units import DIGITS, DIGITS_MAX
 
     return click.Option(
         ["--digits"],
@@ -150,7 +150,7 @@ def _keep_digits(context: click.Context, option: click.Parameter, digits: int | 
 
 
 def _asked(context: click.Context) -> OutUnits:
-    from linkwright.kernel.page.out_units import OutUnits
+    from linkwright.kernel.reader.out_units import OutUnits
 
     known: OutUnits = context.meta.get(UNITS) or OutUnits()
     return known

@@ -2,9 +2,7 @@
 
 | module | |
 | --- | --- |
-| `angle_marks` | Marks of crank angles along x |
 | `figure_of` | Figures of what stands below what draws it |
-| `for_reader` | Axes in the units, from the dead centre and with the words that the reader wants |
 | `legends` | Legends that tell of curves that coincide, as wide as their axes |
 | `lines` | Figures that are curves over one axis, in panels |
 | `plotted` | The curves of a result as a figure |

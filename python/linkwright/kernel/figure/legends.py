@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.figure.style import ABOVE, COLUMNS, legend_above
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.legend import Legend
     from matplotlib.lines import Line2D
+
+# Label of a legend above its axes, and its columns at most.
+ABOVE, COLUMNS = "above", 4
 
 # Dashes of the upper one of two curves, between which the lower one is seen.
 _DASHES = (0, (4.0, 4.0))
@@ -25,6 +27,21 @@ _POINTS = 3
 
 # Of a legend above axes, in heights of its letters: a letter in the mean, and what stands beside a label.
 _LETTER, _BESIDE = 0.6, 4.6
+
+
+def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries: Any) -> None:
+    """A legend above the axes, where no line runs through it; `gap` in heights of its letters, `entries` of
+    its own.
+    """
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        ncols=columns,
+        borderaxespad=gap,
+        handlelength=1.8,
+        **entries,
+    )
+    legend.set_label(ABOVE)
 
 
 def finish_legends(figure: Figure) -> None:

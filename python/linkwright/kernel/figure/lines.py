@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     MATH,
     SOFT,
-    legend_above,
     level,
     panels,
     roomy,

@@ -10,7 +10,8 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.figure.style import LINES, legend_above, named, panels, styled, turn_axis
+from linkwright.kernel.figure.legends import legend_above
+from linkwright.kernel.figure.style import LINES, named, panels, styled, turn_axis
 from linkwright.kernel.quantities import quantities_of
 
 if TYPE_CHECKING:

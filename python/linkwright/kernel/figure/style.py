@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.figure.angle_marks import mark_angles
-from linkwright.kernel.page.angle_zero import zero_shown
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.angle_marks import mark_angles
+from linkwright.kernel.reader.angle_zero import zero_shown
+from linkwright.kernel.reader.out_units import reader
 from linkwright.kernel.system import away_from
 
 if TYPE_CHECKING:
@@ -136,8 +136,8 @@ def _for_reader(drawing: object) -> None:
     """Finish legends; count crank angles from the zero, and mark axes in the units, that the reader wants."""
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.for_reader import from_zero_of_reader, in_units_of_reader
     from linkwright.kernel.figure.legends import finish_legends
+    from linkwright.kernel.reader.axes import from_zero_of_reader, in_units_of_reader
 
     if not isinstance(drawing, Figure):
         return
@@ -184,22 +184,6 @@ def turn_axis(axes: Axes, degrees: np.ndarray | None = None, *, label: bool = Tr
 
 # What a range of crank angles may differ from whole revolutions [°].
 _WHOLE = 1e-3
-
-# Label of a legend above its axes, and its columns at most.
-ABOVE, COLUMNS = "above", 4
-
-
-def legend_above(axes: Axes, gap: float = 0.2, columns: int = COLUMNS, **entries: Any) -> None:
-    """A legend above the axes, where no line runs through it; `gap` in heights of its letters."""
-    legend = axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        ncols=columns,
-        borderaxespad=gap,
-        handlelength=1.8,
-        **entries,
-    )
-    legend.set_label(ABOVE)
 
 
 def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:

@@ -1,17 +1,12 @@
-"""What all pages share: numbers as text, tables, formulas, templates.
+"""What all pages share: tables, formulas, templates.
 
 | module | |
 | --- | --- |
-| `angle_zero` | Crank angles as they are shown, from the file's zero or a dead centre |
 | `content` | What a report says, before it is a page or a PDF |
 | `formulas` | Formulas of the measures, with their sources |
 | `glossary` | The field's words: terms, definitions, sources, and the words that they replace |
 | `html` | A report as a page, by templates of Jinja2; figures and data are in it |
-| `language` | Reports in another language: texts by a catalogue, numbers and units as it writes them |
 | `notebook` | Results and machines as a notebook shows them |
-| `numbers` | Numbers as text, and cells that know their number |
-| `out_units` | Units in which numbers are shown |
-| `sentences` | Findings and warnings in the units, and with the crank angles, of the reader |
 | `table` | A table of text, the rows that attributes of results make, and tables and curves as CSV |
 | `translation` | A content in a language, its figures too |
 | `typeset` | A report as PDF, by Typst |

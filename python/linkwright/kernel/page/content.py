@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from linkwright.kernel.page.language import ENGLISH, Language
+from linkwright.kernel.reader.language import ENGLISH, Language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -92,7 +92,7 @@ class Content:
     assumptions: Sequence[str] = ()  # what was taken for granted
     file: str = ""  # the machine as a machine file in its units; empty without one
     command: str = ""  # the command line that gives the same
-    language: Language = ENGLISH  # that it is written in, by `linkwright.kernel.page.language.in_language`
+    language: Language = ENGLISH  # that it is written in, by `linkwright.kernel.reader.language.in_language`
 
     @property
     def has_figures(self) -> bool:

@@ -6,7 +6,13 @@ Symbols have spaces between them; ``x_y``, ``x^y``, ``frac(a|b)`` and ``root(a)`
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+# A symbol of one letter and its index.
+INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
 class Formula(NamedTuple):
@@ -25,6 +31,13 @@ def mathml(text: str) -> str:
 def typst(text: str) -> str:
     """A formula as Typst writes it, without the dollar signs around it."""
     return " ".join(_typst_piece(match) for match in _PIECE.finditer(text))
+
+
+def with_index(text: str) -> Markup:
+    """A text in which the index of each symbol is lowered."""
+    from markupsafe import Markup, escape
+
+    return Markup(INDEX.sub(r"\1<sub>\2</sub>", str(escape(text))))
 
 
 # What stands between two formulas, with room around it.

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.kernel.figure.svg import identifier, inline_svg, readout
 from linkwright.kernel.page.content import Content
-from linkwright.kernel.page.formulas import mathml
+from linkwright.kernel.page.formulas import mathml, with_index
 from linkwright.kernel.result import finite
 
 if TYPE_CHECKING:
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 _FOLDER = Path(__file__).with_name("templates")
-
-# A symbol of one letter and its index.
-INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
 
 
 def html(content: Content) -> str:
@@ -128,13 +125,6 @@ def environment() -> Environment:
     environment.globals["script"] = lambda name: inline("script", _raw(name))
     environment.globals["style"] = lambda name: inline("style", _raw(name))
     return environment
-
-
-def with_index(text: str) -> Markup:
-    """A text in which the index of each symbol is lowered."""
-    from markupsafe import Markup, escape
-
-    return Markup(INDEX.sub(r"\1<sub>\2</sub>", str(escape(text))))
 
 
 def _as_markup(text: str) -> Markup:

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from linkwright.kernel.page.html import with_index
-from linkwright.kernel.page.numbers import parted
-from linkwright.kernel.page.out_units import with_units_of
+from linkwright.kernel.page.formulas import with_index
 from linkwright.kernel.quantities import quantities_of
+from linkwright.kernel.reader.numbers import parted
+from linkwright.kernel.reader.out_units import with_units_of
 from linkwright.kernel.units.reading import is_number
 
 

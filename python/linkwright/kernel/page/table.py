@@ -20,10 +20,10 @@ from io import StringIO
 from typing import Any, NamedTuple
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.angle_zero import counted_columns
-from linkwright.kernel.page.numbers import NOISE, degrees, measured, number, parted
-from linkwright.kernel.page.out_units import reader, shown_columns
 from linkwright.kernel.quantities import Label, in_table, shown
+from linkwright.kernel.reader.angle_zero import counted_columns
+from linkwright.kernel.reader.numbers import NOISE, degrees, measured, number, parted
+from linkwright.kernel.reader.out_units import reader, shown_columns
 from linkwright.kernel.result import Result
 
 Row = tuple[str, ...]

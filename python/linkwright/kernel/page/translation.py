@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from linkwright.kernel.page.language import Language
+from linkwright.kernel.reader.language import Language
 
 if TYPE_CHECKING:
     from linkwright.kernel.page.content import Content
@@ -57,7 +57,7 @@ def _part(part: Any, to: Language, named: Language) -> Any:
 def _changed(value: Any, to: Language) -> Any:
     from matplotlib.figure import Figure
 
-    from linkwright.kernel.figure.for_reader import translated_figure
+    from linkwright.kernel.reader.axes import translated_figure
 
     if isinstance(value, str):
         return to.label(value)

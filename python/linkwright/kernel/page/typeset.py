@@ -10,8 +10,7 @@ from linkwright.kernel.extras import require
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.figure.svg import svg
 from linkwright.kernel.page.content import Content, Heading
-from linkwright.kernel.page.formulas import Formula, typst
-from linkwright.kernel.page.html import INDEX
+from linkwright.kernel.page.formulas import INDEX, Formula, typst
 from linkwright.kernel.page.table import Table
 
 if TYPE_CHECKING:

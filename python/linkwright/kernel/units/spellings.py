@@ -195,7 +195,7 @@ def _in_latin(text: str) -> str:
 @cache
 def _ukrainian() -> dict[str, str]:
     """Symbols of units by how Ukrainian reports write them."""
-    from linkwright.kernel.page.language import language
+    from linkwright.kernel.reader.language import language
 
     return {written: symbol for symbol, written in language("uk").units.items() if symbol != "per"}
 

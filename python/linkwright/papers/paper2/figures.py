@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -17,7 +18,6 @@ from linkwright.kernel.figure.style import (
     PURPLE,
     RED,
     SOFT,
-    legend_above,
     level,
     panels,
     roomy,

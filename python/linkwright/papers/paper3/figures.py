@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -18,7 +19,6 @@ from linkwright.kernel.figure.style import (
     RED,
     SKY,
     SOFT,
-    legend_above,
     level,
     log_height,
     panels,

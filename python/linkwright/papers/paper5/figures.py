@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -14,7 +15,6 @@ from linkwright.kernel.figure.style import (
     MATH,
     ORANGE,
     PURPLE,
-    legend_above,
     level,
     panels,
     styled,

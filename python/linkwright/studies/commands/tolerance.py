@@ -106,7 +106,7 @@ def _dropped(scatter: Tolerance, n: int) -> list[str]:
 
 
 def _bent(name: str, row: Mapping[str, float], unit: str) -> str:
-    from linkwright.kernel.page.numbers import measured
+    from linkwright.kernel.reader.numbers import measured
 
     shown = {key: measured(value, unit) for key, value in row.items()}
     return (

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.kernel.figure.style import CaptionedFigure
-from linkwright.kernel.page.numbers import degrees, number
+from linkwright.kernel.reader.numbers import degrees, number
 from linkwright.machine.machine import Machine
 from linkwright.papers.published_lengths import PAPER, WAYS, length_verdict
 from linkwright.topping.charts import length_chart, verdict_chart

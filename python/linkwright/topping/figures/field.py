@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -16,11 +17,10 @@ from linkwright.kernel.figure.style import (
     PURPLE,
     RED,
     SOFT,
-    legend_above,
     panels,
     styled,
 )
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     BLUE,
     GREEN,
@@ -18,14 +19,13 @@ from linkwright.kernel.figure.style import (
     PURPLE,
     RED,
     SKY,
-    legend_above,
     level,
     panels,
     roomy,
     styled,
     turn_axis,
 )
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.papers.published_lengths import WAYS
 from linkwright.topping.topper import NOTHING
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv
+from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.topping.best.best_knife import BestKnife, KnifeSearch
 from linkwright.topping.field import TopperField
 from linkwright.topping.sweep import FieldSweep

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from linkwright.kernel.page.numbers import degrees, number, quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv, head, row, rows_in, rows_of
 from linkwright.kernel.quantities import shown
+from linkwright.kernel.reader.numbers import degrees, number, quantity
 from linkwright.papers.published_lengths import PAPER, WAYS, Demand, Stroke, length_verdict
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy, leaves

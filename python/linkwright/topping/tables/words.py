@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from linkwright.kernel.page.formulas import Formula
-from linkwright.kernel.page.numbers import degrees, parted
+from linkwright.kernel.reader.numbers import degrees, parted
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.lines import Level, Line, Panel, dashed, line_figure
 from linkwright.kernel.figure.style import (
     BLUE,
@@ -19,7 +20,6 @@ from linkwright.kernel.figure.style import (
     RED,
     SKY,
     SOFT,
-    legend_above,
     named,
     panels,
     shortened,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import (
     INK,
     LINES,
@@ -18,13 +19,12 @@ from linkwright.kernel.figure.style import (
     SMALL,
     SOFT,
     WIDTH,
-    legend_above,
     panels,
     shortened,
     styled,
     zero_line,
 )
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

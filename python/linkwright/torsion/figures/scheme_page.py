@@ -9,7 +9,7 @@ from textwrap import wrap
 import numpy as np
 
 from linkwright.kernel.figure.style import NAME_LETTERS, SMALL, WIDTH, shortened
-from linkwright.kernel.page.numbers import quantity
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.torsion.figures.scheme_layout import Bridge, Layout, layout
 from linkwright.torsion.model.train import GROUND
 from linkwright.torsion.modes.scheme import Connection, Scheme

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.figure.style import INK, LINES, SOFT, legend_above, panels, styled, zero_line
+from linkwright.kernel.figure.legends import legend_above
+from linkwright.kernel.figure.style import INK, LINES, SOFT, panels, styled, zero_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

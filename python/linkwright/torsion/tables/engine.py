@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import measured, number, quantity
 from linkwright.kernel.page.table import Row, Table
+from linkwright.kernel.reader.numbers import measured, number, quantity
 from linkwright.torsion.damper.damper_design import DamperDesign
 from linkwright.torsion.diagnosis.record_diagnosis import RecordDiagnosis
 from linkwright.torsion.excitation.engine_torques import EngineData

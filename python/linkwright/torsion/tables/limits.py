@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import measured, parted, quantity
-from linkwright.kernel.page.out_units import reader
 from linkwright.kernel.page.table import Cell, Row, Table, part_table
+from linkwright.kernel.reader.numbers import measured, parted, quantity
+from linkwright.kernel.reader.out_units import reader
 from linkwright.kernel.units.kinds import PRESSURE, Kind
 from linkwright.torsion.limits.barred_range import BarredRange
 from linkwright.torsion.limits.crank_fatigue import ACCEPTABLE, CrankshaftFatigue

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import quantity
 from linkwright.kernel.page.table import Row, Table, part_table, parts_of
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.torsion.in_time.transient import TorsionTransient
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
-from linkwright.kernel.page.numbers import quantity
 from linkwright.kernel.page.table import Row, Table, columns_csv, part_table
+from linkwright.kernel.reader.numbers import quantity
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors

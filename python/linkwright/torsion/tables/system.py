@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import (
     Row,
     Table,
@@ -17,6 +16,7 @@ from linkwright.kernel.page.table import (
     part_table,
     parts_of,
 )
+from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.torsion.limits.misfire import MisfireVerdict
 from linkwright.torsion.model.shaft_limit import ShaftLimit, StressedSection
 from linkwright.torsion.modes.scheme import Connection, Scheme

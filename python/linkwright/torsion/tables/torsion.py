@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.page.numbers import number, quantity
 from linkwright.kernel.page.table import Cell, NamedPart, Row, Table, part_table, parts_of
+from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram

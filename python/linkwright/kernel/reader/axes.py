@@ -15,9 +15,9 @@ import numpy as np
 from matplotlib.text import Text
 from matplotlib.ticker import AutoLocator, FixedLocator, Formatter, Locator
 
-from linkwright.kernel.figure.angle_marks import mark_angles
-from linkwright.kernel.page.angle_zero import Zero, zero_shown
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.angle_marks import mark_angles
+from linkwright.kernel.reader.angle_zero import Zero, zero_shown
+from linkwright.kernel.reader.out_units import reader
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-    from linkwright.kernel.page.language import Language
+    from linkwright.kernel.reader.language import Language
 
 # Beginning of the labels of axes over crank angles; one with the words of a zero is counted from it already.
 _LABEL = "crank angle"

@@ -6,8 +6,8 @@ import math
 import sys
 from typing import TYPE_CHECKING
 
-from linkwright.kernel.page.angle_zero import Zero, zero_shown
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.angle_zero import Zero, zero_shown
+from linkwright.kernel.reader.out_units import reader
 
 if TYPE_CHECKING:
     from linkwright.kernel.arrays import Floats

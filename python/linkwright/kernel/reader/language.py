@@ -19,7 +19,7 @@ from pathlib import Path
 
 from linkwright.kernel.errors import InputError
 
-# A number as `linkwright.kernel.page.numbers` writes it, no digits of a name.
+# A number as `linkwright.kernel.reader.numbers` writes it, no digits of a name.
 _DIGITS = r"(?<![\w.])[-−+]?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|e[-−+]?\d+)?(?![\w]|\.\d)"
 _NUMERAL = re.compile(_DIGITS)
 # A name, or a few words; it does not go on behind the end of a sentence.

@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterable
 from math import ceil, floor, log10, radians
 
-from linkwright.kernel.page.angle_zero import zero_shown
-from linkwright.kernel.page.numbers import RAISED, degrees, number
-from linkwright.kernel.page.out_units import reader
+from linkwright.kernel.reader.angle_zero import zero_shown
+from linkwright.kernel.reader.numbers import RAISED, degrees, number
+from linkwright.kernel.reader.out_units import reader
 
 # Units that sentences are written in, those of several parts first.
 _UNITS = (
@@ -82,5 +82,5 @@ _LOWERED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def _value(text: str) -> float:
-    """A number as `linkwright.kernel.page.numbers` or Python writes it."""
+    """A number as `linkwright.kernel.reader.numbers` or Python writes it."""
     return float(text.replace("−", "-").replace("·10", "e").translate(_LOWERED))

@@ -1,0 +1,29 @@
+"""What others use of this room; `__init__.py` loads it on first use."""
+
+from linkwright.cam.core import cam_kernel as cam_kernel
+from linkwright.cam.dynamics.loaded import cam_force as cam_force
+from linkwright.cam.laws.boundary import Boundary as Boundary
+from linkwright.cam.laws.catalogue import LAWS as LAWS
+from linkwright.cam.laws.handbook import modified_sine as modified_sine
+from linkwright.cam.laws.handbook import modified_trapezoid as modified_trapezoid
+from linkwright.cam.laws.motion_law import MotionLaw as MotionLaw
+from linkwright.cam.laws.motion_law import joined as joined
+from linkwright.cam.laws.optimal import optimal as optimal
+from linkwright.cam.laws.piece import Harmonic as Harmonic
+from linkwright.cam.laws.piece import Piece as Piece
+from linkwright.cam.laws.polynomial import polynomial as polynomial
+from linkwright.cam.laws.programme import Programme as Programme
+from linkwright.cam.laws.ramps import ramp_of as ramp_of
+from linkwright.cam.laws.spline import spline as spline
+from linkwright.cam.manufacture.curve import Track as Track
+from linkwright.cam.manufacture.drawing import Drawing as Drawing
+from linkwright.cam.manufacture.fit import Form as Form
+from linkwright.cam.manufacture.write import read_back as read_back
+from linkwright.cam.model.follower import Sizes as Sizes
+from linkwright.cam.model.motion_law import PlainLaw as PlainLaw
+from linkwright.cam.profile.contact import CamCurve as CamCurve
+from linkwright.cam.profile.contact import contacts as contacts
+from linkwright.cam.profile.contact import touch as touch
+from linkwright.cam.profile.least_sizes import base_for_pressure_angle as base_for_pressure_angle
+from linkwright.cam.profile.least_sizes import largest_roller as largest_roller
+from linkwright.cam.profile.profile import CamProfile as CamProfile
