@@ -11,7 +11,7 @@ import pytest
 
 from linkwright import _core
 from linkwright.kernel.errors import CoreError
-from linkwright.machine.program.core import FORMAT, check_format
+from linkwright.machine.program.core import FORMAT, check_format, require
 
 ROOT = Path(__file__).parents[2]
 
@@ -48,3 +48,12 @@ def test_the_error_has_both_numbers() -> None:
     with pytest.raises(CoreError) as caught:
         check_format(object())
     assert (caught.value.found, caught.value.expected) == (None, FORMAT)
+
+
+def test_what_came_later_is_asked_for_by_its_name() -> None:
+    """A core of the same format without a later function, or a later kind of load, is refused."""
+    for there in ("motions_along", "What.Dry"):
+        require(there)
+    for missing in ("motions_beside", "What.Magnetic"):
+        with pytest.raises(CoreError, match=f"{missing} is missing"):
+            require(missing)

@@ -137,8 +137,10 @@ impl Plan {
             if what.bends_at_rest() && *at != At::Crank {
                 watches.push(Watch::Turns(*at));
             }
-            let knots = what.position_tables().flat_map(|table| self.tables[table].moving_knots());
-            watches.extend(knots.map(|knot| Watch::Passes(*at, knot)));
+            if what.knows_position() {
+                let knots = what.numbers().1.into_iter().flat_map(|table| self.tables[table].moving_knots());
+                watches.extend(knots.map(|knot| Watch::Passes(*at, knot)));
+            }
             if let (&At::Between { from, to }, &What::Spring { free_length, .. }) = (at, what) {
                 watches.push(Watch::Anchor(from, to, free_length));
             }

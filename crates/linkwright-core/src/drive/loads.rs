@@ -85,14 +85,28 @@ impl What {
         matches!(self, What::Dry { .. } | What::Resistance { .. } | What::OverSpeed { .. })
     }
 
-    /// Tables over the position.
-    pub fn position_tables(&self) -> impl Iterator<Item = usize> {
-        let tables = match *self {
-            What::Curve { table } => [Some(table), None],
-            What::Resistance { forward, back } => [Some(forward), Some(back)],
-            _ => [None; 2],
-        };
-        tables.into_iter().flatten()
+    /// Whether it depends on the speed in its own way, so that it is evaluated with the speed of the moment; a formula does by its
+    /// degree.
+    pub fn is_law(&self) -> bool {
+        matches!(self, What::OverSpeed { .. })
+    }
+
+    /// Parameters and tables that it has.
+    pub fn numbers(&self) -> (Vec<Slot>, Vec<usize>) {
+        match *self {
+            What::Constant { size } | What::Dry { size } | What::Viscous { damping: size } => {
+                (vec![size], vec![])
+            }
+            What::Spring { stiffness, free_length, preload } => {
+                (vec![stiffness, free_length, preload], vec![])
+            }
+            What::Gas { force, length, column, exponent } => (vec![force, length, column, exponent], vec![]),
+            What::Curve { table } | What::OverAngle { table, .. } | What::OverSpeed { table } => {
+                (vec![], vec![table])
+            }
+            What::Resistance { forward, back } => (vec![], vec![forward, back]),
+            What::Formula { .. } => (vec![], vec![]),
+        }
     }
 }
 

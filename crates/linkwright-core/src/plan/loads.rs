@@ -32,19 +32,34 @@ impl Builder {
     /// # Errors
     /// What it acts on, a table, the formula or a parameter does not exist; or it cannot act there.
     pub fn load(&mut self, load: Load) -> Result<(), PlanError> {
-        self.check_at(load.at)?;
-        self.check_what(load.what)?;
+        let Load { at, what } = load;
+        self.check_at(at)?;
+        let (slots, tables) = what.numbers();
+        self.slots(&slots)?;
+        self.tables(&tables)?;
         if !load.fits() {
             return Err(PlanError::Load);
         }
-        match load.what {
-            What::OverSpeed { table } if load.at == At::Crank => self.speed_loads.push(table),
-            What::OverSpeed { .. } => self.laws.push(load),
-            What::Formula { formula, .. } => match self.formulas[formula].degree {
-                Degree::Any | Degree::Of(0 | 1) => self.loads.push(load),
-                _ => self.laws.push(load),
-            },
-            _ => self.loads.push(load),
+        let mut is_law = what.is_law();
+        match what {
+            What::Formula { formula, turns } => {
+                all_below(&[formula], self.formulas.len(), "formula")?;
+                if self.formulas[formula].reads(Variable::Phi) {
+                    self.repeats_after(turns)?;
+                }
+                is_law = !matches!(self.formulas[formula].degree, Degree::Any | Degree::Of(0 | 1));
+            }
+            What::OverAngle { turns, .. } => self.repeats_after(turns)?,
+            What::OverSpeed { table } if at == At::Crank => {
+                self.speed_loads.push(table);
+                return Ok(());
+            }
+            _ => {}
+        }
+        if is_law {
+            self.laws.push(load)
+        } else {
+            self.loads.push(load)
         }
         Ok(())
     }
@@ -72,28 +87,6 @@ impl Builder {
             At::BetweenLinks { link, other, cos, sin } => {
                 self.links(&[link, other.unwrap_or(link)])?;
                 self.slots(&[cos, sin])
-            }
-        }
-    }
-
-    fn check_what(&mut self, what: What) -> Result<(), PlanError> {
-        match what {
-            What::Constant { size } | What::Dry { size } | What::Viscous { damping: size } => {
-                self.slots(&[size])
-            }
-            What::Spring { stiffness, free_length, preload } => {
-                self.slots(&[stiffness, free_length, preload])
-            }
-            What::Gas { force, length, column, exponent } => self.slots(&[force, length, column, exponent]),
-            What::Curve { table } | What::OverSpeed { table } => self.tables(&[table]),
-            What::Resistance { forward, back } => self.tables(&[forward, back]),
-            What::OverAngle { table, turns } => {
-                self.tables(&[table])?;
-                self.repeats_after(turns)
-            }
-            What::Formula { formula, turns } => {
-                all_below(&[formula], self.formulas.len(), "formula")?;
-                if self.formulas[formula].reads(Variable::Phi) { self.repeats_after(turns) } else { Ok(()) }
             }
         }
     }
