@@ -15,6 +15,7 @@ __all__ = [
     "MESH_STEPS_MAX",
     "SEARCH_STEPS_MAX",
     "SEARCH_TURNS_MAX",
+    "At",
     "Bar",
     "BarPoint",
     "Body",
@@ -39,7 +40,6 @@ __all__ = [
     "Harmonic",
     "InLine",
     "Line",
-    "Load",
     "MotionInTime",
     "MotionLaw",
     "MotionVariations",
@@ -74,6 +74,7 @@ __all__ = [
     "TorsionRotor",
     "TorsionSystem",
     "TorsionTorque",
+    "What",
     "cam_crossings",
     "follow_group",
     "gaps",
@@ -613,304 +614,199 @@ class Body:
         mass: Final[int]
         inertia: Final[int]
 
-class Load:
-    """A load, with its table or formula."""
+class At:
+    """Where a load acts."""
 
     @final
-    class DrySlide(Load):
-        """A constant force against the motion along a guide."""
+    class Bodies(At):
+        """All bodies, in proportion to their mass, in a direction."""
 
-        __match_args__: Final = ("slide", "force")
+        __match_args__: Final = ("cos", "sin")
 
-        def __new__(cls, *, slide: int, force: int) -> Load.DrySlide: ...
+        def __new__(cls, *, cos: int, sin: int) -> At.Bodies: ...
+        cos: Final[int]
+        sin: Final[int]
+
+    @final
+    class Crank(At):
+        """The crankshaft, counter-clockwise."""
+
+        __match_args__: Final = ()
+
+        def __new__(cls) -> At.Crank: ...
+
+    @final
+    class Slide(At):
+        """A slide, along its guide; `point` is the point that slides."""
+
+        __match_args__: Final = ("slide", "point")
+
+        def __new__(cls, *, slide: int, point: int) -> At.Slide: ...
         slide: Final[int]
-        force: Final[int]
-
-    @final
-    class DryPoint(Load):
-        """A constant force against the motion of a point."""
-
-        __match_args__: Final = ("point", "force")
-
-        def __new__(cls, *, point: int, force: int) -> Load.DryPoint: ...
         point: Final[int]
-        force: Final[int]
 
     @final
-    class DryLink(Load):
-        """A constant torque against the turning of a link."""
+    class Point(At):
+        """A point, along its path."""
 
-        __match_args__: Final = ("link", "torque")
+        __match_args__: Final = ("point",)
 
-        def __new__(cls, *, link: int, torque: int) -> Load.DryLink: ...
-        link: Final[int]
-        torque: Final[int]
-
-    @final
-    class DryCrank(Load):
-        """A constant torque against the turning of the crankshaft."""
-
-        __match_args__: Final = ("torque",)
-
-        def __new__(cls, *, torque: int) -> Load.DryCrank: ...
-        torque: Final[int]
-
-    @final
-    class ViscousSlide(Load):
-        """A force in proportion to the speed along a guide."""
-
-        __match_args__: Final = ("slide", "damping")
-
-        def __new__(cls, *, slide: int, damping: int) -> Load.ViscousSlide: ...
-        slide: Final[int]
-        damping: Final[int]
-
-    @final
-    class ViscousPoint(Load):
-        """A force in proportion to the speed of a point."""
-
-        __match_args__: Final = ("point", "damping")
-
-        def __new__(cls, *, point: int, damping: int) -> Load.ViscousPoint: ...
+        def __new__(cls, *, point: int) -> At.Point: ...
         point: Final[int]
-        damping: Final[int]
 
     @final
-    class ViscousLink(Load):
-        """A torque in proportion to the speed of a link."""
+    class Toward(At):
+        """A point, in a fixed direction."""
 
-        __match_args__: Final = ("link", "damping")
+        __match_args__: Final = ("point", "cos", "sin")
 
-        def __new__(cls, *, link: int, damping: int) -> Load.ViscousLink: ...
-        link: Final[int]
-        damping: Final[int]
-
-    @final
-    class Force(Load):
-        """A force that keeps its direction."""
-
-        __match_args__: Final = ("point", "x", "y")
-
-        def __new__(cls, *, point: int, x: int, y: int) -> Load.Force: ...
+        def __new__(cls, *, point: int, cos: int, sin: int) -> At.Toward: ...
         point: Final[int]
-        x: Final[int]
-        y: Final[int]
+        cos: Final[int]
+        sin: Final[int]
 
     @final
-    class Torque(Load):
-        """A torque on a link, counter-clockwise."""
+    class Along(At):
+        """A point, in a direction that turns with a link."""
 
-        __match_args__: Final = ("link", "torque")
+        __match_args__: Final = ("point", "link", "cos", "sin")
 
-        def __new__(cls, *, link: int, torque: int) -> Load.Torque: ...
+        def __new__(cls, *, point: int, link: int, cos: int, sin: int) -> At.Along: ...
+        point: Final[int]
         link: Final[int]
-        torque: Final[int]
+        cos: Final[int]
+        sin: Final[int]
 
     @final
-    class Gravity(Load):
-        """The weight of every body."""
+    class Link(At):
+        """A link, counter-clockwise."""
 
-        __match_args__: Final = ("x", "y")
+        __match_args__: Final = ("link",)
 
-        def __new__(cls, *, x: int, y: int) -> Load.Gravity: ...
-        x: Final[int]
-        y: Final[int]
+        def __new__(cls, *, link: int) -> At.Link: ...
+        link: Final[int]
 
     @final
-    class Spring(Load):
-        """A spring between two points; `preload` is its pull at the free length."""
+    class Between(At):
+        """Two points, away from each other."""
 
-        __match_args__: Final = ("start", "end", "stiffness", "free_length", "preload")
+        __match_args__: Final = ("start", "end")
 
-        def __new__(
-            cls, *, start: int, end: int, stiffness: int, free_length: int, preload: int
-        ) -> Load.Spring: ...
+        def __new__(cls, *, start: int, end: int) -> At.Between: ...
         start: Final[int]
         end: Final[int]
+
+    @final
+    class BetweenLinks(At):
+        """A link against another, or the frame; cos and sin of its free angle."""
+
+        __match_args__: Final = ("link", "other", "cos", "sin")
+
+        def __new__(cls, *, link: int, other: int | None, cos: int, sin: int) -> At.BetweenLinks: ...
+        link: Final[int]
+        other: Final[int | None]
+        cos: Final[int]
+        sin: Final[int]
+
+class What:
+    """What a load is, with its table or formula: a force, or a torque on what turns."""
+
+    @final
+    class Constant(What):
+        """A constant force or torque; on all bodies an acceleration."""
+
+        __match_args__: Final = ("size",)
+
+        def __new__(cls, *, size: int) -> What.Constant: ...
+        size: Final[int]
+
+    @final
+    class Dry(What):
+        """A constant resistance."""
+
+        __match_args__: Final = ("size",)
+
+        def __new__(cls, *, size: int) -> What.Dry: ...
+        size: Final[int]
+
+    @final
+    class Viscous(What):
+        """A resistance in proportion to the speed."""
+
+        __match_args__: Final = ("damping",)
+
+        def __new__(cls, *, damping: int) -> What.Viscous: ...
+        damping: Final[int]
+
+    @final
+    class Spring(What):
+        """A spring; `preload` is its pull at the free length."""
+
+        __match_args__: Final = ("stiffness", "free_length", "preload")
+
+        def __new__(cls, *, stiffness: int, free_length: int, preload: int) -> What.Spring: ...
         stiffness: Final[int]
         free_length: Final[int]
         preload: Final[int]
 
     @final
-    class ForcePosition(Load):
-        """A force over the position on a guide, against the motion in both directions."""
+    class Gas(What):
+        """A push that grows as gas is compressed."""
 
-        __match_args__: Final = ("slide", "forward", "back")
+        __match_args__: Final = ("force", "length", "column", "exponent")
 
-        def __new__(cls, *, slide: int, forward: Table, back: Table) -> Load.ForcePosition: ...
-        slide: Final[int]
-        forward: Final[Table]
-        back: Final[Table]
-
-    @final
-    class TorqueAngle(Load):
-        """A torque over the crank angle, against positive turning, that repeats after some revolutions."""
-
-        __match_args__: Final = ("table", "turns")
-
-        def __new__(cls, *, table: Table, turns: int) -> Load.TorqueAngle: ...
-        table: Final[Table]
-        turns: Final[int]
-
-    @final
-    class ForceAngle(Load):
-        """A force along a guide over the crank angle, that repeats after some revolutions."""
-
-        __match_args__: Final = ("slide", "table", "turns")
-
-        def __new__(cls, *, slide: int, table: Table, turns: int) -> Load.ForceAngle: ...
-        slide: Final[int]
-        table: Final[Table]
-        turns: Final[int]
-
-    @final
-    class TorqueSpeed(Load):
-        """A torque over the speed of the crank, against it."""
-
-        __match_args__: Final = ("table",)
-
-        def __new__(cls, *, table: Table) -> Load.TorqueSpeed: ...
-        table: Final[Table]
-
-    @final
-    class Follow(Load):
-        """A force that turns with a link."""
-
-        __match_args__: Final = ("point", "link", "along", "across")
-
-        def __new__(cls, *, point: int, link: int, along: int, across: int) -> Load.Follow: ...
-        point: Final[int]
-        link: Final[int]
-        along: Final[int]
-        across: Final[int]
-
-    @final
-    class Damper(Load):
-        """A damper between two points."""
-
-        __match_args__: Final = ("start", "end", "damping")
-
-        def __new__(cls, *, start: int, end: int, damping: int) -> Load.Damper: ...
-        start: Final[int]
-        end: Final[int]
-        damping: Final[int]
-
-    @final
-    class DamperTable(Load):
-        """A damper by a table over the speed at which two points part."""
-
-        __match_args__: Final = ("start", "end", "table")
-
-        def __new__(cls, *, start: int, end: int, table: Table) -> Load.DamperTable: ...
-        start: Final[int]
-        end: Final[int]
-        table: Final[Table]
-
-    @final
-    class SpringTable(Load):
-        """A spring by a table over its length."""
-
-        __match_args__: Final = ("start", "end", "table")
-
-        def __new__(cls, *, start: int, end: int, table: Table) -> Load.SpringTable: ...
-        start: Final[int]
-        end: Final[int]
-        table: Final[Table]
-
-    @final
-    class TorsionSpring(Load):
-        """A spring between a link and another, or the frame; cos and sin of its free angle."""
-
-        __match_args__: Final = ("link", "other", "stiffness", "cos", "sin")
-
-        def __new__(
-            cls, *, link: int, other: int | None, stiffness: int, cos: int, sin: int
-        ) -> Load.TorsionSpring: ...
-        link: Final[int]
-        other: Final[int | None]
-        stiffness: Final[int]
-        cos: Final[int]
-        sin: Final[int]
-
-    @final
-    class TorsionDamper(Load):
-        """A damper between a link and another, or the frame."""
-
-        __match_args__: Final = ("link", "other", "damping")
-
-        def __new__(cls, *, link: int, other: int | None, damping: int) -> Load.TorsionDamper: ...
-        link: Final[int]
-        other: Final[int | None]
-        damping: Final[int]
-
-    @final
-    class GasSpring(Load):
-        """A gas spring: push at its extended length, that length, length of its gas, exponent."""
-
-        __match_args__: Final = ("start", "end", "force", "length", "column", "exponent")
-
-        def __new__(
-            cls, *, start: int, end: int, force: int, length: int, column: int, exponent: int
-        ) -> Load.GasSpring: ...
-        start: Final[int]
-        end: Final[int]
+        def __new__(cls, *, force: int, length: int, column: int, exponent: int) -> What.Gas: ...
         force: Final[int]
         length: Final[int]
         column: Final[int]
         exponent: Final[int]
 
     @final
-    class FormulaOnSlide(Load):
-        """A formula along a guide, of the point that slides."""
+    class Curve(What):
+        """A pull by a table over the position."""
 
-        __match_args__: Final = ("formula", "slide", "point", "turns")
+        __match_args__: Final = ("table",)
 
-        def __new__(cls, *, formula: Formula, slide: int, point: int, turns: int) -> Load.FormulaOnSlide: ...
-        formula: Final[Formula]
-        slide: Final[int]
-        point: Final[int]
+        def __new__(cls, *, table: Table) -> What.Curve: ...
+        table: Final[Table]
+
+    @final
+    class Resistance(What):
+        """A resistance by tables over the position, one for each direction."""
+
+        __match_args__: Final = ("forward", "back")
+
+        def __new__(cls, *, forward: Table, back: Table) -> What.Resistance: ...
+        forward: Final[Table]
+        back: Final[Table]
+
+    @final
+    class OverAngle(What):
+        """A table over the crank angle, that repeats after some revolutions."""
+
+        __match_args__: Final = ("table", "turns")
+
+        def __new__(cls, *, table: Table, turns: int) -> What.OverAngle: ...
+        table: Final[Table]
         turns: Final[int]
 
     @final
-    class FormulaOnPoint(Load):
-        """A formula on a point in a fixed direction."""
+    class OverSpeed(What):
+        """A resistance by a table over the speed."""
 
-        __match_args__: Final = ("formula", "point", "cos", "sin", "turns")
+        __match_args__: Final = ("table",)
 
-        def __new__(
-            cls, *, formula: Formula, point: int, cos: int, sin: int, turns: int
-        ) -> Load.FormulaOnPoint: ...
-        formula: Final[Formula]
-        point: Final[int]
-        cos: Final[int]
-        sin: Final[int]
-        turns: Final[int]
+        def __new__(cls, *, table: Table) -> What.OverSpeed: ...
+        table: Final[Table]
 
     @final
-    class FormulaAlong(Load):
-        """A formula on a point in a direction that turns with a link."""
+    class Formula(What):
+        """A formula; the crank angle that it knows starts again from 0 after some revolutions."""
 
-        __match_args__: Final = ("formula", "point", "link", "cos", "sin", "turns")
+        __match_args__: Final = ("formula", "turns")
 
-        def __new__(
-            cls, *, formula: Formula, point: int, link: int, cos: int, sin: int, turns: int
-        ) -> Load.FormulaAlong: ...
+        def __new__(cls, *, formula: Formula, turns: int) -> What.Formula: ...
         formula: Final[Formula]
-        point: Final[int]
-        link: Final[int]
-        cos: Final[int]
-        sin: Final[int]
-        turns: Final[int]
-
-    @final
-    class FormulaOnLink(Load):
-        """A formula on a link, counter-clockwise."""
-
-        __match_args__: Final = ("formula", "link", "turns")
-
-        def __new__(cls, *, formula: Formula, link: int, turns: int) -> Load.FormulaOnLink: ...
-        formula: Final[Formula]
-        link: Final[int]
         turns: Final[int]
 
 @final
@@ -1004,7 +900,7 @@ class Plan:
         ground: Sequence[GroundPoint],
         elements: Sequence[Element],
         bodies: Sequence[Body],
-        loads: Sequence[Load],
+        loads: Sequence[tuple[At, What]],
         drive: Drive,
     ) -> Plan: ...
     @property

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from linkwright import CoreError, _core
-from linkwright.machine.program.core import FORMAT, check_format
+from linkwright.machine.program.core import FORMAT, check_format, require
 
 ROOT = Path(__file__).parents[2]
 
@@ -47,3 +47,12 @@ def test_the_error_has_both_numbers() -> None:
     with pytest.raises(CoreError) as caught:
         check_format(object())
     assert (caught.value.found, caught.value.expected) == (None, FORMAT)
+
+
+def test_what_came_later_is_asked_for_by_its_name() -> None:
+    """A core of the same format without a later function, or a later kind of load, is refused."""
+    for there in ("motions_along", "What.Dry"):
+        require(there)
+    for missing in ("motions_beside", "What.Magnetic"):
+        with pytest.raises(CoreError, match=f"{missing} is missing"):
+            require(missing)

@@ -52,7 +52,8 @@ def test_the_stub_says_what_is_there() -> None:
 
 
 @pytest.mark.parametrize(
-    "kinds", [_core.Element, _core.Load, _core.Body, _core.Motor, _core.Condition, _core.TorqueLaw]
+    "kinds",
+    [_core.Element, _core.At, _core.What, _core.Body, _core.Motor, _core.Condition, _core.TorqueLaw],
 )
 def test_arguments_are_the_fields(kinds: Any) -> None:
     """What is built by name is read by the same names, in no order at all."""

@@ -14,6 +14,6 @@ fn is_index(error: &PlanError) -> bool {
     match error {
         PlanError::Missing { .. } | PlanError::Order { .. } => true,
         PlanError::In { error, .. } => is_index(error),
-        PlanError::Length { .. } | PlanError::MotionLaw => false,
+        PlanError::Length { .. } | PlanError::Load | PlanError::MotionLaw => false,
     }
 }

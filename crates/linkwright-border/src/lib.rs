@@ -51,7 +51,7 @@ pub mod _core {
     #[pymodule_export]
     use super::builder::elements::{Element, GroundPoint};
     #[pymodule_export]
-    use super::builder::loads::{Body, Load};
+    use super::builder::loads::{At, Body, What};
     #[pymodule_export]
     use super::builder::numbers::{Formula, Harmonic, Knots, MotionLaw, Piece};
     #[pymodule_export]

@@ -5,7 +5,7 @@ mod common;
 use common::{Builder, Random, SampleMachine, mixed, two_carts};
 use linkwright_core::drive::batch::{Outcome, QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::drive::equation::Machine;
-use linkwright_core::drive::loads::Load;
+use linkwright_core::drive::loads::{At, What};
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::steady::steady;
 use linkwright_core::drive::transient::{End, Start, Trajectory, Turning, follow};
@@ -256,7 +256,7 @@ fn dry_brake_stops_after_its_closed_form() {
     let mut b = Builder::new();
     b.crank(0.1, 0.0);
     let torque = b.number(7.0);
-    b.load(Load::DryCrank { torque });
+    b.load(At::Crank, What::Dry { size: torque });
     let built = b.finish(Motor::Off, [1.0, 1.0, 1.0, 2.0, 10.0]);
     let start = Start {
         phi: 0.0,
@@ -283,7 +283,7 @@ fn standstill_is_told() {
         b.gravity(10.0);
         let torque = b.number(torque);
         let friction = b.number(friction);
-        b.load(Load::DryCrank { torque: friction });
+        b.load(At::Crank, What::Dry { size: friction });
         let built = b.finish(Motor::Constant { torque }, [1.0, 1.0, 1.0, 1.0, 5.0]);
         follow(&built.plan, &built.q, &Start { phi, ..from_rest(FOREVER, 3.0) })
     };
@@ -305,7 +305,7 @@ fn almost_at_rest_is_at_rest() {
         let mut b = Builder::new();
         b.crank(0.1, 0.0);
         let (drag, torque) = (b.number(20.0), b.number(5.0));
-        b.load(Load::DryCrank { torque: drag });
+        b.load(At::Crank, What::Dry { size: drag });
         let table = table.map(|y| b.table(&[0.0, 10.0], &[y, 0.0]));
         let mut built = b.finish(Motor::Constant { torque }, [1.0, 1.0, 1.0, 1.0, 5.0]);
         built.plan.drive.speed_loads.extend(table);
@@ -322,21 +322,19 @@ fn almost_at_rest_is_at_rest() {
     assert!((path.load_torque - 120.0).abs() < 1e-12, "the load needs {}", path.load_torque);
 }
 
-/// A dry force on a rocker's joint is the same load as a dry torque on the rocker, to any accuracy.
+/// A dry force on a rocker's joint, along its path or across the rocker, is the same load as a dry torque on the rocker, alone or
+/// against the frame, to any accuracy: where a load acts has its kinks.
 #[test]
 fn dry_force_on_a_joint_is_a_torque_on_its_rocker() {
-    let build = |on_joint: bool| {
+    let (force, torque) = (60.0, 18.0);
+    let build = |at: &dyn Fn(usize, usize, [usize; 2]) -> At, size: f64| {
         let mut b = Builder::new();
         let (pin, _) = b.crank(0.1, 0.0);
         let pivot = b.fixed(0.4, 0.0);
         let [joint, _, rocker] = b.rocker(pin, pivot, 0.35, 0.3, 1.0);
         b.mass(joint, 5.0);
-        let (force, torque) = (b.number(60.0), b.number(18.0));
-        b.load(if on_joint {
-            Load::DryPoint { point: joint, force }
-        } else {
-            Load::DryLink { link: rocker, torque }
-        });
+        let [size, zero, one] = [size, 0.0, 1.0].map(|x| b.number(x));
+        b.load(at(joint, rocker, [zero, one]), What::Dry { size });
         let (torque, inverse_speed) = (b.number(20.0), b.number(1.0 / 100.0));
         b.finish(Motor::Line { torque, inverse_speed }, [5.0, 1.0, 1.0, 0.5, 20.0])
     };
@@ -344,9 +342,42 @@ fn dry_force_on_a_joint_is_a_torque_on_its_rocker() {
         let found = steady(&built.plan, &built.q, 1e-10).expect("steady motion");
         (found.totals.period, found.marks.len())
     };
-    let (joint, rocker) = (period(&build(true)), period(&build(false)));
-    assert!((joint.0 / rocker.0 - 1.0).abs() < 1e-10, "{} and {} s", joint.0, rocker.0);
-    assert_eq!(joint.1, rocker.1, "as many steps");
+    let others = [
+        build(&|point, _, _| At::Point { point }, force),
+        build(&|point, link, [cos, sin]| At::Along { point, link, cos, sin }, force),
+        build(&|_, link, [sin, cos]| At::BetweenLinks { link, other: None, cos, sin }, torque),
+    ];
+    let rocker = period(&build(&|_, link, _| At::Link { link }, torque));
+    for other in others.iter().map(period) {
+        assert!((other.0 / rocker.0 - 1.0).abs() < 1e-10, "{} and {} s", other.0, rocker.0);
+        assert_eq!(other.1, rocker.1, "as many steps");
+    }
+}
+
+/// A dry force on a slider in the direction of its guide is one along its guide, and one between it and a point far on the guide.
+#[test]
+fn dry_force_in_the_direction_of_a_guide_is_one_along_it() {
+    let build = |at: &dyn Fn(usize, usize, usize, [usize; 2]) -> At| {
+        let mut b = Builder::new();
+        let (pin, _) = b.crank(0.1, 0.4);
+        let far = b.fixed(-3.0, 0.0);
+        let [point, _, slide] = b.slider(pin, 0.35, 0.0, 0.0, 1.0);
+        b.mass(point, 5.0);
+        let [size, zero, one] = [60.0, 0.0, 1.0].map(|x| b.number(x));
+        b.load(at(slide, point, far, [one, zero]), What::Dry { size });
+        let (torque, inverse_speed) = (b.number(20.0), b.number(1.0 / 100.0));
+        b.finish(Motor::Line { torque, inverse_speed }, [5.0, 1.0, 1.0, 0.5, 20.0])
+    };
+    let period =
+        |built: &SampleMachine| steady(&built.plan, &built.q, 1e-10).expect("steady motion").totals.period;
+    let along = period(&build(&|slide, point, _, _| At::Slide { slide, point }));
+    for built in [
+        build(&|_, point, _, [cos, sin]| At::Toward { point, cos, sin }),
+        build(&|_, to, from, _| At::Between { from, to }),
+    ] {
+        let other = period(&built);
+        assert!((other / along - 1.0).abs() < 1e-10, "{other} and {along} s");
+    }
 }
 
 /// Rows for which the fixed mesh of the lanes is too coarse are solved on their own: a light drive.

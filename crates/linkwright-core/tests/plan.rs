@@ -1,6 +1,6 @@
 //! A plan is put together from what exists: the builder refuses everything else where it is added, and stays as it was.
 
-use linkwright_core::drive::loads::{Body, Carrier, ForceElement, FormulaLoad, Load};
+use linkwright_core::drive::loads::{At, Body, Load, What};
 use linkwright_core::drive::motor::{Drive, Motor};
 use linkwright_core::kernel::error::PlanError;
 use linkwright_core::kernel::formula::{Formula, Op, Variable};
@@ -141,12 +141,19 @@ fn bodies_loads_and_drive_hang_on_what_exists() {
     let mut b = started();
     let missing = |what, value, made| Err(PlanError::Missing { what, value, made });
     assert_eq!(b.body(Body::Point { point: 3, mass: 0 }), missing("point", 3, 3));
-    assert_eq!(b.load(Load::DrySlide { slide: 0, force: 0 }), missing("slide", 0, 0));
-    assert_eq!(b.load(Load::TorqueAngle { table: 0, turns: 1 }), missing("table", 0, 0));
-    let spring = ForceElement::TorsionSpring { link: 0, other: Some(1), stiffness: 0, cos: 0, sin: 0 };
-    assert_eq!(b.force_element(spring), missing("link", 1, 1));
-    let carrier = Carrier::Link { link: 0 };
-    assert_eq!(b.formula_load(FormulaLoad { formula: 0, carrier, turns: 1 }), missing("formula", 0, 0));
+    let (dry, viscous) = (What::Dry { size: 0 }, What::Viscous { damping: 4 });
+    let mut load = |at, what| b.load(Load { at, what });
+    assert_eq!(load(At::Slide { slide: 0, point: 0 }, dry), missing("slide", 0, 0));
+    assert_eq!(load(At::Point { point: 2 }, viscous), missing("parameter", 4, 4));
+    assert_eq!(load(At::Crank, What::OverAngle { table: 0, turns: 1 }), missing("table", 0, 0));
+    assert_eq!(
+        load(At::BetweenLinks { link: 0, other: Some(1), cos: 0, sin: 0 }, dry),
+        missing("link", 1, 1)
+    );
+    assert_eq!(load(At::Link { link: 0 }, What::Formula { formula: 0, turns: 1 }), missing("formula", 0, 0));
+    let spring = What::Spring { stiffness: 0, free_length: 1, preload: 2 };
+    assert_eq!(load(At::Point { point: 2 }, spring), Err(PlanError::Load), "a path has no position");
+    assert_eq!(load(At::Bodies { cos: 0, sin: 1 }, dry), Err(PlanError::Load), "weight is constant");
     let far = Formula::new(vec![Op::Number(4)]).expect("one number");
     assert_eq!(b.formula(far).map(|_| ()), missing("parameter", 4, 4));
     let motor = Motor::Table { table: 0 };
@@ -161,12 +168,11 @@ fn formulas_are_sorted_by_their_degree() {
     let square = vec![Op::Variable(Variable::PsiDot), Op::Power(2)];
     for ops in [vec![Op::Variable(Variable::Psi)], vec![Op::Variable(Variable::PsiDot)], square] {
         let formula = b.formula(Formula::new(ops).expect("a formula")).expect("no parameters");
-        let carrier = Carrier::Link { link: 0 };
-        b.formula_load(FormulaLoad { formula, carrier, turns: 1 }).expect("on the crank");
+        let what = What::Formula { formula, turns: 1 };
+        b.load(Load { at: At::Link { link: 0 }, what }).expect("on the crank");
     }
     let plan = b.into_plan(DRIVE).expect("a sound drive");
-    assert!(matches!(plan.force_elements[..], [ForceElement::Formula(_), ForceElement::ViscousFormula(_)]));
-    assert_eq!(plan.laws.len(), 1, "the square of a speed");
+    assert_eq!([plan.loads.len(), plan.laws.len()], [2, 1], "the square of a speed is a law");
 }
 
 /// Loads over two and over three revolutions repeat together after six; a formula counts if it knows the angle.
@@ -175,13 +181,14 @@ fn loads_repeat_together() {
     let mut b = started();
     let table = b.table(Table::new(&[0.0, 1.0], &[0.0, 1.0]).expect("a table"));
     let none = PlanError::Missing { what: "turn", value: 0, made: 1000 };
-    assert_eq!(b.load(Load::TorqueAngle { table, turns: 0 }), Err(none));
-    b.load(Load::TorqueAngle { table, turns: 2 }).expect("two revolutions");
-    let carrier = Carrier::Link { link: 0 };
+    let over_angle = |turns| Load { at: At::Crank, what: What::OverAngle { table, turns } };
+    assert_eq!(b.load(over_angle(0)), Err(none));
+    b.load(over_angle(2)).expect("two revolutions");
     for (variable, turns) in [(Variable::Phi, 3), (Variable::Psi, 5)] {
         let formula =
             b.formula(Formula::new(vec![Op::Variable(variable)]).expect("a variable")).expect("sound");
-        b.formula_load(FormulaLoad { formula, carrier, turns }).expect("on the crank");
+        let what = What::Formula { formula, turns };
+        b.load(Load { at: At::Link { link: 0 }, what }).expect("on the crank");
     }
     let plan = b.into_plan(DRIVE).expect("a sound drive");
     assert_eq!(plan.turns, 6);
@@ -194,23 +201,28 @@ fn loads_repeat_together() {
 fn loads_with_a_potential_are_told() {
     let mut b = started();
     let table = b.table(Table::new(&[0.0, 1.0], &[0.0, 1.0]).expect("a table"));
-    let loads = [
-        Load::Gravity { x: 0, y: 1 },
-        Load::Force { point: 2, x: 0, y: 1 },
-        Load::Spring { from: 0, to: 2, stiffness: 0, free_length: 1, preload: 2 },
-        Load::DryPoint { point: 2, force: 0 },
-        Load::TorqueAngle { table, turns: 1 },
+    let size = 0;
+    let between = At::Between { from: 0, to: 2 };
+    let between_links = At::BetweenLinks { link: 0, other: None, cos: 1, sin: 2 };
+    let spring = What::Spring { stiffness: 0, free_length: 1, preload: 2 };
+    let with = [
+        (At::Bodies { cos: 0, sin: 1 }, What::Constant { size }),
+        (At::Toward { point: 2, cos: 0, sin: 1 }, What::Constant { size }),
+        (between, spring),
+        (between, What::Curve { table }),
+        (between, What::Gas { force: 0, length: 1, column: 2, exponent: 3 }),
+        (between_links, spring),
     ];
-    loads.into_iter().try_for_each(|load| b.load(load)).expect("sound loads");
-    let elements = [
-        ForceElement::SpringTable { from: 0, to: 2, table },
-        ForceElement::GasSpring { from: 0, to: 2, force: 0, length: 1, column: 2, exponent: 3 },
-        ForceElement::TorsionSpring { link: 0, other: None, stiffness: 0, cos: 1, sin: 2 },
-        ForceElement::Follow { point: 2, link: 0, along: 0, across: 1 },
-        ForceElement::Damper { from: 0, to: 2, damping: 0 },
+    let without = [
+        (At::Point { point: 2 }, What::Dry { size }),
+        (At::Crank, What::OverAngle { table, turns: 1 }),
+        (At::Link { link: 0 }, What::Constant { size }),
+        (At::Along { point: 2, link: 0, cos: 0, sin: 1 }, What::Constant { size }),
+        (between, What::Viscous { damping: 0 }),
     ];
-    elements.into_iter().try_for_each(|load| b.force_element(load)).expect("sound loads");
+    for (at, what) in with.into_iter().chain(without) {
+        b.load(Load { at, what }).expect("a sound load");
+    }
     let rest = b.into_plan(DRIVE).expect("a sound drive").without_conservative();
-    assert!(matches!(rest.loads[..], [Load::DryPoint { .. }, Load::TorqueAngle { .. }]));
-    assert!(matches!(rest.force_elements[..], [ForceElement::Follow { .. }, ForceElement::Damper { .. }]));
+    assert_eq!(rest.loads.iter().map(|load| load.at).collect::<Vec<_>>(), without.map(|(at, _)| at));
 }

@@ -8,7 +8,7 @@ mod common;
 use common::{Builder, Random, SampleMachine};
 use linkwright_core::drive::batch::{QUANTITIES, Rows, row_of_steady, steady_rows};
 use linkwright_core::drive::between::Between;
-use linkwright_core::drive::loads::Load;
+use linkwright_core::drive::loads::{At, What};
 use linkwright_core::drive::motor::Motor;
 use linkwright_core::drive::reading::{Curves, ReadCurves};
 use linkwright_core::drive::steady::{Steady, steady};
@@ -45,7 +45,7 @@ fn drive(random: &mut Random, steepness: f64) -> SampleMachine {
         let (stiffness, free_length, preload) =
             (b.number(random.between(0.0, 0.5) * torque / (r * r)), b.number(r), b.number(0.0));
         let anchor = b.fixed(2.0 * r, 3.0 * r);
-        b.load(Load::Spring { from: point, to: anchor, stiffness, free_length, preload });
+        b.load(At::Between { from: point, to: anchor }, What::Spring { stiffness, free_length, preload });
     }
     let start = speed * 9.8 / 9.8;
     let reverse = [0.9, 1.0 / 0.9][usize::from(random.between(0.0, 1.0) < 0.5)];

@@ -144,5 +144,5 @@ fn farthest<R: Real>(moves: impl Iterator<Item = R>) -> Option<R> {
 
 /// Whether a watched quantity is a knot of a table, where the motion bends and does not jump.
 fn is_knot(watch: Watch) -> bool {
-    matches!(watch, Watch::SlideAt(..) | Watch::StretchAt(..))
+    matches!(watch, Watch::Passes(..))
 }

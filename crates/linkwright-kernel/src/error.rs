@@ -13,6 +13,8 @@ pub enum PlanError {
     In { what: &'static str, number: usize, error: Box<PlanError> },
     /// A list of the wrong length.
     Length { what: &'static str, found: usize, expected: usize },
+    /// A load that cannot act where it is said to.
+    Load,
     /// A motion law whose pieces do not make a revolution.
     MotionLaw,
 }
@@ -30,6 +32,7 @@ impl fmt::Display for PlanError {
             PlanError::Length { what, found, expected } => {
                 write!(f, "{what} has {found} entries, {expected} are needed")
             }
+            PlanError::Load => write!(f, "a load of this kind cannot act there"),
             PlanError::MotionLaw => {
                 write!(f, "the pieces of a motion law must follow one another over one revolution")
             }

@@ -1,6 +1,6 @@
 //! Bodies and loads: `drive::loads` of the core, with the same names.
 
-use linkwright_core::drive::loads::{Body as CoreBody, Carrier, ForceElement, FormulaLoad, Load as CoreLoad};
+use linkwright_core::drive::loads::{At as CoreAt, Body as CoreBody, What as CoreWhat};
 use linkwright_core::plan::builder::Builder;
 use linkwright_kernel::error::PlanError;
 use pyo3::prelude::*;
@@ -27,148 +27,93 @@ impl Body {
     }
 }
 
-/// A load. Tables and formulas come along.
+/// Where a load acts.
 #[pyclass(frozen, module = "linkwright._core")]
-pub(crate) enum Load {
-    #[pyo3(constructor = (*, slide, force))]
-    DrySlide { slide: usize, force: usize },
-    #[pyo3(constructor = (*, point, force))]
-    DryPoint { point: usize, force: usize },
-    #[pyo3(constructor = (*, link, torque))]
-    DryLink { link: usize, torque: usize },
-    #[pyo3(constructor = (*, torque))]
-    DryCrank { torque: usize },
-    #[pyo3(constructor = (*, slide, damping))]
-    ViscousSlide { slide: usize, damping: usize },
-    #[pyo3(constructor = (*, point, damping))]
-    ViscousPoint { point: usize, damping: usize },
-    #[pyo3(constructor = (*, link, damping))]
-    ViscousLink { link: usize, damping: usize },
-    #[pyo3(constructor = (*, point, x, y))]
-    Force { point: usize, x: usize, y: usize },
-    #[pyo3(constructor = (*, link, torque))]
-    Torque { link: usize, torque: usize },
-    #[pyo3(constructor = (*, x, y))]
-    Gravity { x: usize, y: usize },
-    #[pyo3(constructor = (*, start, end, stiffness, free_length, preload))]
-    Spring { start: usize, end: usize, stiffness: usize, free_length: usize, preload: usize },
-    #[pyo3(constructor = (*, slide, forward, back))]
-    ForcePosition { slide: usize, forward: Knots, back: Knots },
-    #[pyo3(constructor = (*, table, turns))]
-    TorqueAngle { table: Knots, turns: u32 },
-    #[pyo3(constructor = (*, slide, table, turns))]
-    ForceAngle { slide: usize, table: Knots, turns: u32 },
-    #[pyo3(constructor = (*, table))]
-    TorqueSpeed { table: Knots },
-    #[pyo3(constructor = (*, point, link, along, across))]
-    Follow { point: usize, link: usize, along: usize, across: usize },
-    #[pyo3(constructor = (*, start, end, damping))]
-    Damper { start: usize, end: usize, damping: usize },
-    #[pyo3(constructor = (*, start, end, table))]
-    DamperTable { start: usize, end: usize, table: Knots },
-    #[pyo3(constructor = (*, start, end, table))]
-    SpringTable { start: usize, end: usize, table: Knots },
-    #[pyo3(constructor = (*, link, other, stiffness, cos, sin))]
-    TorsionSpring { link: usize, other: Option<usize>, stiffness: usize, cos: usize, sin: usize },
-    #[pyo3(constructor = (*, link, other, damping))]
-    TorsionDamper { link: usize, other: Option<usize>, damping: usize },
-    #[pyo3(constructor = (*, start, end, force, length, column, exponent))]
-    GasSpring { start: usize, end: usize, force: usize, length: usize, column: usize, exponent: usize },
-    #[pyo3(constructor = (*, formula, slide, point, turns))]
-    FormulaOnSlide { formula: Formula, slide: usize, point: usize, turns: u32 },
-    #[pyo3(constructor = (*, formula, point, cos, sin, turns))]
-    FormulaOnPoint { formula: Formula, point: usize, cos: usize, sin: usize, turns: u32 },
-    #[pyo3(constructor = (*, formula, point, link, cos, sin, turns))]
-    FormulaAlong { formula: Formula, point: usize, link: usize, cos: usize, sin: usize, turns: u32 },
-    #[pyo3(constructor = (*, formula, link, turns))]
-    FormulaOnLink { formula: Formula, link: usize, turns: u32 },
+pub(crate) enum At {
+    #[pyo3(constructor = (*, cos, sin))]
+    Bodies { cos: usize, sin: usize },
+    #[pyo3(constructor = ())]
+    Crank {},
+    #[pyo3(constructor = (*, slide, point))]
+    Slide { slide: usize, point: usize },
+    #[pyo3(constructor = (*, point))]
+    Point { point: usize },
+    #[pyo3(constructor = (*, point, cos, sin))]
+    Toward { point: usize, cos: usize, sin: usize },
+    #[pyo3(constructor = (*, point, link, cos, sin))]
+    Along { point: usize, link: usize, cos: usize, sin: usize },
+    #[pyo3(constructor = (*, link))]
+    Link { link: usize },
+    #[pyo3(constructor = (*, start, end))]
+    Between { start: usize, end: usize },
+    #[pyo3(constructor = (*, link, other, cos, sin))]
+    BetweenLinks { link: usize, other: Option<usize>, cos: usize, sin: usize },
 }
 
-impl Load {
-    /// Adds it to a plan, with its tables and its formula.
-    pub(super) fn add_to(&self, to: &mut Builder) -> Result<(), PlanError> {
+impl At {
+    pub(super) fn core(&self) -> CoreAt {
         match *self {
-            Load::DrySlide { slide, force } => to.load(CoreLoad::DrySlide { slide, force }),
-            Load::DryPoint { point, force } => to.load(CoreLoad::DryPoint { point, force }),
-            Load::DryLink { link, torque } => to.load(CoreLoad::DryLink { link, torque }),
-            Load::DryCrank { torque } => to.load(CoreLoad::DryCrank { torque }),
-            Load::ViscousSlide { slide, damping } => to.load(CoreLoad::ViscousSlide { slide, damping }),
-            Load::ViscousPoint { point, damping } => to.load(CoreLoad::ViscousPoint { point, damping }),
-            Load::ViscousLink { link, damping } => to.load(CoreLoad::ViscousLink { link, damping }),
-            Load::Force { point, x, y } => to.load(CoreLoad::Force { point, x, y }),
-            Load::Torque { link, torque } => to.load(CoreLoad::Torque { link, torque }),
-            Load::Gravity { x, y } => to.load(CoreLoad::Gravity { x, y }),
-            Load::Spring { start: from, end, stiffness, free_length, preload } => {
-                to.load(CoreLoad::Spring { from, to: end, stiffness, free_length, preload })
-            }
-            Load::ForcePosition { slide, ref forward, ref back } => {
-                let (forward, back) = (to.table(forward.0.clone()), to.table(back.0.clone()));
-                to.load(CoreLoad::ForcePosition { slide, forward, back })
-            }
-            Load::TorqueAngle { ref table, turns } => {
-                let table = to.table(table.0.clone());
-                to.load(CoreLoad::TorqueAngle { table, turns })
-            }
-            Load::ForceAngle { slide, ref table, turns } => {
-                let table = to.table(table.0.clone());
-                to.load(CoreLoad::ForceAngle { slide, table, turns })
-            }
-            Load::TorqueSpeed { ref table } => {
-                let table = to.table(table.0.clone());
-                to.speed_load(table)
-            }
-            Load::Follow { .. }
-            | Load::Damper { .. }
-            | Load::DamperTable { .. }
-            | Load::SpringTable { .. }
-            | Load::TorsionSpring { .. }
-            | Load::TorsionDamper { .. }
-            | Load::GasSpring { .. } => self.add_between(to),
-            Load::FormulaOnSlide { ref formula, slide, point, turns } => {
-                by_formula(to, formula, turns, Carrier::Slide { slide, point })
-            }
-            Load::FormulaOnPoint { ref formula, point, cos, sin, turns } => {
-                by_formula(to, formula, turns, Carrier::Point { point, cos, sin })
-            }
-            Load::FormulaAlong { ref formula, point, link, cos, sin, turns } => {
-                by_formula(to, formula, turns, Carrier::Along { point, link, cos, sin })
-            }
-            Load::FormulaOnLink { ref formula, link, turns } => {
-                by_formula(to, formula, turns, Carrier::Link { link })
-            }
+            At::Bodies { cos, sin } => CoreAt::Bodies { cos, sin },
+            At::Crank {} => CoreAt::Crank,
+            At::Slide { slide, point } => CoreAt::Slide { slide, point },
+            At::Point { point } => CoreAt::Point { point },
+            At::Toward { point, cos, sin } => CoreAt::Toward { point, cos, sin },
+            At::Along { point, link, cos, sin } => CoreAt::Along { point, link, cos, sin },
+            At::Link { link } => CoreAt::Link { link },
+            At::Between { start: from, end: to } => CoreAt::Between { from, to },
+            At::BetweenLinks { link, other, cos, sin } => CoreAt::BetweenLinks { link, other, cos, sin },
         }
     }
-
-    /// The same for springs by a curve, dampers, and what turns with a link.
-    fn add_between(&self, to: &mut Builder) -> Result<(), PlanError> {
-        let element = match *self {
-            Load::Follow { point, link, along, across } => {
-                ForceElement::Follow { point, link, along, across }
-            }
-            Load::Damper { start: from, end: to, damping } => ForceElement::Damper { from, to, damping },
-            Load::DamperTable { start, end, ref table } => {
-                let table = to.table(table.0.clone());
-                return to.damper(start, end, table);
-            }
-            Load::SpringTable { start: from, end, ref table } => {
-                ForceElement::SpringTable { from, to: end, table: to.table(table.0.clone()) }
-            }
-            Load::TorsionSpring { link, other, stiffness, cos, sin } => {
-                ForceElement::TorsionSpring { link, other, stiffness, cos, sin }
-            }
-            Load::TorsionDamper { link, other, damping } => {
-                ForceElement::TorsionDamper { link, other, damping }
-            }
-            Load::GasSpring { start: from, end: to, force, length, column, exponent } => {
-                ForceElement::GasSpring { from, to, force, length, column, exponent }
-            }
-            _ => unreachable!("sorted by `add_to`"),
-        };
-        to.force_element(element)
-    }
 }
 
-fn by_formula(to: &mut Builder, formula: &Formula, turns: u32, carrier: Carrier) -> Result<(), PlanError> {
-    let formula = to.formula(formula.0.clone())?;
-    to.formula_load(FormulaLoad { formula, carrier, turns })
+/// What a load is. Tables and formulas come along.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) enum What {
+    #[pyo3(constructor = (*, size))]
+    Constant { size: usize },
+    #[pyo3(constructor = (*, size))]
+    Dry { size: usize },
+    #[pyo3(constructor = (*, damping))]
+    Viscous { damping: usize },
+    #[pyo3(constructor = (*, stiffness, free_length, preload))]
+    Spring { stiffness: usize, free_length: usize, preload: usize },
+    #[pyo3(constructor = (*, force, length, column, exponent))]
+    Gas { force: usize, length: usize, column: usize, exponent: usize },
+    #[pyo3(constructor = (*, table))]
+    Curve { table: Knots },
+    #[pyo3(constructor = (*, forward, back))]
+    Resistance { forward: Knots, back: Knots },
+    #[pyo3(constructor = (*, table, turns))]
+    OverAngle { table: Knots, turns: u32 },
+    #[pyo3(constructor = (*, table))]
+    OverSpeed { table: Knots },
+    #[pyo3(constructor = (*, formula, turns))]
+    Formula { formula: Formula, turns: u32 },
+}
+
+impl What {
+    /// Of a plan, which takes the tables and the formula.
+    pub(super) fn core(&self, plan: &mut Builder) -> Result<CoreWhat, PlanError> {
+        let mut put = |table: &Knots| plan.table(table.0.clone());
+        Ok(match *self {
+            What::Constant { size } => CoreWhat::Constant { size },
+            What::Dry { size } => CoreWhat::Dry { size },
+            What::Viscous { damping } => CoreWhat::Viscous { damping },
+            What::Spring { stiffness, free_length, preload } => {
+                CoreWhat::Spring { stiffness, free_length, preload }
+            }
+            What::Gas { force, length, column, exponent } => {
+                CoreWhat::Gas { force, length, column, exponent }
+            }
+            What::Curve { ref table } => CoreWhat::Curve { table: put(table) },
+            What::Resistance { ref forward, ref back } => {
+                CoreWhat::Resistance { forward: put(forward), back: put(back) }
+            }
+            What::OverAngle { ref table, turns } => CoreWhat::OverAngle { table: put(table), turns },
+            What::OverSpeed { ref table } => CoreWhat::OverSpeed { table: put(table) },
+            What::Formula { ref formula, turns } => {
+                CoreWhat::Formula { formula: plan.formula(formula.0.clone())?, turns }
+            }
+        })
+    }
 }

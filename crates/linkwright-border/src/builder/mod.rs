@@ -18,9 +18,10 @@ pub(crate) mod train;
 
 use drive::Drive;
 use elements::{Element, GroundPoint};
+use linkwright_core::drive::loads::Load;
 use linkwright_core::drive::structure::Plan as CorePlan;
 use linkwright_core::plan::builder::Builder;
-use loads::{Body, Load};
+use loads::{At, Body, What};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -40,7 +41,7 @@ impl Plan {
         ground: Vec<PyRef<'_, GroundPoint>>,
         elements: Vec<PyRef<'_, Element>>,
         bodies: Vec<PyRef<'_, Body>>,
-        loads: Vec<PyRef<'_, Load>>,
+        loads: Vec<(PyRef<'_, At>, PyRef<'_, What>)>,
         drive: PyRef<'_, Drive>,
     ) -> PyResult<Self> {
         let mut builder = Builder::new(parameters);
@@ -53,8 +54,9 @@ impl Plan {
         for body in bodies {
             builder.body(body.core()).map_err(plan_error)?;
         }
-        for load in loads {
-            load.add_to(&mut builder).map_err(plan_error)?;
+        for (at, what) in loads {
+            let what = what.core(&mut builder).map_err(plan_error)?;
+            builder.load(Load { at: at.core(), what }).map_err(plan_error)?;
         }
         let drive = drive.core(&mut builder);
         builder.into_plan(drive).map(Plan).map_err(plan_error)

@@ -12,7 +12,7 @@
 use crate::drive::equation::Machine;
 use crate::drive::law::Moment;
 use crate::drive::layout::unbundle;
-use crate::drive::loads::{Carrier, ForceElement, FormulaLoad, Law, Load};
+use crate::drive::loads::{At, FormulaLoad, Load, What};
 use crate::drive::steep::{Along, SteepKind, Steepness};
 use crate::drive::structure::Plan;
 use crate::kernel::dual::Dual;
@@ -29,20 +29,12 @@ use std::f64::consts::TAU;
 /// A quantity whose zeros over the revolution are kinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Watch {
-    /// The slide turns back.
-    SlideTurns(usize),
-    /// The link turns back.
-    LinkTurns(usize),
-    /// The point comes to rest, on whatever path.
-    PointRests(usize),
+    /// What a load acts on turns back; a point comes to rest, on whatever path.
+    Turns(At),
+    /// It passes a knot of a table over its position.
+    Passes(At, Knot),
     /// The point turns back in the direction of x, or of y.
     PointTurns(usize, Axis),
-    /// The slide passes a knot of a table.
-    SlideAt(usize, Knot),
-    /// Two points stop parting or nearing each other.
-    StretchTurns(usize, usize),
-    /// The distance of two points passes a knot of a table.
-    StretchAt(usize, usize, Knot),
     /// A spring of this free length passes, or nearly passes, through its own anchor.
     Anchor(usize, usize, Slot),
     /// A switch of a formula.
@@ -141,34 +133,16 @@ impl Plan {
         let mut watches = Vec::new();
         let switches = self.still_switches().into_iter();
         watches.extend(switches.map(|(load, at)| Watch::Switch(load, at)));
-        for law in &self.laws {
-            if let Law::Damper { from, to, .. } = *law {
-                watches.push(Watch::StretchTurns(from, to));
+        for Load { at, what } in self.laws.iter().chain(&self.loads) {
+            if what.bends_at_rest() && *at != At::Crank {
+                watches.push(Watch::Turns(*at));
             }
-        }
-        for load in &self.force_elements {
-            if let ForceElement::SpringTable { from, to, table } = *load {
-                let knots = self.tables[table].moving_knots();
-                watches.extend(knots.map(|knot| Watch::StretchAt(from, to, knot)));
+            if what.knows_position() {
+                let knots = what.numbers().1.into_iter().flat_map(|table| self.tables[table].moving_knots());
+                watches.extend(knots.map(|knot| Watch::Passes(*at, knot)));
             }
-        }
-        for load in &self.loads {
-            match *load {
-                Load::Spring { from, to, free_length, .. } => {
-                    watches.push(Watch::Anchor(from, to, free_length));
-                }
-                Load::DrySlide { slide, .. } => watches.push(Watch::SlideTurns(slide)),
-                Load::DryLink { link, .. } => watches.push(Watch::LinkTurns(link)),
-                Load::DryPoint { point, .. } => {
-                    watches.push(Watch::PointRests(point));
-                }
-                Load::ForcePosition { slide, forward, back } => {
-                    watches.push(Watch::SlideTurns(slide));
-                    let knots =
-                        [forward, back].into_iter().flat_map(|table| self.tables[table].moving_knots());
-                    watches.extend(knots.map(|knot| Watch::SlideAt(slide, knot)));
-                }
-                _ => {}
+            if let (&At::Between { from, to }, &What::Spring { free_length, .. }) = (at, what) {
+                watches.push(Watch::Anchor(from, to, free_length));
             }
         }
         watches
@@ -176,7 +150,7 @@ impl Plan {
 
     /// Formulas in all loads.
     fn all_formulas(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
-        self.formula_loads().chain(self.formula_laws())
+        self.loads.iter().chain(&self.laws).filter_map(Load::formula)
     }
 
     /// Formulas in all loads with the switches whose zeros are crank angles that no speed moves.
@@ -199,7 +173,7 @@ impl Plan {
         let mut found = Vec::new();
         for load in self.all_formulas() {
             let formula = &self.formulas[load.formula];
-            let speeds = load.carrier.speeds().into_iter().filter(|(speed, _)| formula.reads(*speed));
+            let speeds = load.at.speeds().into_iter().filter(|(speed, _)| formula.reads(*speed));
             found.extend(speeds.map(|(_, watch)| (load, watch)));
         }
         found
@@ -212,10 +186,8 @@ impl Plan {
 
     /// Tables over the crank angle, with the revolutions after which each repeats.
     pub fn angle_tables(&self) -> impl Iterator<Item = (&Table, u32)> {
-        self.loads.iter().filter_map(|load| match *load {
-            Load::TorqueAngle { table, turns } | Load::ForceAngle { table, turns, .. } => {
-                Some((&self.tables[table], turns))
-            }
+        self.loads.iter().filter_map(|load| match load.what {
+            What::OverAngle { table, turns } => Some((&self.tables[table], turns)),
             _ => None,
         })
     }
@@ -239,35 +211,20 @@ impl Plan {
     }
 }
 
-/// ½ d(L²)/dφ of the distance L of two points, and its derivative.
-#[inline(always)]
-fn stretch_turns<R: Real>(from: usize, to: usize, m: &Motion<R>) -> (R, R) {
-    let (a, b) = (&m.points[from], &m.points[to]);
-    let (u, u1, u2) = (b.p - a.p, b.d1 - a.d1, b.d2 - a.d2);
-    (u.dot(u1), u1.dot(u1) + u.dot(u2))
-}
-
 impl<R: Real> Machine<'_, R> {
     /// The watched quantity and its derivative by φ.
     #[inline(always)]
     pub fn watched(&self, watch: Watch, phi: R, m: &Motion<R>) -> (R, R) {
         match watch {
-            Watch::SlideTurns(slide) => (m.slides[slide].d1, m.slides[slide].d2),
-            Watch::LinkTurns(link) => (m.links[link].d1, m.links[link].d2),
-            Watch::PointRests(point) => {
-                let place = &m.points[point];
-                // ½ d|p′|²/dφ; where the point rests p′·p‴ is none of its slope.
-                (place.d1.dot(place.d2), place.d2.dot(place.d2))
+            Watch::Turns(at) => at.turning(self.q, m),
+            Watch::Passes(at, knot) => {
+                let way = at.way(true, self.q, m);
+                (way.position - knot.number(self.q), way.d1)
             }
+            Watch::Anchor(from, to, _) => At::Between { from, to }.turning(self.q, m),
             Watch::PointTurns(point, axis) => {
                 let (d1, d2) = (m.points[point].d1, m.points[point].d2);
                 if axis == Axis::X { (d1.x, d2.x) } else { (d1.y, d2.y) }
-            }
-            Watch::SlideAt(slide, knot) => (m.slides[slide].s - knot.number(self.q), m.slides[slide].d1),
-            Watch::StretchTurns(from, to) | Watch::Anchor(from, to, _) => stretch_turns(from, to, m),
-            Watch::StretchAt(from, to, knot) => {
-                let (length, length1) = stretch(m, from, to);
-                (length - knot.number(self.q), length1)
             }
             Watch::Switch(load, at) => self.plan.switch_over_angle((load, at), self.q, phi, m),
         }
@@ -567,7 +524,7 @@ impl<R: Real> Machine<'_, R> {
             // Where the spring stays long its extremes are smooth.
             Watch::Anchor(from, to, free_length) => self.q[free_length] * SHORT - stretch(m, from, to).0,
             // Elsewhere the path speed has an extreme only.
-            Watch::PointRests(point) => {
+            Watch::Turns(At::Point { point }) => {
                 let place = &m.points[point];
                 place.d2.dot(place.d2) * (AT_REST * AT_REST) - place.d1.dot(place.d1)
             }
@@ -614,7 +571,7 @@ impl Dip {
     }
 }
 
-impl Carrier {
+impl At {
     /// Speeds that a formula may know here, each with what is zero where it is.
     fn speeds(self) -> Vec<(Variable, Watch)> {
         let of_point = |point| {
@@ -624,16 +581,19 @@ impl Carrier {
             ]
         };
         let mut speeds = match self {
-            Carrier::Slide { slide, point } => {
-                [(Variable::V, Watch::SlideTurns(slide))].into_iter().chain(of_point(point)).collect()
+            At::Slide { point, .. } => {
+                [(Variable::V, Watch::Turns(self))].into_iter().chain(of_point(point)).collect()
             }
-            Carrier::Point { point, .. } | Carrier::Along { point, .. } => {
-                [(Variable::V, Watch::PointRests(point))].into_iter().chain(of_point(point)).collect()
+            At::Point { point } | At::Toward { point, .. } | At::Along { point, .. } => {
+                [(Variable::V, Watch::Turns(At::Point { point }))]
+                    .into_iter()
+                    .chain(of_point(point))
+                    .collect()
             }
-            Carrier::Link { .. } => Vec::new(),
+            _ => Vec::new(),
         };
-        if let Carrier::Along { link, .. } | Carrier::Link { link } = self {
-            speeds.push((Variable::PsiDot, Watch::LinkTurns(link)));
+        if let At::Along { link, .. } | At::Link { link } = self {
+            speeds.push((Variable::PsiDot, Watch::Turns(At::Link { link })));
         }
         speeds
     }

@@ -1,13 +1,10 @@
 //! Loads that follow a law: a formula on a point, a slide or a link, or a damper by a table.
 //!
-//! A formula force F has the torque −F g on the crank, where g is the transfer function of the way that it
-//! acts along: t·p′ for a force of direction t on a point, s′ on a slide, ψ′ for a torque on a link.
-//!
 //! What does not depend on the size of the crank's speed is part of the reduction, and so is what is in
-//! proportion to it. Everything else is a [`Law`]: at each stage of a solver the little that it needs is kept
+//! proportion to it. Everything else is a law: at each stage of a solver the little that it needs is kept
 //! ([`LawGeometry`]), and it is evaluated with the speed of that moment.
 
-use crate::drive::loads::{Carrier, FormulaLoad, Law};
+use crate::drive::loads::{At, FormulaLoad, Load, What};
 use crate::drive::structure::Plan;
 use crate::kernel::branch::OnBranch;
 use crate::kernel::dual::Dual;
@@ -17,7 +14,7 @@ use crate::kernel::plane::Vec2;
 use crate::kernel::real::{Lift, Real};
 use crate::kernel::table::Knot;
 use crate::linkage::mechanism::Element;
-use crate::linkage::motion::{Motion, stretch};
+use crate::linkage::motion::Motion;
 use std::f64::consts::TAU;
 
 /// What a law needs to know of the machine at one crank angle.
@@ -99,6 +96,12 @@ impl<R: Real> LawGeometry<R> {
         }
     }
 
+    /// The way alone.
+    #[inline(always)]
+    fn of_way(at: &At, q: &[R], m: &Motion<R>) -> Self {
+        LawGeometry { g: at.way(false, q, m).d1, ..LawGeometry::nothing() }
+    }
+
     /// Values of the variables at speed ω and time t.
     #[inline(always)]
     fn inputs<N: Lift<R>>(&self, omega: N, time: N) -> Inputs<N> {
@@ -132,26 +135,23 @@ impl FormulaLoad {
     /// The machine at one angle, as the formula needs it.
     #[inline(always)]
     fn geometry<R: Real>(&self, formula: &Formula, q: &[R], phi: R, m: &Motion<R>) -> LawGeometry<R> {
-        let mut geometry = LawGeometry::nothing();
+        let mut geometry = LawGeometry::of_way(&self.at, q, m);
         if formula.reads(Variable::Phi) {
             geometry.phi = within_cycle(phi, self.turns);
         }
-        match self.carrier {
-            Carrier::Slide { slide, point } => {
+        match self.at {
+            At::Slide { slide, point } => {
                 let slide = &m.slides[slide];
-                (geometry.s, geometry.path, geometry.g) = (slide.s, slide.d1, slide.d1);
+                (geometry.s, geometry.path) = (slide.s, slide.d1);
                 (geometry.p, geometry.d1) = (m.points[point].p, m.points[point].d1);
             }
-            Carrier::Point { point, cos, sin } => geometry.on_point(point, Vec2::new(q[cos], q[sin]), m),
-            Carrier::Along { point, link, cos, sin } => {
-                let e = m.links[link].e;
-                geometry.on_point(point, (e * q[cos]).plus(e.left(), q[sin]), m);
+            At::Point { point } | At::Toward { point, .. } => geometry.on_point(point, m),
+            At::Along { point, link, .. } => {
+                geometry.on_point(point, m);
                 geometry.on_link(link, formula, m);
             }
-            Carrier::Link { link } => {
-                geometry.on_link(link, formula, m);
-                geometry.g = geometry.psi_d1;
-            }
+            At::Link { link } => geometry.on_link(link, formula, m),
+            _ => {}
         }
         geometry
     }
@@ -167,15 +167,16 @@ impl FormulaLoad {
             },
             ..LawGeometry::<Dual<R>>::nothing().inputs(Dual::constant(one), Dual::constant(one))
         };
-        match self.carrier {
-            Carrier::Slide { slide, point } => {
+        match self.at {
+            At::Slide { slide, point } => {
                 let slide = &m.slides[slide];
                 let (s, v) = (Dual { value: slide.s, d: slide.d1 }, Dual { value: slide.d1, d: slide.d2 });
                 Inputs { s, v, ..with_point(dual, point, m) }
             }
-            Carrier::Point { point, .. } => with_point(dual, point, m),
-            Carrier::Along { point, link, .. } => with_link(with_point(dual, point, m), link, formula, m),
-            Carrier::Link { link } => with_link(dual, link, formula, m),
+            At::Point { point } | At::Toward { point, .. } => with_point(dual, point, m),
+            At::Along { point, link, .. } => with_link(with_point(dual, point, m), link, formula, m),
+            At::Link { link } => with_link(dual, link, formula, m),
+            _ => dual,
         }
     }
 
@@ -192,11 +193,10 @@ impl FormulaLoad {
 
 impl<R: Real> LawGeometry<R> {
     #[inline(always)]
-    fn on_point(&mut self, point: usize, direction: Vec2<R>, m: &Motion<R>) {
+    fn on_point(&mut self, point: usize, m: &Motion<R>) {
         let place = &m.points[point];
         (self.p, self.d1) = (place.p, place.d1);
         self.path = place.d1.dot(place.d1).sqrt();
-        self.g = direction.dot(place.d1);
     }
 
     #[inline(always)]
@@ -272,11 +272,9 @@ impl Plan {
         for law in &self.laws {
             to.push(out_of_line!(
                 R,
-                match *law {
-                    Law::Formula(ref load) => load.geometry(&self.formulas[load.formula], q, phi, m),
-                    Law::Damper { from, to, .. } => {
-                        LawGeometry { g: stretch(m, from, to).1, ..LawGeometry::nothing() }
-                    }
+                match law.formula() {
+                    Some(load) => load.geometry(&self.formulas[load.formula], q, phi, m),
+                    None => LawGeometry::of_way(&law.at, q, m),
                 }
             ));
         }
@@ -293,12 +291,13 @@ impl Plan {
         let mut sum = N::splat(0.0);
         for (law, geometry) in self.laws.iter().zip(geometry) {
             let g: N = Lift::<G>::lift(geometry.g);
-            sum = match *law {
-                Law::Formula(load) => {
+            sum = match law.what {
+                What::Formula { formula, .. } => {
                     let inputs = geometry.inputs(omega, time);
-                    sum - self.formulas[load.formula].value::<R, N>(q, &inputs) * g
+                    sum - self.formulas[formula].value::<R, N>(q, &inputs) * g
                 }
-                Law::Damper { table, .. } => self.tables[table].held_at(g * omega, q) * g + sum,
+                What::OverSpeed { table } => self.tables[table].held_at(g * omega, q) * g + sum,
+                _ => sum,
             };
         }
         sum
@@ -306,10 +305,7 @@ impl Plan {
 
     /// Laws that are formulas.
     pub(super) fn formula_laws(&self) -> impl Iterator<Item = FormulaLoad> + '_ {
-        self.laws.iter().filter_map(|law| match *law {
-            Law::Formula(load) => Some(load),
-            Law::Damper { .. } => None,
-        })
+        self.laws.iter().filter_map(Load::formula)
     }
 
     /// Whether some law depends on time, so that no turn repeats another.
@@ -342,16 +338,17 @@ impl Plan {
     pub fn speed_kinks(&self) -> Vec<SpeedKink> {
         let mut found = Vec::new();
         for (law, each) in self.laws.iter().enumerate() {
-            match *each {
-                Law::Formula(load) => {
-                    let switches = self.formulas[load.formula].switches.iter();
+            match each.what {
+                What::Formula { formula, .. } => {
+                    let switches = self.formulas[formula].switches.iter();
                     let moving = switches.filter(|switch| !switch.is_still());
                     found.extend(moving.map(|s| SpeedKink { law, at: KinkPlace::Switch(s.at) }));
                 }
-                Law::Damper { table, .. } => {
+                What::OverSpeed { table } => {
                     let knots = self.tables[table].moving_knots().filter(|knot| knot.x != 0.0);
                     found.extend(knots.map(|knot| SpeedKink { law, at: KinkPlace::Knot(knot) }));
                 }
+                _ => {}
             }
         }
         found
@@ -367,12 +364,12 @@ impl Plan {
         [omega, time]: [R; 2],
     ) -> R {
         let geometry = &geometry[kink.law];
-        match (kink.at, self.laws[kink.law]) {
-            (KinkPlace::Switch(at), Law::Formula(load)) => {
-                self.formulas[load.formula].switch(at, q, &geometry.inputs(omega, time))
+        match (kink.at, self.laws[kink.law].what) {
+            (KinkPlace::Switch(at), What::Formula { formula, .. }) => {
+                self.formulas[formula].switch(at, q, &geometry.inputs(omega, time))
             }
             (KinkPlace::Knot(knot), _) => geometry.g * omega - knot.number(q),
-            (KinkPlace::Switch(_), Law::Damper { .. }) => R::splat(f64::NAN),
+            (KinkPlace::Switch(_), _) => R::splat(f64::NAN),
         }
     }
 

@@ -1,8 +1,5 @@
-//! Bodies and loads of a machine: what hangs on its points, links and slides.
-//!
-//! Loads are of three kinds, since each is worked out at its own place: those that most machines have, with the bodies
-//! ([`Load`]); force elements, in a loop of their own, so that other machines do not pay for them ([`ForceElement`]);
-//! and laws, which are evaluated with the speed of the moment ([`Law`]).
+//! Bodies and loads of a machine: what hangs on its points, links and slides. A load is where it acts ([`At`]) times what
+//! it is ([`What`]).
 
 use crate::kernel::slot::Slot;
 
@@ -13,151 +10,133 @@ pub enum Body {
     Link { link: usize, origin: usize, along: Slot, across: Slot, mass: Slot, inertia: Slot },
 }
 
-/// A load. `Dry*` have a constant size and oppose the motion; `Viscous*` are proportional to speed.
-#[derive(Clone, Copy, Debug)]
-pub enum Load {
-    DrySlide {
-        slide: usize,
-        force: Slot,
-    },
-    DryPoint {
-        point: usize,
-        force: Slot,
-    },
-    DryLink {
-        link: usize,
-        torque: Slot,
-    },
-    DryCrank {
-        torque: Slot,
-    },
-    ViscousSlide {
-        slide: usize,
-        damping: Slot,
-    },
-    ViscousPoint {
-        point: usize,
-        damping: Slot,
-    },
-    ViscousLink {
-        link: usize,
-        damping: Slot,
-    },
-    /// A force fixed in direction and size.
-    Force {
-        point: usize,
-        x: Slot,
-        y: Slot,
-    },
-    /// A torque on a link, counter-clockwise positive.
-    Torque {
-        link: usize,
-        torque: Slot,
-    },
-    /// Weight of every body; `x`, `y` is the acceleration of free fall.
-    Gravity {
-        x: Slot,
-        y: Slot,
-    },
-    Spring {
-        from: usize,
-        to: usize,
-        stiffness: Slot,
-        free_length: Slot,
-        /// Pull at the free length.
-        preload: Slot,
-    },
-    /// Force opposing the motion of a slide by tables over its position, one for each direction.
-    ForcePosition {
-        slide: usize,
-        forward: usize,
-        back: usize,
-    },
-    /// Torque on the crankshaft opposing positive rotation by a table over φ that repeats after some turns.
-    TorqueAngle {
-        table: usize,
-        turns: u32,
-    },
-    /// Force along a guide by a table over φ that repeats after some turns.
-    ForceAngle {
-        slide: usize,
-        table: usize,
-        turns: u32,
-    },
-}
-
-impl Load {
-    /// Whether it has a potential: constant force, gravity, springs.
-    pub fn is_conservative(&self) -> bool {
-        matches!(self, Load::Force { .. } | Load::Gravity { .. } | Load::Spring { .. })
-    }
-}
-
-/// A spring by a curve, a gas spring, a torsional spring, a damper, a force that turns with a link, or a formula that
-/// belongs to the reduction.
-#[derive(Clone, Copy, Debug)]
-pub enum ForceElement {
-    /// A force of fixed size that turns with a link: `along` it, and `across` to its left.
-    Follow { point: usize, link: usize, along: Slot, across: Slot },
-    /// Pull by a table over the length.
-    SpringTable { from: usize, to: usize, table: usize },
-    /// Resistance in proportion to the speed at which two points part.
-    Damper { from: usize, to: usize, damping: Slot },
-    /// Push `force`·(column/(column − way))ⁿ after being pressed in by the way from `length`.
-    GasSpring { from: usize, to: usize, force: Slot, length: Slot, column: Slot, exponent: Slot },
-    /// Torque against the turning of a link from where it stands at the free angle (`cos`, `sin`) to
-    /// another, or to the frame.
-    TorsionSpring { link: usize, other: Option<usize>, stiffness: Slot, cos: Slot, sin: Slot },
-    /// Torque in proportion to the speed of a link against another, or against the frame.
-    TorsionDamper { link: usize, other: Option<usize>, damping: Slot },
-    /// A formula that does not depend on the size of the speed.
-    Formula(FormulaLoad),
-    /// A formula in proportion to the speed.
-    ViscousFormula(FormulaLoad),
-}
-
-impl ForceElement {
-    /// Whether it has a potential: springs.
-    pub fn is_conservative(&self) -> bool {
-        matches!(
-            self,
-            ForceElement::SpringTable { .. }
-                | ForceElement::TorsionSpring { .. }
-                | ForceElement::GasSpring { .. }
-        )
-    }
-}
-
-/// What a formula acts on.
+/// Where a load acts. Each but `Bodies` has a transfer function, positive in the direction of a positive force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Carrier {
+pub enum At {
+    /// All bodies, in proportion to their mass, in the direction (`cos`, `sin`).
+    Bodies { cos: Slot, sin: Slot },
+    /// The crankshaft, counter-clockwise.
+    Crank,
     /// A slide, along its guide; `point` is the point that slides.
     Slide { slide: usize, point: usize },
+    /// A point, along its path.
+    Point { point: usize },
     /// A point, in the direction (`cos`, `sin`).
-    Point { point: usize, cos: Slot, sin: Slot },
+    Toward { point: usize, cos: Slot, sin: Slot },
     /// A point, in a direction that turns with a link: (`cos`, `sin`) in the frame of the link.
     Along { point: usize, link: usize, cos: Slot, sin: Slot },
     /// A link, counter-clockwise.
     Link { link: usize },
+    /// Two points, away from each other.
+    Between { from: usize, to: usize },
+    /// A link against another, or against the frame, counter-clockwise; at the free angle (`cos`, `sin`) to it its position
+    /// is zero.
+    BetweenLinks { link: usize, other: Option<usize>, cos: Slot, sin: Slot },
 }
 
-/// A formula and what it acts on.
+/// What a load is: a force, or a torque where what it acts on turns.
+#[derive(Clone, Copy, Debug)]
+pub enum What {
+    /// Of one size; on all bodies an acceleration.
+    Constant { size: Slot },
+    /// Of one size, against the motion.
+    Dry { size: Slot },
+    /// In proportion to the speed, against it.
+    Viscous { damping: Slot },
+    /// Against the position, in proportion to it; `preload` at the free length.
+    Spring { stiffness: Slot, free_length: Slot, preload: Slot },
+    /// `force`·(column/(column − way))ⁿ after being pressed in by the way from `length`.
+    Gas { force: Slot, length: Slot, column: Slot, exponent: Slot },
+    /// Against the position by a table over it.
+    Curve { table: usize },
+    /// Against the motion by tables over the position, one for each direction.
+    Resistance { forward: usize, back: usize },
+    /// By a table over the crank angle that repeats after some turns.
+    OverAngle { table: usize, turns: u32 },
+    /// Against the motion by a table over the speed.
+    OverSpeed { table: usize },
+    /// By a formula. The crank angle that it knows starts again from 0 after some turns.
+    Formula { formula: usize, turns: u32 },
+}
+
+/// A load.
+#[derive(Clone, Copy, Debug)]
+pub struct Load {
+    pub at: At,
+    pub what: What,
+}
+
+/// A formula and where it acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaLoad {
     pub formula: usize,
-    pub carrier: Carrier,
-    /// Turns after which the crank angle that the formula knows starts again from 0.
+    pub at: At,
     pub turns: u32,
 }
 
-/// A load that depends on the speed of the crank in its own way, or on time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    Formula(FormulaLoad),
-    /// Resistance between two points by a table over the speed at which they part.
-    Damper {
-        from: usize,
-        to: usize,
-        table: usize,
-    },
+impl What {
+    /// Whether it depends on the position of what it acts on.
+    pub fn knows_position(&self) -> bool {
+        matches!(self, What::Spring { .. } | What::Gas { .. } | What::Curve { .. } | What::Resistance { .. })
+    }
+
+    /// Whether it has a kink where what it acts on turns back.
+    pub fn bends_at_rest(&self) -> bool {
+        matches!(self, What::Dry { .. } | What::Resistance { .. } | What::OverSpeed { .. })
+    }
+
+    /// Whether it depends on the speed in its own way, so that it is evaluated with the speed of the moment; a formula does by its
+    /// degree.
+    pub fn is_law(&self) -> bool {
+        matches!(self, What::OverSpeed { .. })
+    }
+
+    /// Parameters and tables that it has.
+    pub fn numbers(&self) -> (Vec<Slot>, Vec<usize>) {
+        match *self {
+            What::Constant { size } | What::Dry { size } | What::Viscous { damping: size } => {
+                (vec![size], vec![])
+            }
+            What::Spring { stiffness, free_length, preload } => {
+                (vec![stiffness, free_length, preload], vec![])
+            }
+            What::Gas { force, length, column, exponent } => (vec![force, length, column, exponent], vec![]),
+            What::Curve { table } | What::OverAngle { table, .. } | What::OverSpeed { table } => {
+                (vec![], vec![table])
+            }
+            What::Resistance { forward, back } => (vec![], vec![forward, back]),
+            What::Formula { .. } => (vec![], vec![]),
+        }
+    }
+}
+
+impl Load {
+    /// Whether what it is can act where it is.
+    pub fn fits(&self) -> bool {
+        match self.at {
+            At::Bodies { .. } => matches!(self.what, What::Constant { .. }),
+            At::Crank | At::Point { .. } | At::Toward { .. } | At::Along { .. } | At::Link { .. } => {
+                !self.what.knows_position()
+            }
+            At::Slide { .. } => true,
+            At::Between { .. } | At::BetweenLinks { .. } => !matches!(self.what, What::Formula { .. }),
+        }
+    }
+
+    /// Whether it has a potential: constant forces, gravity, springs.
+    pub fn is_conservative(&self) -> bool {
+        match self.what {
+            What::Constant { .. } => matches!(self.at, At::Bodies { .. } | At::Toward { .. }),
+            What::Spring { .. } | What::Gas { .. } | What::Curve { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// The same as a load by a formula, if it is one.
+    pub fn formula(&self) -> Option<FormulaLoad> {
+        match self.what {
+            What::Formula { formula, turns } => Some(FormulaLoad { formula, at: self.at, turns }),
+            _ => None,
+        }
+    }
 }

@@ -6,8 +6,8 @@
 //! | [`motor`] | motor, gearbox: torque on the crank over speed |
 //! | [`motor_extremes`] | extremes of its torque and power over the speeds of a revolution |
 //! | [`structure`] | what a machine consists of |
+//! | [`way`] | how what a load acts on moves |
 //! | [`reduce`] | J_red(φ) and M_red(φ) of bodies and loads |
-//! | [`force_elements`] | loads of the reduction in a loop of their own: springs by a curve, gas springs, dampers, … |
 //! | [`law`] | loads by formulas and tables that depend on speed or time |
 //! | [`kinks`] | where the reduced machine is not smooth |
 //! | `steep` | where along a motion a formula is steep |
@@ -40,7 +40,6 @@ mod differences;
 pub mod equation;
 pub mod events;
 pub mod extremes;
-pub mod force_elements;
 pub mod kinks;
 pub mod law;
 pub mod layout;
@@ -65,3 +64,4 @@ mod steep;
 pub mod step;
 pub mod structure;
 pub mod transient;
+pub mod way;

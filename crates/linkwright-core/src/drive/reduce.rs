@@ -8,14 +8,16 @@
 //! Source: e.g. Artobolevsky, *Theory of Mechanisms and Machines*, ch. 15 (reduced mass and force);
 //! paper 1, equations (5) and (10), for the slider-crank with rod.
 
-use crate::drive::loads::{Body, Load};
+use crate::drive::loads::{At, Body, FormulaLoad, Load, What};
 use crate::drive::structure::Plan;
+use crate::drive::way::Way;
 use crate::kernel::call::poll;
+use crate::kernel::formula::Degree;
 use crate::kernel::lanes::{Job, in_lanes};
 use crate::kernel::out_of_line;
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
-use crate::linkage::motion::{Motion, on_link, stretch};
+use crate::linkage::motion::{Motion, on_link};
 use std::f64::consts::TAU;
 
 /// The machine reduced to the crank at one angle. The load torque at speed ω is
@@ -94,8 +96,8 @@ impl Plan {
         let mut r = Reduction { J: q[self.drive.inertia], J_d1: zero, load: zero, dry: zero, viscous: zero };
         let mut gravity = Vec2::zero();
         for load in &self.loads {
-            if let Load::Gravity { x, y } = *load {
-                gravity = gravity + Vec2::new(q[x], q[y]);
+            if let (At::Bodies { cos, sin }, What::Constant { size }) = (load.at, load.what) {
+                gravity = gravity + Vec2::new(q[cos], q[sin]) * q[size];
             }
         }
         for body in &self.bodies {
@@ -103,10 +105,6 @@ impl Plan {
         }
         for load in &self.loads {
             self.add_load(load, q, angle, sense, m, &mut r);
-        }
-        if !self.force_elements.is_empty() {
-            let (load, viscous) = out_of_line!(R, self.force_element_torques(q, angle.phi, sense, m));
-            (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
         }
         for &gap in &m.gaps {
             // A dyad without mass leaves no trace in J: where it does not close there is no motion either.
@@ -125,56 +123,57 @@ impl Plan {
         m: &Motion<R>,
         r: &mut Reduction<R>,
     ) {
-        match *load {
-            Load::Gravity { .. } => {}
-            Load::DrySlide { slide, force } => r.dry = m.slides[slide].d1.abs().mul_add(q[force], r.dry),
-            Load::DryPoint { point, force } => {
-                let d1 = m.points[point].d1;
-                r.dry = d1.dot(d1).sqrt().mul_add(q[force], r.dry);
+        let way = load.at.way(load.what.knows_position(), q, m);
+        match load.what {
+            What::Constant { size } => r.load = r.load - way.d1 * q[size],
+            What::Dry { size } => r.dry = way.d1.abs().mul_add(q[size], r.dry),
+            What::Viscous { damping } => r.viscous = way.squared.mul_add(q[damping], r.viscous),
+            What::Spring { stiffness, free_length, preload } => {
+                let pull = (way.position - q[free_length]).mul_add(q[stiffness], q[preload]);
+                r.load = pull.mul_add(way.d1, r.load);
             }
-            Load::DryLink { link, torque } => r.dry = m.links[link].d1.abs().mul_add(q[torque], r.dry),
-            Load::DryCrank { torque } => r.dry = r.dry + q[torque],
-            Load::ViscousSlide { slide, damping } => {
-                r.viscous = m.slides[slide].d1.squared().mul_add(q[damping], r.viscous);
+            What::Resistance { forward, back } => {
+                let [ahead, behind] =
+                    [forward, back].map(|table| self.tables[table].held_at(way.position, q));
+                let force = (way.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
+                r.dry = way.d1.abs().mul_add(force, r.dry);
             }
-            Load::ViscousPoint { point, damping } => {
-                let d1 = m.points[point].d1;
-                r.viscous = d1.dot(d1).mul_add(q[damping], r.viscous);
+            What::OverAngle { table, turns } => {
+                let force = self.tables[table].periodic_at(angle.phi, TAU * f64::from(turns), q);
+                r.load = r.load - force * way.d1;
             }
-            Load::ViscousLink { link, damping } => {
-                r.viscous = m.links[link].d1.squared().mul_add(q[damping], r.viscous);
-            }
-            Load::Force { point, x, y } => {
-                r.load = r.load - m.points[point].d1.dot(Vec2::new(q[x], q[y]));
-            }
-            Load::Torque { link, torque } => r.load = r.load - m.links[link].d1 * q[torque],
-            Load::Spring { from, to, stiffness, free_length, preload } => {
-                let (length, length1) = stretch(m, from, to);
-                let pull = (length - q[free_length]).mul_add(q[stiffness], q[preload]);
-                r.load = pull.mul_add(length1, r.load);
-            }
-            Load::ForcePosition { slide, forward, back } => {
-                let slide = &m.slides[slide];
-                let ahead = self.tables[forward].held_at(slide.s, q);
-                let behind = self.tables[back].held_at(slide.s, q);
-                let force = (slide.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
-                r.dry = slide.d1.abs().mul_add(force, r.dry);
-            }
-            Load::TorqueAngle { table, turns } => {
-                r.load = r.load + self.over_angle(table, turns, angle.phi, q);
-            }
-            Load::ForceAngle { slide, table, turns } => {
-                r.load = r.load - self.over_angle(table, turns, angle.phi, q) * m.slides[slide].d1;
+            _ => {
+                let (load, viscous) = out_of_line!(R, self.rarer(load, way, q, angle.phi, sense, m));
+                (r.load, r.viscous) = (r.load + load, r.viscous + viscous);
             }
         }
     }
-}
 
-impl Plan {
-    /// Value of a table over the crank angle that repeats after some turns.
+    /// Load torque and viscous coefficient of what few machines have: others do not pay for it.
+    ///
+    /// Gas at pressure p and volume V keeps p Vⁿ, e.g. Baehr, Kabelac, *Thermodynamik*, on polytropic changes of state: a gas
+    /// spring of rod area A pushes with F₁ (V₁/(V₁ − A way))ⁿ, the pressure outside being neglected against that inside.
     #[inline(always)]
-    fn over_angle<R: Real>(&self, table: usize, turns: u32, phi: R, q: &[R]) -> R {
-        self.tables[table].periodic_at(phi, TAU * f64::from(turns), q)
+    fn rarer<R: Real>(&self, load: &Load, way: Way<R>, q: &[R], phi: R, sense: f64, m: &Motion<R>) -> (R, R) {
+        let zero = R::splat(0.0);
+        match load.what {
+            What::Curve { table } => (self.tables[table].held_at(way.position, q) * way.d1, zero),
+            What::Gas { force, length, column, exponent } => {
+                let left = q[column] - (q[length] - way.position);
+                let push = q[force] * ((q[column] / left).ln() * q[exponent]).exp();
+                (-(push * way.d1), zero)
+            }
+            What::Formula { formula, turns } => {
+                let load = FormulaLoad { formula, at: load.at, turns };
+                let torque = self.formula_torque(&load, q, phi, sense, m);
+                if self.formulas[formula].degree == Degree::Of(1) {
+                    (zero, torque * sense)
+                } else {
+                    (torque, zero)
+                }
+            }
+            _ => (zero, zero),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The numbers come separately, so that a batch of machines shares one structure.
 
-use crate::drive::loads::{Body, ForceElement, Law, Load};
+use crate::drive::loads::{Body, Load};
 use crate::drive::motor::Drive;
 use crate::kernel::error::PlanError;
 use crate::kernel::formula::Formula;
@@ -32,13 +32,13 @@ pub fn together(first: u32, second: u32) -> Result<u32, PlanError> {
 pub struct Plan {
     pub mechanism: Mechanism,
     pub bodies: Vec<Body>,
+    /// Loads that belong to the reduction.
     pub loads: Vec<Load>,
-    pub force_elements: Vec<ForceElement>,
     pub drive: Drive,
     pub tables: Vec<Table>,
     pub formulas: Vec<Formula>,
     /// Loads that depend on the speed in their own way, or on time.
-    pub laws: Vec<Law>,
+    pub laws: Vec<Load>,
     /// How many parameters the plan refers to.
     pub n_parameters: usize,
     /// Revolutions of the crank after which all loads repeat.
@@ -64,7 +64,6 @@ impl Plan {
     pub fn without_conservative(&self) -> Plan {
         let mut plan = self.clone();
         plan.loads.retain(|load| !load.is_conservative());
-        plan.force_elements.retain(|load| !load.is_conservative());
         plan
     }
 }

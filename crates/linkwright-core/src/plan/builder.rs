@@ -1,6 +1,6 @@
 //! The plan as it grows, and the checks of what is used and made.
 
-use crate::drive::loads::{Body, ForceElement, Law, Load};
+use crate::drive::loads::{Body, Load};
 use crate::drive::structure::together;
 use crate::kernel::error::PlanError;
 use crate::kernel::formula::Formula;
@@ -19,9 +19,8 @@ pub struct Builder {
     pub(super) mechanism: Mechanism,
     pub(super) bodies: Vec<Body>,
     pub(super) loads: Vec<Load>,
-    pub(super) force_elements: Vec<ForceElement>,
     pub(super) speed_loads: Vec<usize>,
-    pub(super) laws: Vec<Law>,
+    pub(super) laws: Vec<Load>,
     pub(super) tables: Vec<Table>,
     pub(super) formulas: Vec<Formula>,
     pub(super) n_parameters: usize,

@@ -24,7 +24,6 @@ impl Builder {
             mechanism: self.mechanism,
             bodies: self.bodies,
             loads: self.loads,
-            force_elements: self.force_elements,
             drive,
             tables: self.tables,
             formulas: self.formulas,

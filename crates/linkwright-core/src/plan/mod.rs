@@ -19,6 +19,6 @@ pub mod finish;
 pub mod loads;
 
 /// Number of the language in which machines, cams and trains cross the border: names of classes and of their fields,
-/// order of lists and of results. It goes up with every change of these, here and in
-/// `linkwright.machine.program.core`.
-pub const FORMAT: u32 = 27;
+/// order of lists and of results. It goes up with every change of what was there, here and in
+/// `linkwright.machine.program.core`, whose `require` asks for what is new.
+pub const FORMAT: u32 = 28;

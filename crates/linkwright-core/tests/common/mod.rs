@@ -1,7 +1,7 @@
 //! Machines for the tests, built as a plan with its parameters.
 #![allow(dead_code, unreachable_pub)]
 
-use linkwright_core::drive::loads::{Body, Load};
+use linkwright_core::drive::loads::{At, Body, Load, What};
 use linkwright_core::drive::motor::{Drive, Motor, Span};
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::kernel::formula::{Formula, Op, Variable};
@@ -336,17 +336,17 @@ impl Builder {
     }
 
     pub fn dry_slide(&mut self, slide: usize, force: f64) {
-        let force = self.number(force);
-        self.load(Load::DrySlide { slide, force });
+        let size = self.number(force);
+        self.load(At::Slide { slide, point: 0 }, What::Dry { size });
     }
 
-    pub fn load(&mut self, load: Load) {
-        self.plan.load(load).expect("a sound load");
+    pub fn load(&mut self, at: At, what: What) {
+        self.plan.load(Load { at, what }).expect("a sound load");
     }
 
     pub fn gravity(&mut self, g: f64) {
-        let (x, y) = (self.number(0.0), self.number(-g));
-        self.load(Load::Gravity { x, y });
+        let [cos, sin, size] = [0.0, -1.0, g].map(|x| self.number(x));
+        self.load(At::Bodies { cos, sin }, What::Constant { size });
     }
 
     pub fn table(&mut self, x: &[f64], y: &[f64]) -> usize {
@@ -428,11 +428,11 @@ pub fn mixed(random: &mut Random) -> SampleMachine {
     b.rod(rocker, pivot, 0.28, 5.0);
     b.rod(crank, 0, 0.1, 2.0);
     b.dry_slide(slide, random.between(100.0, 400.0));
-    let [torque, damping, stiffness, free_length, preload] =
+    let [size, damping, stiffness, free_length, preload] =
         [random.between(1.0, 5.0), 30.0, random.between(100.0, 900.0), 0.3, 0.0].map(|x| b.number(x));
-    b.load(Load::DryLink { link: rocker, torque });
-    b.load(Load::ViscousPoint { point: tip, damping });
-    b.load(Load::Spring { from: joint, to: 0, stiffness, free_length, preload });
+    b.load(At::Link { link: rocker }, What::Dry { size });
+    b.load(At::Point { point: tip }, What::Viscous { damping });
+    b.load(At::Between { from: joint, to: 0 }, What::Spring { stiffness, free_length, preload });
     b.gravity(9.81);
     let (torque, inverse_speed) = (b.number(100.0), b.number(1.0 / 300.0));
     b.finish(Motor::Line { torque, inverse_speed }, [10.0, 0.9, 0.9, 5.0, 30.0])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+
 from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 27
+FORMAT = 28
 
 
 def check_format(core: object) -> None:
@@ -20,9 +22,11 @@ check_format(_core)
 
 
 def require(name: str) -> None:
-    """Refuse a core without a function that came later than the others of its format, by a `CoreError`."""
-    if not hasattr(_core, name):
-        raise CoreError(FORMAT, FORMAT, f"{_core.__file__}: {name} is missing")
+    """Refuse a core without what came later than others of its format, by a `CoreError`."""
+    try:
+        attrgetter(name)(_core)
+    except AttributeError:
+        raise CoreError(FORMAT, FORMAT, f"{_core.__file__}: {name} is missing") from None
 
 
 # What a program consists of, for those who read it.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -54,7 +54,7 @@ def table_of(machine: Machine, program: MechanismProgram, x: Sequence[Any], y: S
 
 
 class Loads:
-    """Makes the loads of a machine.
+    """Makes the loads of a machine: where each acts, and what it is.
 
     Parameters
     ----------
@@ -69,140 +69,111 @@ class Loads:
         self.points, self.links, self.slides = program.points, program.links, program.slides
         self.slot = program.slot
 
-    def all(self, *, brake: bool) -> list[_core.Load]:
+    def all(self, *, brake: bool) -> list[tuple[_core.At, _core.What]]:
         """Forces and torques; a brake resists on the crankshaft."""
-        parts: list[_core.Load] = []
-        for load in self.machine.loads.values():
-            if isinstance(load, loads.FormulaLoad):
-                parts += self._formula_load(load)
-            elif isinstance(load, loads.TorqueSwing):
-                parts += [term for piece in swing_formulas(load) for term in self._formula_load(piece)]
-            else:
-                parts.append(self._load(load))
+        parts = [part for load in self.machine.loads.values() for part in self._parts(load)]
         drive = self.machine.drive
         if brake and drive and drive.brake:
             ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0
-            parts.append(_core.Load.DryCrank(torque=self.slot(drive.brake.torque * ratio)))
+            parts.append((_core.At.Crank(), _core.What.Dry(size=self.slot(drive.brake.torque * ratio))))
         return parts
+
+    def _parts(self, load: Any) -> Iterator[tuple[_core.At, _core.What]]:
+        """A load by a formula is one for each summand, so that each enters the motion in its own way."""
+        if isinstance(load, loads.TorqueSwing):
+            for piece in swing_formulas(load):
+                yield from self._parts(piece)
+        elif isinstance(load, loads.FormulaLoad):
+            at, turns = self._at(load), whole_turns(load)
+            constants = {name: self.slot(value) for name, value in load.constants.items()}
+            for term in formula.terms(formula.parse(load.text)):
+                yield at, _core.What.Formula(formula=self.program.formula(term, constants), turns=turns)
+        else:
+            yield self._at(load), self._what(load)
+
+    def _at(self, load: Any) -> _core.At:
+        """Where a load acts."""
+        match load:
+            case loads.Gravity():
+                return _core.At.Bodies(**self._direction(load.direction))
+            case loads.TorqueAngle() | loads.TorqueSpeed():
+                return _core.At.Crank()
+            case loads.BetweenPoints():
+                start, end = (self.points[end] for end in load.between)
+                return _core.At.Between(start=start, end=end)
+            case loads.TorsionalSpring() | loads.TorsionalDamper():
+                other = None if load.against is None else self.links[load.against]
+                free = self._direction(getattr(load, "free_angle", 0.0))
+                return _core.At.BetweenLinks(link=self.links[load.on], other=other, **free)
+            case (
+                loads.ConstantTorque()
+                | loads.DryFriction(force=None)
+                | loads.ViscousFriction(damping=None)
+                | loads.FormulaLoad(force=None)
+            ):
+                return _core.At.Link(link=self.links[load.on])
+        point = self.points[load.on]
+        along, direction = getattr(load, "along", None), getattr(load, "direction", None)
+        if along is not None:
+            towards = self._direction(0.0 if direction is None else direction)
+            return _core.At.Along(point=point, link=self.links[along], **towards)
+        if direction is not None:
+            return _core.At.Toward(point=point, **self._direction(direction))
+        if load.on in self.slides:
+            return _core.At.Slide(slide=self.slides[load.on], point=point)
+        return _core.At.Point(point=point)
+
+    def _what(self, load: Any) -> _core.What:
+        """What a load is."""
+        match load:
+            case loads.ConstantForce(force=size) | loads.ConstantTorque(torque=size):
+                return _core.What.Constant(size=self.slot(size))
+            case loads.Gravity():
+                return _core.What.Constant(size=self.slot(load.acceleration))
+            case loads.DryFriction():
+                return _core.What.Dry(size=self.slot(load.torque if load.force is None else load.force))
+            case loads.Damper(velocity=tuple() as velocity, force=tuple() as force):
+                return _core.What.OverSpeed(table=self._table(velocity, force))
+            case loads.ViscousFriction(damping=None) | loads.TorsionalDamper():
+                return _core.What.Viscous(damping=self.slot(load.damping_torsional))
+            case loads.ViscousFriction() | loads.Damper():
+                return _core.What.Viscous(damping=self.slot(load.damping))
+            case loads.Spring(length=tuple() as length, force=tuple() as force):
+                return _core.What.Curve(table=self._table(length, force))
+            case loads.Spring() | loads.TorsionalSpring():
+                free_length, preload = getattr(load, "free_length", 0.0), getattr(load, "preload", 0.0)
+                return _core.What.Spring(
+                    stiffness=self.slot(load.stiffness),
+                    free_length=self.slot(free_length),
+                    preload=self.slot(preload),
+                )
+            case loads.GasSpring():
+                return _core.What.Gas(
+                    force=self.slot(load.force_extended),
+                    length=self.slot(load.length_extended),
+                    column=self.slot(gas_column(load)),
+                    exponent=self.slot(load.exponent),
+                )
+            case loads.ForcePosition():
+                forward = self._table(load.position, load.forward)
+                back = self._table(load.position, load.return_ or (0.0,) * len(load.position))
+                return _core.What.Resistance(forward=forward, back=back)
+            case loads.TorqueAngle():
+                angle, torque = load.points(load.torque)
+                table = self._table(angle, [-against for against in torque])
+                return _core.What.OverAngle(table=table, turns=whole_turns(load))
+            case loads.ForceAngle():
+                table = self._table(*load.points(load.force))
+                return _core.What.OverAngle(table=table, turns=whole_turns(load))
+            case loads.TorqueSpeed():
+                return _core.What.OverSpeed(table=self._table(load.speed, load.torque))
+        raise TypeError(f"no translation for {type(load).__name__}")
 
     def _table(self, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
         return table_of(self.machine, self.program, x, y)
 
-    def _load(self, load: Any) -> _core.Load:
-        match load:
-            case loads.DryFriction():
-                return self._dry(load)
-            case loads.ViscousFriction():
-                return self._viscous(load)
-            case loads.ConstantForce():
-                return self._force(load)
-            case loads.ConstantTorque():
-                return _core.Load.Torque(link=self.links[load.on], torque=self.slot(load.torque))
-            case loads.Gravity():
-                x, y = self._vector(load.acceleration, load.direction)
-                return _core.Load.Gravity(x=x, y=y)
-            case loads.Spring() | loads.Damper() | loads.GasSpring():
-                return self._between(load, *(self.points[end] for end in load.between))
-            case loads.TorsionalSpring() | loads.TorsionalDamper():
-                return self._between_links(load)
-            case loads.ForcePosition():
-                forward = self._table(load.position, load.forward)
-                back = self._table(load.position, load.return_ or (0.0,) * len(load.position))
-                return _core.Load.ForcePosition(slide=self.slides[load.on], forward=forward, back=back)
-            case loads.TorqueAngle():
-                return _core.Load.TorqueAngle(
-                    table=self._table(*load.points(load.torque)), turns=whole_turns(load)
-                )
-            case loads.ForceAngle():
-                return _core.Load.ForceAngle(
-                    slide=self.slides[load.on],
-                    table=self._table(*load.points(load.force)),
-                    turns=whole_turns(load),
-                )
-            case loads.TorqueSpeed():
-                return _core.Load.TorqueSpeed(table=self._table(load.speed, load.torque))
-        raise TypeError(f"no translation for {type(load).__name__}")
-
-    def _dry(self, load: loads.DryFriction) -> _core.Load:
-        """A constant resistance on a link, a slide or a point."""
-        if load.torque is not None:
-            return _core.Load.DryLink(link=self.links[load.on], torque=self.slot(load.torque))
-        if load.on in self.slides:
-            return _core.Load.DrySlide(slide=self.slides[load.on], force=self.slot(load.force))
-        return _core.Load.DryPoint(point=self.points[load.on], force=self.slot(load.force))
-
-    def _viscous(self, load: loads.ViscousFriction) -> _core.Load:
-        """A resistance in proportion to speed on a link, a slide or a point."""
-        if load.damping_torsional is not None:
-            return _core.Load.ViscousLink(link=self.links[load.on], damping=self.slot(load.damping_torsional))
-        if load.on in self.slides:
-            return _core.Load.ViscousSlide(slide=self.slides[load.on], damping=self.slot(load.damping))
-        return _core.Load.ViscousPoint(point=self.points[load.on], damping=self.slot(load.damping))
-
-    def _force(self, load: loads.ConstantForce) -> _core.Load:
-        x, y = self._vector(load.force, load.direction)
-        if load.along is not None:
-            return _core.Load.Follow(
-                point=self.points[load.on], link=self.links[load.along], along=x, across=y
-            )
-        return _core.Load.Force(point=self.points[load.on], x=x, y=y)
-
-    def _between(self, load: Any, start: int, end: int) -> _core.Load:
-        """A load along the line between two points."""
-        match load:
-            case loads.Spring(length=tuple() as length, force=tuple() as force):
-                return _core.Load.SpringTable(start=start, end=end, table=self._table(length, force))
-            case loads.Spring():
-                return _core.Load.Spring(
-                    start=start,
-                    end=end,
-                    stiffness=self.slot(load.stiffness),
-                    free_length=self.slot(load.free_length),
-                    preload=self.slot(load.preload),
-                )
-            case loads.Damper(velocity=tuple() as velocity, force=tuple() as force):
-                return _core.Load.DamperTable(start=start, end=end, table=self._table(velocity, force))
-            case loads.Damper():
-                return _core.Load.Damper(start=start, end=end, damping=self.slot(load.damping))
-        return _core.Load.GasSpring(
-            start=start,
-            end=end,
-            force=self.slot(load.force_extended),
-            length=self.slot(load.length_extended),
-            column=self.slot(gas_column(load)),
-            exponent=self.slot(load.exponent),
-        )
-
-    def _between_links(self, load: loads.TorsionalSpring | loads.TorsionalDamper) -> _core.Load:
-        """A torque between the link that a load acts on and another one, or the frame."""
-        link, other = self.links[load.on], None if load.against is None else self.links[load.against]
-        if isinstance(load, loads.TorsionalDamper):
-            return _core.Load.TorsionDamper(link=link, other=other, damping=self.slot(load.damping_torsional))
-        cos, sin = self._vector(1.0, load.free_angle)
-        return _core.Load.TorsionSpring(
-            link=link, other=other, stiffness=self.slot(load.stiffness), cos=cos, sin=sin
-        )
-
-    def _formula_load(self, load: loads.FormulaLoad) -> Iterator[_core.Load]:
-        """A load for each summand, so that each enters the motion in its own way."""
-        on: Callable[..., _core.Load] = _core.Load.FormulaOnSlide
-        carrier: dict[str, int]
-        turns = whole_turns(load)
-        if load.torque is not None:
-            on, carrier = _core.Load.FormulaOnLink, {"link": self.links[load.on]}
-        elif load.along is not None or load.direction is not None:
-            cos, sin = self._vector(1.0, 0.0 if load.direction is None else load.direction)
-            on, carrier = _core.Load.FormulaOnPoint, {"point": self.points[load.on], "cos": cos, "sin": sin}
-            if load.along is not None:
-                on, carrier = _core.Load.FormulaAlong, carrier | {"link": self.links[load.along]}
-        else:
-            carrier = {"slide": self.slides[load.on], "point": self.points[load.on]}
-        constants = {name: self.slot(value) for name, value in load.constants.items()}
-        for term in formula.terms(formula.parse(load.text)):
-            yield on(formula=self.program.formula(term, constants), **carrier, turns=turns)
-
-    def _vector(self, size: Any, direction: Any) -> tuple[int, int]:
-        return self.slot(size * np.cos(direction)), self.slot(size * np.sin(direction))
+    def _direction(self, direction: Any) -> dict[str, int]:
+        return {"cos": self.slot(np.cos(direction)), "sin": self.slot(np.sin(direction))}
 
 
 def swing_formulas(load: loads.TorqueSwing) -> Iterator[loads.FormulaLoad]:
