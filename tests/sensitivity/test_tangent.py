@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import TangentArray
 
 
 def _at(x: float, y: float) -> tuple[Tangent, Tangent]:
@@ -55,23 +54,23 @@ def test_a_derivative_is_never_dropped(lose):
 
 
 def test_where_two_are_equal_the_larger_has_no_derivative_unless_theirs_are() -> None:
-    x = TangentArray(np.array([0.0, 1.0]), np.array([[1.0], [1.0]]))
+    x = Tangent(np.array([0.0, 1.0]), np.array([[1.0], [1.0]]))
     np.testing.assert_array_equal(np.maximum(x, 0.0).d[:, 0], [np.nan, 1.0])
     np.testing.assert_array_equal(np.minimum(x, 0.0).d[:, 0], [np.nan, 0.0])
     np.testing.assert_array_equal(np.maximum(x, x).d[:, 0], [1.0, 1.0])
 
 
 def test_a_negative_base_has_no_derivative_by_its_power() -> None:
-    base = TangentArray(np.array([-2.0]), np.array([[1.0, 0.0]]))
-    power = TangentArray(np.array([2.0]), np.array([[0.0, 1.0]]))
+    base = Tangent(np.array([-2.0]), np.array([[1.0, 0.0]]))
+    power = Tangent(np.array([2.0]), np.array([[0.0, 1.0]]))
     np.testing.assert_array_equal((base**power).d, [[-4.0, np.nan]])
 
 
-def _rows(formula, x: TangentArray, y: TangentArray) -> TangentArray:
+def _rows(formula, x: Tangent, y: Tangent) -> Tangent:
     """A formula of one number after another."""
     pairs = zip(x.value, x.d, y.value, y.d, strict=True)
     numbers = [formula(Tangent(a, da), Tangent(b, db)) for a, da, b, db in pairs]
-    return TangentArray([number.value for number in numbers], [number.d for number in numbers])
+    return Tangent([number.value for number in numbers], [number.d for number in numbers])
 
 
 @pytest.mark.parametrize(
@@ -85,7 +84,7 @@ def _rows(formula, x: TangentArray, y: TangentArray) -> TangentArray:
 )
 def test_arrays_follow_the_rules_of_numbers(formula) -> None:
     rng = np.random.default_rng(3)
-    x, y = (TangentArray(rng.uniform(0.5, 1.4, 5), rng.normal(size=(5, 4))) for _ in range(2))
+    x, y = (Tangent(rng.uniform(0.5, 1.4, 5), rng.normal(size=(5, 4))) for _ in range(2))
     expected = _rows(formula, x, y)
     for found in (formula(x, y), formula(x[:, None], y[:, None])[:, 0]):
         np.testing.assert_allclose(found.value, expected.value, rtol=1e-14)
@@ -94,8 +93,8 @@ def test_arrays_follow_the_rules_of_numbers(formula) -> None:
 
 def test_arrays_with_and_without_derivatives_stretch_like_those_of_numpy() -> None:
     rng = np.random.default_rng(4)
-    x = TangentArray(rng.uniform(1, 2, (3, 1)), rng.normal(size=(3, 1, 4)))
-    y = TangentArray(rng.uniform(1, 2, 2), rng.normal(size=(2, 4)))
+    x = Tangent(rng.uniform(1, 2, (3, 1)), rng.normal(size=(3, 1, 4)))
+    y = Tangent(rng.uniform(1, 2, 2), rng.normal(size=(2, 4)))
     plain = rng.uniform(1, 2, (3, 2))
     for found, value, d in (
         (x + y, x.value + y.value, x.d + y.d),
@@ -114,9 +113,9 @@ def test_arrays_with_and_without_derivatives_stretch_like_those_of_numpy() -> No
 
 def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
     """0·∞ and 1/0 leave no derivative by what moves the zero, and none is needed by what does not."""
-    x = TangentArray(np.array([0.0, 2.0]), np.array([[1.0, 0.0], [1.0, 0.0]]))
+    x = Tangent(np.array([0.0, 2.0]), np.array([[1.0, 0.0], [1.0, 0.0]]))
     with np.errstate(all="ignore"):
-        for found in (x * np.inf, np.array([np.inf, np.inf]) * x, x * TangentArray(np.inf, np.zeros(2))):
+        for found in (x * np.inf, np.array([np.inf, np.inf]) * x, x * Tangent(np.inf, np.zeros(2))):
             np.testing.assert_array_equal(found.d, [[np.inf, 0.0], [np.inf, 0.0]])
         inverse = 1.0 / x
         np.testing.assert_array_equal(inverse.d, [[-np.inf, 0.0], [-0.25, 0.0]])
@@ -125,7 +124,7 @@ def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
 
 def test_a_sum_with_a_constant_does_not_change_what_it_is_of() -> None:
     """Both have the same derivatives: they are not copied, and cannot be written to through the sum."""
-    array = TangentArray(np.arange(3.0), np.eye(3))
+    array = Tangent(np.arange(3.0), np.eye(3))
     for other in (array + 1.0, 1.0 + array, array - 1.0):
         with pytest.raises(ValueError, match="read-only"):
             other[0] = 5.0

@@ -29,8 +29,7 @@ from linkwright.cam.profile.contact import Contact, contacts, opposite
 from linkwright.cam.profile.profile import CamProfile, cam_profile, in_time, radius_beside, unit_in
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, apart, degrees
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
@@ -132,7 +131,7 @@ class _Curve:
 
     def slope(self, angles: Floats) -> Floats:
         """Derivative by the cam angle inside the pieces."""
-        value = self.plain(TangentArray(angles, np.ones((len(angles), 1))), "after")
+        value = self.plain(Tangent(angles, np.ones((len(angles), 1))), "after")
         slope: Floats = value.d[:, 0]
         return slope
 
@@ -142,8 +141,7 @@ class _Curve:
         k = int(np.argmin(np.abs(joints - angle)))
         place = self.law.breaks[k] if abs(joints[k] - angle) < _AT_JOINT else angle
         n = variables_of((place,)) or self.law.variables or 1
-        value = self.of(lifted(np.array([place], dtype=object), n), side)
-        return lifted(value, n)[0].number()
+        return lifted(self.of(lifted(place, n).reshape(1), side), n)[0]
 
 
 class _Scalars:

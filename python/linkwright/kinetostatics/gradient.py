@@ -22,8 +22,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, Kinks, occurs_at
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
@@ -94,11 +93,11 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     if driving is not None:
         # Equilibrium makes the driving torque of torques of inertia, in a nearly neutral drive of some that
         # are a million times as large. It is that of the motor at its speed.
-        tangents["torque_drive_max"] = TangentArray(primal(tangents["torque_drive_max"]), driving)
+        tangents["torque_drive_max"] = Tangent(primal(tangents["torque_drive_max"]), driving)
     extremes, ties = {}, {}
     for name, place in places.items():
         (curve, sides), angle = curves[name], float(angles[place])
-        tangent = tangents[name][int(np.searchsorted(at, angle))].number()
+        tangent = tangents[name][int(np.searchsorted(at, angle))]
         moving = kinks.moved_at(angle, ON_KINK)
         larger = beside[np.abs(sides) > peaks[name] * (1.0 + TIE_OF_SOLVED)].tolist()
         for other in larger:
@@ -268,7 +267,7 @@ def _motion_along(
         gradient = gradient_along(machine, solution, program)
         curves = gradient.curves(_of_speed(machine, phi))
         followed: dict[str, Any] = {
-            name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
+            name: Tangent(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
     drive = entries.machine.drive
@@ -298,7 +297,7 @@ class _SceneAlong(Scene):
 
     def zeros(self, *shape: int) -> Any:
         """An array to be filled with what follows from the machine."""
-        return TangentArray(np.zeros(shape), np.zeros((*shape, self.n_variables)))
+        return Tangent(np.zeros(shape), np.zeros((*shape, self.n_variables)))
 
 
 def _collected(scene: Scene) -> Collector:
@@ -334,5 +333,5 @@ def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Soluti
     usable = ~(solution.singular | solution.locked)
     d = np.full((*x.shape, change.shape[-1]), np.nan)
     d[usable] = np.linalg.solve(system.matrix(primal(slopes))[usable], -change[usable]) * size[:, None]
-    followed: Any = TangentArray(x, d)
+    followed: Any = Tangent(x, d)
     return replace(solution, x=followed[:, :, None], slopes=slopes)

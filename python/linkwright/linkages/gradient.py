@@ -22,8 +22,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.extreme import ALIKE, TIE, chosen, differ, occurs_at, they_differ
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kernel.quantities import shown
 from linkwright.linkages.cycle import ElementMotion, examined, swept_cycle
 from linkwright.linkages.dyads import transmission, transmission_channels, transmission_slope
@@ -238,7 +237,7 @@ def _output_turns(compiled: CompiledMachine, swept: LinkageSweep, k: int, progra
     (rows,) = _motion_along(compiled, [output.channel], angles, program)
     (bend,) = compiled.motion([output.channel], angles)
     heights = swept.positions(k, angles)
-    along = TangentArray(heights, _slope_of(output, rows))
+    along = Tangent(heights, _slope_of(output, rows))
     return _Turns.of(angles, along, rows.d1, bend.d2, len(program.variables))
 
 
@@ -262,7 +261,7 @@ def _transmission_turns(
     dyad, angles = swept.dyads[k], swept.turns_of_transmission(k)
     channels = transmission_channels(compiled, dyad)
     rows = _motion_along(compiled, channels, angles, program)
-    numbers: Any = TangentArray(compiled.parameters, program.values)
+    numbers: Any = Tangent(compiled.parameters, program.values)
     mu: Any = transmission(numbers, dyad, rows)
     slope: Any = transmission_slope(numbers, dyad, rows)
     # The slope is linear in the rates: with second derivatives in place of first ones it is its derivative.
@@ -281,7 +280,7 @@ def _motion_along(
 
 def _with(motion: list[Rows], channels: list[Channel], table: Floats) -> Iterator[Rows]:
     """Motion with its derivatives, (numbers, n, k), in the order of the core's rows."""
-    array: Any = TangentArray
+    array: Any = Tangent
     at = 0
     for rows, channel in zip(motion, channels, strict=True):
         d = table[at : at + WIDTHS[type(channel)]]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
-from linkwright.kernel.numerics.tangent_array import TangentArray
+from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
 from linkwright.kernel.public.immutable import LazyTable
@@ -252,7 +252,7 @@ def rows_along(
 
 def _along(part: str, motion: Any, table: Floats) -> Any:
     """A part's motion with derivatives, in the order of the core's rows."""
-    array: Any = TangentArray
+    array: Any = Tangent
     if part == "points":
         d = [table[k : k + 2].swapaxes(0, 1) for k in (0, 2, 4)]
         return PointMotion(*map(array, (motion.position, motion.d1, motion.d2), d))

@@ -15,8 +15,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
@@ -266,29 +265,21 @@ def followed(
     return known, work(seeded(machine, known))
 
 
-def _is_of_law(machine: Machine, name: str) -> bool:
-    """Whether an entry belongs to the motion that the law of a cam is made of."""
-    place = known_place(machine, name)
-    return place[:2] == ("mechanism", "cams") and place[3] in ("sections", "train")
-
-
 def seeded(machine: Machine, names: Sequence[str]) -> Machine:
-    """The machine with arrays of tangents by some of its entries, for what is worked out in arrays.
+    """The machine with tangents by some of its entries.
 
     An entry that follows from others keeps its derivatives by these, beside that by itself with all entries
-    of the file held. What the law of a cam is made of are tangents: its pieces are numbers, which then meet
-    arrays.
+    of the file held.
     """
     units = dict(zip(names, np.eye(len(names)), strict=True))
     seeds: dict[str, Any] = {
-        name: (Tangent if _is_of_law(machine, name) else TangentArray)(float(entry_of(machine, name)), unit)
-        for name, unit in units.items()
+        name: Tangent(float(entry_of(machine, name)), unit) for name, unit in units.items()
     }
     following = {name: known_place(machine, name) for name in names if not is_given(machine, name)}
     given = exchanged(machine, {name: seeds[name] for name in names if name not in following})
     alone = [given, *(exchanged(machine, {name: seeds[name]}) for name in following)]
     for name, place in following.items():
         entries = [entry_at(one, place) for one in alone]
-        d = sum((x.d for x in entries if isinstance(x, TangentArray)), start=np.zeros(len(names)))
-        seeds[name] = TangentArray(seeds[name].value, d)
+        d = sum((x.d for x in entries if isinstance(x, Tangent)), start=np.zeros(len(names)))
+        seeds[name] = Tangent(seeds[name].value, d)
     return exchanged_at(given, {place: seeds[name] for name, place in following.items()})

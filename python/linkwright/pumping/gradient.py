@@ -15,7 +15,6 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.linkages.kinematics import rows_along
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, directions, followed, spread
@@ -73,7 +72,7 @@ class RodAlong(PolishedRod):
     def beam(self, angles: Floats) -> Any:
         """The motion of the beam at fixed crank angles."""
         rows = rows_along(self.compiled, angles, [("links", BEAM_LINK)], self.values)
-        return TangentArray(super().beam(angles), rows)
+        return Tangent(super().beam(angles), rows)
 
 
 def _scalars(rod: PolishedRod, along: Any, result: PumpingUnitMotion) -> dict[str, Any]:

@@ -24,7 +24,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, chosen, common, differ, they_differ
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, spread
@@ -177,7 +177,7 @@ class RotatorAlong:
         """Extremes of the distance from pin to hanger."""
 
         def slope(share: Floats) -> Floats:
-            rate: Floats = self.still.stroke(TangentArray(share, np.ones((len(share), 1)))).distance.d[..., 0]
+            rate: Floats = self.still.stroke(Tangent(share, np.ones((len(share), 1)))).distance.d[..., 0]
             return rate
 
         shares = zeros_of_stroke(slope)
@@ -271,7 +271,7 @@ class RotatorAlong:
         differs = chosen(self.entries, differ(d))
         if differs:
             self.ties[name] = f"the extreme occurs at {len(d)} positions; {they_differ(differs)}"
-        return TangentArray(row.value[best], common(d))
+        return Tangent(row.value[best], common(d))
 
 
 def _sine(distance: Any, link: Any, lever: Any) -> Any:

@@ -32,8 +32,7 @@ import numpy as np
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Bools, Floats, Indices
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.topping.edge import Edge
 
@@ -183,7 +182,7 @@ def _terms(
 
 def slopes(number: Any) -> Any:
     """Derivatives of a number; zero if it has none."""
-    return number.d if isinstance(number, Tangent | TangentArray) else 0.0
+    return number.d if isinstance(number, Tangent | Tangent) else 0.0
 
 
 def _way(law: MotionLaw, psi: Floats) -> Any:

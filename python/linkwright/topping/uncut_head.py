@@ -19,8 +19,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, common
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper

@@ -17,8 +17,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, apart, chosen, degrees, occurs_at, off
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, primal, variables_of
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, followed, spread

@@ -20,8 +20,7 @@ from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
 from linkwright.cam.profile.contact import contacts
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kinetostatics.gradient import drive_forces_along, tied
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, columns
@@ -96,10 +95,7 @@ def _curvatures(along: Machine, loaded: LoadedCam, nth: int, flank: float) -> li
     contact = contacts(cam, along.mechanism.fixed_points(), loaded.name)[nth]
     assert loaded.pressure_max_angle is not None
     cam_angle: Any = np.mod(loaded.pressure_max_angle - cam.phase, 2 * np.pi)
-    place = np.array([cam_angle], dtype=object)
-    n = variables_of((*place, *contact.sizes)) or contact.law.variables
-    bend: Any = contact.kernel.rows(lifted(place, n) if n else place.astype(float))["bend"][0]
-    bend = bend.number() if n else float(bend)
+    bend: Any = contact.kernel.rows(cam_angle)["bend"][0]
     if not contact.kernel.is_roller:
         return [1.0 / bend]
     roller = contact.sizes.roller_radius

@@ -18,8 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import cos, primal, sin, total
-from linkwright.kernel.numerics.tangent_array import lifted, variables_of
+from linkwright.kernel.numerics.tangent import cos, lifted, plain, primal, sin, total, variables_of
 
 # Points beyond the degree of the polynomial, and for each radian of the fastest harmonic: its series falls
 # like Bessel functions J_n(k/2), which are below rounding from n = k/2 + 20 on for the frequencies of motion
@@ -91,8 +90,7 @@ class Piece(NamedTuple):
 
     def value(self, u: Any) -> Any:
         """The value at one place, a number; with derivatives if it has some."""
-        value = self.at(u)
-        return float(value) if isinstance(value, np.ndarray | np.generic) else value.number()
+        return plain(self.at(u))
 
     @property
     def numbers(self) -> tuple[Any, ...]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 
 # Extremes this near, as a share of their size or of the curve's range, tie: what is known to rounding, and
 # what is solved for or looked for.
@@ -174,7 +174,7 @@ def greatest(*numbers: Any) -> Any:
         return first
     near = primal(first) - TIE * abs(primal(first))
     rivals = [lifted(x, n).d for x in (first, *numbers) if primal(x) >= near]
-    return TangentArray(primal(first), common(np.stack(rivals)))
+    return Tangent(primal(first), common(np.stack(rivals)))
 
 
 def least(*numbers: Any) -> Any:
