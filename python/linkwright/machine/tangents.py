@@ -34,39 +34,10 @@ def columns(
     numbers: Callable[[Machine], Sequence[Any]],
     refused: dict[str, str],
 ) -> dict[str, Floats]:
-    """Derivatives of numbers by each entry that has them, entry → (numbers,); the others go into `refused`.
-
-    Entries that follow from others (the breakdown speed of a motor from its rated point) are varied one at a
-    time, all others of the file held; given ones are varied together.
-    """
-    cycles = [name for name in names if name.endswith(".cycle")]
-    refused.update(dict.fromkeys(cycles, _WHOLE))
-    names = [name for name in names if name not in refused]
-    together = [name for name in names if is_given(machine, name)]
-    groups = [together, *([name] for name in names if name not in set(together))]
-    derivatives: dict[str, Floats] = {}
-    for group in filter(None, groups):
-        derivatives |= _of_group(machine, group, numbers, refused)
-    return derivatives
-
-
-def _of_group(
-    machine: Machine,
-    names: Sequence[str],
-    numbers: Callable[[Machine], Sequence[Any]],
-    refused: dict[str, str],
-) -> dict[str, Floats]:
-    try:
-        return _derived(machine, names, numbers)
-    except _FAILURES as error:
-        if len(names) == 1:
-            refused[names[0]] = _reason(names[0], error)
-            return {}
-    # One of them has no derivative: which, is found one by one.
-    derivatives: dict[str, Floats] = {}
-    for name in names:
-        derivatives |= _of_group(machine, [name], numbers, refused)
-    return derivatives
+    """Derivatives of numbers by each entry that has some, (numbers,); the others go into `refused`."""
+    known, listed = followed(machine, names, numbers, refused)
+    table = np.array([lifted(number, len(known)).d for number in listed]).reshape(len(listed), len(known))
+    return dict(zip(known, table.T, strict=True))
 
 
 def _reason(name: str, error: Exception) -> str:
@@ -77,21 +48,6 @@ def _reason(name: str, error: Exception) -> str:
     if isinstance(error, TypeError):
         return "not differentiable: it is a count, selects a motion law, or enters a searched length"
     return str(error)
-
-
-def _derived(
-    machine: Machine, names: Sequence[str], numbers: Callable[[Machine], Sequence[Any]]
-) -> dict[str, Floats]:
-    seeds = {
-        name: Tangent(float(entry_of(machine, name)), unit)
-        for name, unit in zip(names, np.eye(len(names)), strict=True)
-    }
-    listed = numbers(exchanged(machine, seeds))
-    table = np.zeros((len(listed), len(names)))
-    for row, number in zip(table, listed, strict=True):
-        if isinstance(number, Tangent):
-            row[:] = number.d
-    return dict(zip(names, table.T, strict=True))
 
 
 @dataclass(frozen=True)
