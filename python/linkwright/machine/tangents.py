@@ -106,7 +106,7 @@ def directions(
 ) -> Directions:
     """Derivatives of the program's numbers by entries of a machine, in the order of the entries.
 
-    Entries that follow from others are varied one at a time, as `linkwright.machine.tangents.columns` says.
+    Entries that follow from others are varied as `seeded` says.
     `motor`, `brake`: whether the motor is on and the brake applied.
     """
 
