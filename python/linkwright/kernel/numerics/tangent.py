@@ -126,6 +126,11 @@ class Tangent:
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """NumPy's functions of numbers."""
+        if method == "at" and ufunc is np.add:
+            array, key, more = inputs
+            more = _lifted(more, array.d.shape[-1])
+            np.add.at(array.value, key, more.value)
+            return np.add.at(array.d, _with_lanes(key), more.d)
         if method != "__call__" or options:
             raise TypeError(f"no derivative of numpy.{ufunc.__name__} with {method} and {sorted(options)}")
         own = _OWN_RULES.get(ufunc)
@@ -351,6 +356,12 @@ def numbers(listed: Sequence[Any]) -> Any:
     """A list of numbers as an array, with derivatives if one of them has some."""
     n = variables_of(listed)
     return np.asarray(listed) if n is None else _row(listed, n)
+
+
+def zeros_for(numbers: Iterable[Any], shape: tuple[int, ...], dtype: Any = float) -> Any:
+    """Zeros that numbers are added to, with derivatives if one of these has some."""
+    n, zeros = variables_of(numbers), np.zeros(shape, dtype)
+    return zeros if n is None else Tangent(zeros, np.zeros((*shape, n), dtype))
 
 
 def on_lines(x: Any, places: Sequence[Any], values: Sequence[Any], period: float | None = None) -> Any:
