@@ -22,6 +22,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, Kinks, occurs_at
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
@@ -304,10 +305,10 @@ def _collected(scene: Scene) -> Collector:
     """The forces of a scene, with derivatives where it has some."""
     models, sources = acting(scene, {})
     columns = {"": together(scene, sources.values())}
-    system, solution = solved(scene, models, columns)
+    system, found = solved(scene, models, columns)
     if isinstance(scene, _SceneAlong):
-        solution = _along(system, solution, columns[""])
-    return Collector(scene, models, sources, columns, solution)
+        found = _along(system, found, columns[""])
+    return Collector(scene, models, sources, columns, found)
 
 
 def _curves(of: Collector) -> dict[str, Any]:
@@ -317,9 +318,9 @@ def _curves(of: Collector) -> dict[str, Any]:
     return curves | {f"reaction_max.{name}": np.hypot(force[:, 0], force[:, 1]) for name, force in reactions}
 
 
-def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Solution:
+def _along(system: Equilibrium, found: Solution, load: AppliedLoad) -> Solution:
     """The unknowns with their derivatives, A dx = −(db + dA x)."""
-    x = solution.x.sum(axis=-1)
+    x = found.x.sum(axis=-1)
     # The extra forces are homogeneous of degree one: slopes times x, with x held.
     slopes = system.slopes_along(x)
     left = Wrenches(load.wrenches.scene).add(load.wrenches)
@@ -328,10 +329,10 @@ def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Soluti
             left.add(unknown, force)
         if model.is_nonlinear and model.extra is not None:
             left.add(model.extra, (slopes[:, span] * x[:, span]).sum(axis=-1))
-    change = system.equations(left.values).d
-    size = system.column_scale
-    usable = ~(solution.singular | solution.locked)
-    d = np.full((*x.shape, change.shape[-1]), np.nan)
-    d[usable] = np.linalg.solve(system.matrix(primal(slopes))[usable], -change[usable]) * size[:, None]
-    followed: Any = Tangent(x, d)
-    return replace(solution, x=followed[:, :, None], slopes=slopes)
+    change: Any = system.equations(left.values)
+    size, usable = system.column_scale, ~(found.singular | found.locked)
+    d = np.full(change.d.shape, np.nan)
+    d[usable] = (
+        solution_along(x[usable], change[usable], system.matrix(primal(slopes))[usable]).d * size[:, None]
+    )
+    return replace(found, x=Tangent(x, d)[:, :, None], slopes=slopes)

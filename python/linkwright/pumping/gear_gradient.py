@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, on_lines, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, effect_of_weights, stroke_load
@@ -105,7 +106,7 @@ def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
     up, down = at["torque_net_up"], at["torque_net_down"]
     excess: Any = up.net(size)[0] - down.net(size)[0]
     slope = float(primal(up.net_slope(size)[0] - down.net_slope(size)[0]))
-    return Tangent(np.float64(size), -excess.d / slope)
+    return solution_along(size, excess, slope)
 
 
 def _shares(scalars: dict[str, Any], gear: GearTorque) -> dict[str, Any]:

@@ -23,7 +23,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, common
-from linkwright.kernel.numerics.implicit import solution
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
@@ -172,7 +172,7 @@ def _turning(along: EdgeAlong, edge: Edge, at: float, n: int) -> tuple[Any, str]
     if abs(bend) <= _NEAR * abs(fixed.peak(2).value):
         return psi, _NOT_ALONE
     slope = law.value(at, 1)
-    return solution(at, _lift(slope, n), bend), ""
+    return solution_along(at, _lift(slope, n), bend), ""
 
 
 def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: Any) -> _Last:
@@ -191,7 +191,7 @@ def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: 
             t = t - slope / bend
         # How the condition moves at a fixed time: worked out in tangents.
         moved = _condition(along, side, lifted(t, needs.n), phase, offset, _lift(along.radius, needs.n))
-        time = solution(t, moved, _climb(edge, head, side, t)[1])
+        time = solution_along(t, moved, _climb(edge, head, side, t)[1])
     q, p = along.edge.place(time, phase, offset)
     radius = _lift(along.radius, needs.n)
     return _Last(nth, side, time, p, np.sqrt(radius * radius - p * p), q)

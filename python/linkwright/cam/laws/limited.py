@@ -24,7 +24,7 @@ from linkwright.cam.laws.handbook import constant_velocity, rest_to_rest
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
-from linkwright.kernel.numerics.implicit import solution
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import moves, primal, sqrt
 
 # Halvings after which an interval of floats is two neighbours.
@@ -76,7 +76,7 @@ class Limits:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if middle * bare.ramp(middle) <= lift else (low, middle)
         missing = low * self.ramp(low) - lift
-        return solution(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
+        return solution_along(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
 
     def shortest(self, lift: Any) -> Any:
         """Minimum length of a section with a lift of this size [rad]."""
@@ -125,7 +125,7 @@ def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
             slow = primal(lift) / middle + bare.ramp(middle) > length
             low, high = (middle, high) if slow else (low, middle)
         missing = lift / high + limits.ramp(high) - length
-        high = solution(high, missing, bare.ramp_slope(high) - primal(lift) / high**2)
+        high = solution_along(high, missing, bare.ramp_slope(high) - primal(lift) / high**2)
     return _profile(limits, high, lift / high).scaled(lift)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from linkwright.kernel.numerics.tangent import Tangent
 
 
-def solution(z: Any, residual: Any, slope: Any) -> Any:
+def solution_along(z: Any, residual: Any, slope: Any) -> Any:
     """A solution with the derivatives that its equation gives it; without any if the equation has none.
 
     `z`: numbers (…,), or vectors (…, n) of systems; `residual`: f at z held, in its shape; `slope`: ∂f/∂z, of

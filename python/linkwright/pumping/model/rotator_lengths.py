@@ -29,7 +29,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.errors import AssemblyError
-from linkwright.kernel.numerics.implicit import solution
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import (
     Tangent,
     lifted,
@@ -126,7 +126,7 @@ def _lever_along(unit: PumpingUnit, rotator: RodRotator, n: int) -> Any:
     moved = LeverStroke.of(unit, rotator, places)
     late = lifted(spread(moved, swing) - required(rotator), n)
     slope = spread(LeverStroke.of(*still, places), Tangent(swing, np.ones((1, 1, 1)))).d
-    return moved.lever(solution(swing, late, slope[..., 0]))[0, 0]
+    return moved.lever(solution_along(swing, late, slope[..., 0]))[0, 0]
 
 
 def _swing(stroke: LeverStroke, rotator: RodRotator, varies: bool) -> Any:

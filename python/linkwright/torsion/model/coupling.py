@@ -20,7 +20,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
-from linkwright.kernel.numerics.implicit import solution
+from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.units.kinds import INERTIA, POWER
@@ -103,7 +103,7 @@ class Coupling(CheckedDescription):
 
         low, high = np.zeros(np.shape(size)), np.ones(np.shape(size))
         z, _ = zeros(lambda z: np.asarray(primal(beyond(z))), low, high)
-        z = solution(z, beyond(z), primal(_hermite(z, *piece)[1]))
+        z = solution_along(z, beyond(z), primal(_hermite(z, *piece)[1]))
         stiffness: Floats = _hermite(z, *piece)[1] / h
         return stiffness
 
