@@ -291,7 +291,7 @@ class _SceneAlong(Scene):
     def __init__(self, machine: Machine, motion: Motion, entries: _Entries) -> None:
         self.n_variables = len(entries.program.variables)
         super().__init__(machine, motion)
-        self.kinematics = kinematics_along(machine, self.kinematics, entries.program.values)
+        self.kinematics = kinematics_along(machine, self.kinematics.angles, entries.program.values)
         self.machine, self.structure = entries.machine, entries.structure
         self.mechanism = self.machine.linkage
         self.links = self.mechanism.links()

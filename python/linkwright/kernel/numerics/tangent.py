@@ -572,6 +572,10 @@ _FUNCTIONS: dict[Any, Callable[..., Any]] = {
         np.moveaxis(x.value, source, to),
         np.moveaxis(x.d, source % x.ndim, to % x.ndim),
     ),
+    np.swapaxes: lambda x, one, other: Tangent(
+        np.swapaxes(x.value, one, other), np.swapaxes(x.d, one % x.ndim, other % x.ndim)
+    ),
+    np.unwrap: lambda x: Tangent(np.unwrap(x.value), x.d),
     np.broadcast_to: lambda x, shape: Tangent(
         np.broadcast_to(x.value, shape), np.broadcast_to(x.d, (*shape, x.d.shape[-1]))
     ),
