@@ -104,11 +104,10 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         for other in larger:
             moving = moving | kinks.moved_at(other, ON_KINK)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
-        extremes[name] = Tangent(float(curve[place]), np.where(moving, np.nan, tangent.d))
-        reasons = [tied(np.abs(curve), place, angles)]
-        reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
-        if any(reasons):
-            ties[name] = "; ".join(filter(None, reasons))
+        at_kink = larger[0] if larger else angle
+        extremes[name], why = kinks.extreme(float(curve[place]), tangent.d, at_kink, moving)
+        if reason := "; ".join(filter(None, (tied(np.abs(curve), place, angles), why))):
+            ties[name] = reason
     pairs = [name for name in (*extremes, *missing) if name.startswith("reaction_max.")]
     words = {name: f"maximum force of {name.partition('.')[2]}" for name in pairs}
     units = dict.fromkeys(pairs, "N")
@@ -142,12 +141,8 @@ def drive_torque_along(
     program = entries.program
     assert machine.drive is not None
     motion = motion_at(machine, None, speed=machine.drive.speed, angles=angles)
-    n, drive = len(program.variables), entries.machine.drive
-    assert drive is not None
-    given: Any = drive.speed
-    speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
-    still: Any = lifted(motion.acceleration, n)
-    along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
+    assert entries.machine.drive is not None
+    along = _at_speed(motion, entries.machine.drive.speed, len(program.variables))
     torque, _ = _collected(_SceneAlong(machine, along, entries)).drive_and_frame()
     return program, torque, kinks_of(machine, program)
 
@@ -262,24 +257,27 @@ def _motion_along(
     machine: Machine, motion: Motion, entries: _Entries, solution: SteadySolution | None
 ) -> tuple[Motion, dict[str, float], Floats | None]:
     """The motion with derivatives, entries by which they are lost, those of the driving torque if solved."""
-    program, phi = entries.program, motion.crank_angle
-    n = len(program.variables)
+    program, drive = entries.program, entries.machine.drive
     if solution is not None:
         gradient = gradient_along(machine, solution, program)
-        curves = gradient.curves(_of_speed(machine, phi))
+        curves = gradient.curves(_of_speed(machine, motion.crank_angle))
         followed: dict[str, Any] = {
             name: Tangent(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
-    drive = entries.machine.drive
     assert drive is not None
-    given: Any = drive.speed
-    if isinstance(drive.motor, ConstantSpeedMotor):
-        given = drive.motor.speed / drive.gearbox.ratio
-    speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
+    has_given = isinstance(drive.motor, ConstantSpeedMotor)
+    speed = drive.motor.speed / drive.gearbox.ratio if has_given else drive.speed
+    return _at_speed(motion, speed, len(program.variables)), {}, None
+
+
+def _at_speed(motion: Motion, speed: Any, n: int) -> Motion:
+    """A motion at a given speed, with derivatives by n variables."""
+    phi: Any = motion.crank_angle
+    speeds = lifted(np.ones(len(phi)), n) * speed
+    time = phi / speeds if motion.speed.any() else lifted(phi, n)
     acceleration: Any = lifted(motion.acceleration, n)
-    time: Any = phi / speed if motion.speed.any() else lifted(phi, n)
-    return replace(motion, speed=speed, acceleration=acceleration, time=time), {}, None
+    return replace(motion, speed=speeds, acceleration=acceleration, time=time)
 
 
 class _SceneAlong(Scene):

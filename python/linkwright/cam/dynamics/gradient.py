@@ -53,11 +53,10 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
         places["shear_max"] = places["pressure_max"]
     tangents, ties = {}, {}
     for key, slope in slopes.items():
-        moving = kinks.moved_at(places[key], _NEAR)
-        tangents[key] = Tangent(float(getattr(loaded, key)), np.where(moving, np.nan, slope))
-        words = [_tied(loaded, key), kinks.words(places[key], moving) if moving.any() else ""]
-        if any(words):
-            ties[key] = "; ".join(filter(None, words))
+        moving, value = kinks.moved_at(places[key], _NEAR), float(getattr(loaded, key))
+        tangents[key], why = kinks.extreme(value, slope, places[key], moving)
+        if words := "; ".join(filter(None, (_tied(loaded, key), why))):
+            ties[key] = words
     derivatives = Derivatives(program.variables, tangents, ties, {}, refused, lost)
     return derivatives.only([entry for entry in program.variables if entry not in refused])
 

@@ -127,6 +127,11 @@ class Kinks:
         on = [kink for kink in self.angles.tolist() if (off(angles, kink, self.cycle) <= near).any()]
         return [kink for kink in on if self.moved_at(kink, near).any()]
 
+    def extreme(self, value: float, d: Floats, angle: float, moving: Bools) -> tuple[Tangent, str]:
+        """An extreme beside a kink that variables move, by which it has no derivatives, and why."""
+        why = self.words(angle, moving) if moving.any() else ""
+        return Tangent(value, np.where(moving, np.nan, d)), why
+
     def words(self, angle: float, moving: Bools) -> str:
         """Which entries have no derivative there."""
         kink = float(self.angles[off(self.angles, angle, self.cycle).argmin()])
