@@ -18,7 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import cos, lifted, plain, primal, sin, total, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, cos, plain, primal, sin, total, variables_of
 
 # Points beyond the degree of the polynomial, and for each radian of the fastest harmonic: its series falls
 # like Bessel functions J_n(k/2), which are below rounding from n = k/2 + 20 on for the frequencies of motion
@@ -79,9 +79,8 @@ class Piece(NamedTuple):
 
     def at(self, u: Any) -> Any:
         """Value over u, of the same shape; with derivatives where the piece or u has some."""
-        n = variables_of((u, *self.numbers))
-        u = np.asarray(u, dtype=float) if n is None else lifted(u, n)
-        value: Any = np.zeros_like(u) if n is None else lifted(np.zeros(u.shape), n)
+        u = u if isinstance(u, Tangent) else np.asarray(u, dtype=float)
+        value: Any = np.zeros(np.shape(u))
         for coefficient in reversed(self.polynomial):
             value = value * u + coefficient
         for k, a, b in self.harmonics:
