@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, primal, zeros_for
 
 
 def _at(x: float, y: float) -> tuple[Tangent, Tangent]:
@@ -132,3 +133,34 @@ def test_a_sum_with_a_constant_does_not_change_what_it_is_of() -> None:
     own = (array + 1.0).copy()
     own[0] = 5.0
     assert not own.d[0].any()
+
+
+def test_a_number_is_an_array_without_axes() -> None:
+    """One table of rules: numbers meet arrays, and leave them, with the derivatives of each entry."""
+    x = Tangent(2.0, np.array([1.0, 0.0]))
+    found = np.array([1.0, 3.0]) * x + x**2
+    np.testing.assert_array_equal(found.value, [6.0, 10.0])
+    np.testing.assert_array_equal(found.d, [[5.0, 0.0], [7.0, 0.0]])
+    assert type(found[1].value) is float
+    assert (x.shape, x.ndim, x.size) == ((), 0, 1)
+    with pytest.raises(ZeroDivisionError):
+        1.0 / (x - 2.0)
+
+
+def test_sums_at_places_count_each_as_often_as_it_is_named() -> None:
+    sums = zeros_for([Tangent(1.0, np.ones(1))], (3,))
+    np.add.at(sums, [0, 2, 2], Tangent(np.array([1.0, 2.0, 4.0]), np.array([[1.0], [3.0], [5.0]])))
+    np.testing.assert_array_equal(sums.value, [1.0, 0.0, 6.0])
+    np.testing.assert_array_equal(sums.d[:, 0], [1.0, 0.0, 8.0])
+
+
+def test_a_solution_follows_its_equation() -> None:
+    """Closed forms: z² = p has dz = dp/2z, and A z = b with A held has dz = A⁻¹ db."""
+    p = Tangent(np.array([4.0, 9.0]), np.array([[1.0], [2.0]]))
+    z = np.array([2.0, 3.0])
+    np.testing.assert_allclose(solution_along(z, z * z - p, 2 * z).d, [[1 / 4], [2 / 6]], rtol=1e-15)
+    A = np.array([[2.0, 1.0], [1.0, 3.0]])
+    b = Tangent(np.array([3.0, 4.0]), np.eye(2))
+    z = np.linalg.solve(A, b.value)
+    np.testing.assert_allclose(solution_along(z, A @ z - b, A).d, np.linalg.inv(A), rtol=1e-14)
+    assert solution_along(2.0, 0.0, 4.0) == 2.0
