@@ -33,7 +33,7 @@ from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variable
 from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, columns
+from linkwright.machine.tangents import Derivatives, followed, scalars_of
 
 # Their places are looked for.
 _TIE = TIE_OF_SOLVED
@@ -66,23 +66,19 @@ def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Deriv
     refused: dict[str, str] = {}
     ties: dict[str, str] = {}
     # Only these have a part in the profile; the others leave it as it is.
-    own = [entry for entry in variables if entry.startswith(("mechanism.", "drive."))]
-    values = {key: getattr(profile, key) for key in _SCALARS if getattr(profile, key) is not None}
+    own: Sequence[str] = [entry for entry in variables if entry.startswith(("mechanism.", "drive."))]
 
     # What cannot be followed is found on the way to the contacts, which takes little.
-    columns(machine, own, lambda along: [_touching(along, name)[0].start], refused)
-    own = [entry for entry in own if entry not in refused]
+    own, _ = followed(machine, own, lambda along: _touching(along, name)[0].start, refused)
     scale = np.array([abs(float(get(machine, entry))) or 1.0 for entry in own])
 
-    def followed(along: Machine) -> list[Any]:
-        scalars = _Scalars(along, profile, ties, scale)
-        return [scalars.of(key) for key in values]
+    def scalars(along: Machine) -> dict[str, Any]:
+        of_cam = _Scalars(along, profile, ties, scale)
+        return {key: of_cam.of(key) for key in _SCALARS if getattr(profile, key) is not None}
 
-    by_entry = columns(machine, own, followed, refused)
+    known, numbers = followed(machine, own, scalars, refused)
     listed = tuple(entry for entry in variables if entry not in refused)
-    still = np.zeros(len(values))
-    table = np.array([by_entry.get(entry, still) for entry in listed]).reshape(len(listed), len(values)).T
-    tangents = {key: Tangent(float(values[key]), row) for key, row in zip(values, table, strict=True)}
+    tangents = scalars_of(profile, numbers, known, listed)
     missing = {key: _PLACE for key in _PLACES if getattr(profile, key) is not None}
     cam = machine.mechanism.cams[profile.name]
     units = {key: unit_in(shown(CamProfile, key).unit, cam) for key in tangents}

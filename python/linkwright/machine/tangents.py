@@ -199,6 +199,18 @@ def spread(number: Any, known: Sequence[str], listed: Sequence[str], value: floa
     return Tangent(float(along.value) if value is None else value, row)
 
 
+def scalars_of(
+    result: Any, numbers: Mapping[str, Any], known: Sequence[str], listed: Sequence[str]
+) -> dict[str, Tangent]:
+    """Numbers that a result has, with their values there and derivatives as `spread` gives them."""
+    values = {name: getattr(result, name) for name in numbers}
+    return {
+        name: spread(numbers[name], known, listed, float(value))
+        for name, value in values.items()
+        if value is not None
+    }
+
+
 def followed(
     machine: Machine, names: Sequence[str], work: Callable[[Machine], Any], refused: dict[str, str]
 ) -> tuple[tuple[str, ...], Any]:

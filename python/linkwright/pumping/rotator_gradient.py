@@ -27,7 +27,7 @@ from linkwright.kernel.numerics.extreme import TIE, chosen, common, differ, they
 from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, spread
+from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, scalars_of
 from linkwright.pumping.gradient import RodAlong
 from linkwright.pumping.lever import Lever
 from linkwright.pumping.model.rod_rotator import RodRotator, diagonal
@@ -63,10 +63,7 @@ def rotator_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of a rotator by some entries. Raises what `rod_rotator` raises."""
     along = RotatorAlong.of(machine, variables)
     listed = tuple(name for name in variables if name not in along.refused)
-    tangents = {
-        name: spread(number, along.entries, listed, float(getattr(along.result, name)))
-        for name, number in along.scalars().items()
-    }
+    tangents = scalars_of(along.result, along.scalars(), along.entries, listed)
     return Derivatives(listed, tangents, along.ties, _missing(along.result), along.refused)
 
 

@@ -35,7 +35,7 @@ class Tangent:
 
     def __init__(self, value: Any, d: Any) -> None:
         # One number stays a number: most of a description is.
-        self.value = value if type(value) is float else _of_value(value)
+        self.value: Any = value if type(value) is float else _of_value(value)
         self.d = np.asarray(d)
 
     # -- an array like any other -------------------------------------------------------------------------
@@ -107,7 +107,9 @@ class Tangent:
 
     def mean(self) -> Tangent:
         """Mean of all values."""
-        return self.sum() / self.size
+        total: Any = self.sum()
+        mean: Tangent = total / self.size
+        return mean
 
     def sum(self, axis: int | None = None) -> Tangent:
         """Sum over an axis or all."""
