@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import TangentArray
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, primal, zeros_for
 
 
 def _at(x: float, y: float) -> tuple[Tangent, Tangent]:
@@ -55,23 +55,23 @@ def test_a_derivative_is_never_dropped(lose):
 
 
 def test_where_two_are_equal_the_larger_has_no_derivative_unless_theirs_are() -> None:
-    x = TangentArray(np.array([0.0, 1.0]), np.array([[1.0], [1.0]]))
+    x = Tangent(np.array([0.0, 1.0]), np.array([[1.0], [1.0]]))
     np.testing.assert_array_equal(np.maximum(x, 0.0).d[:, 0], [np.nan, 1.0])
     np.testing.assert_array_equal(np.minimum(x, 0.0).d[:, 0], [np.nan, 0.0])
     np.testing.assert_array_equal(np.maximum(x, x).d[:, 0], [1.0, 1.0])
 
 
 def test_a_negative_base_has_no_derivative_by_its_power() -> None:
-    base = TangentArray(np.array([-2.0]), np.array([[1.0, 0.0]]))
-    power = TangentArray(np.array([2.0]), np.array([[0.0, 1.0]]))
+    base = Tangent(np.array([-2.0]), np.array([[1.0, 0.0]]))
+    power = Tangent(np.array([2.0]), np.array([[0.0, 1.0]]))
     np.testing.assert_array_equal((base**power).d, [[-4.0, np.nan]])
 
 
-def _rows(formula, x: TangentArray, y: TangentArray) -> TangentArray:
+def _rows(formula, x: Tangent, y: Tangent) -> Tangent:
     """A formula of one number after another."""
     pairs = zip(x.value, x.d, y.value, y.d, strict=True)
     numbers = [formula(Tangent(a, da), Tangent(b, db)) for a, da, b, db in pairs]
-    return TangentArray([number.value for number in numbers], [number.d for number in numbers])
+    return Tangent([number.value for number in numbers], [number.d for number in numbers])
 
 
 @pytest.mark.parametrize(
@@ -85,7 +85,7 @@ def _rows(formula, x: TangentArray, y: TangentArray) -> TangentArray:
 )
 def test_arrays_follow_the_rules_of_numbers(formula) -> None:
     rng = np.random.default_rng(3)
-    x, y = (TangentArray(rng.uniform(0.5, 1.4, 5), rng.normal(size=(5, 4))) for _ in range(2))
+    x, y = (Tangent(rng.uniform(0.5, 1.4, 5), rng.normal(size=(5, 4))) for _ in range(2))
     expected = _rows(formula, x, y)
     for found in (formula(x, y), formula(x[:, None], y[:, None])[:, 0]):
         np.testing.assert_allclose(found.value, expected.value, rtol=1e-14)
@@ -94,8 +94,8 @@ def test_arrays_follow_the_rules_of_numbers(formula) -> None:
 
 def test_arrays_with_and_without_derivatives_stretch_like_those_of_numpy() -> None:
     rng = np.random.default_rng(4)
-    x = TangentArray(rng.uniform(1, 2, (3, 1)), rng.normal(size=(3, 1, 4)))
-    y = TangentArray(rng.uniform(1, 2, 2), rng.normal(size=(2, 4)))
+    x = Tangent(rng.uniform(1, 2, (3, 1)), rng.normal(size=(3, 1, 4)))
+    y = Tangent(rng.uniform(1, 2, 2), rng.normal(size=(2, 4)))
     plain = rng.uniform(1, 2, (3, 2))
     for found, value, d in (
         (x + y, x.value + y.value, x.d + y.d),
@@ -114,9 +114,9 @@ def test_arrays_with_and_without_derivatives_stretch_like_those_of_numpy() -> No
 
 def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
     """0·∞ and 1/0 leave no derivative by what moves the zero, and none is needed by what does not."""
-    x = TangentArray(np.array([0.0, 2.0]), np.array([[1.0, 0.0], [1.0, 0.0]]))
+    x = Tangent(np.array([0.0, 2.0]), np.array([[1.0, 0.0], [1.0, 0.0]]))
     with np.errstate(all="ignore"):
-        for found in (x * np.inf, np.array([np.inf, np.inf]) * x, x * TangentArray(np.inf, np.zeros(2))):
+        for found in (x * np.inf, np.array([np.inf, np.inf]) * x, x * Tangent(np.inf, np.zeros(2))):
             np.testing.assert_array_equal(found.d, [[np.inf, 0.0], [np.inf, 0.0]])
         inverse = 1.0 / x
         np.testing.assert_array_equal(inverse.d, [[-np.inf, 0.0], [-0.25, 0.0]])
@@ -125,7 +125,7 @@ def test_a_slope_that_does_not_exist_counts_where_something_moves() -> None:
 
 def test_a_sum_with_a_constant_does_not_change_what_it_is_of() -> None:
     """Both have the same derivatives: they are not copied, and cannot be written to through the sum."""
-    array = TangentArray(np.arange(3.0), np.eye(3))
+    array = Tangent(np.arange(3.0), np.eye(3))
     for other in (array + 1.0, 1.0 + array, array - 1.0):
         with pytest.raises(ValueError, match="read-only"):
             other[0] = 5.0
@@ -133,3 +133,34 @@ def test_a_sum_with_a_constant_does_not_change_what_it_is_of() -> None:
     own = (array + 1.0).copy()
     own[0] = 5.0
     assert not own.d[0].any()
+
+
+def test_a_number_is_an_array_without_axes() -> None:
+    """One table of rules: numbers meet arrays, and leave them, with the derivatives of each entry."""
+    x = Tangent(2.0, np.array([1.0, 0.0]))
+    found = np.array([1.0, 3.0]) * x + x**2
+    np.testing.assert_array_equal(found.value, [6.0, 10.0])
+    np.testing.assert_array_equal(found.d, [[5.0, 0.0], [7.0, 0.0]])
+    assert type(found[1].value) is float
+    assert (x.shape, x.ndim, x.size) == ((), 0, 1)
+    with pytest.raises(ZeroDivisionError):
+        1.0 / (x - 2.0)
+
+
+def test_sums_at_places_count_each_as_often_as_it_is_named() -> None:
+    sums = zeros_for([Tangent(1.0, np.ones(1))], (3,))
+    np.add.at(sums, [0, 2, 2], Tangent(np.array([1.0, 2.0, 4.0]), np.array([[1.0], [3.0], [5.0]])))
+    np.testing.assert_array_equal(sums.value, [1.0, 0.0, 6.0])
+    np.testing.assert_array_equal(sums.d[:, 0], [1.0, 0.0, 8.0])
+
+
+def test_a_solution_follows_its_equation() -> None:
+    """Closed forms: z² = p has dz = dp/2z, and A z = b with A held has dz = A⁻¹ db."""
+    p = Tangent(np.array([4.0, 9.0]), np.array([[1.0], [2.0]]))
+    z = np.array([2.0, 3.0])
+    np.testing.assert_allclose(solution_along(z, z * z - p, 2 * z).d, [[1 / 4], [2 / 6]], rtol=1e-15)
+    A = np.array([[2.0, 1.0], [1.0, 3.0]])
+    b = Tangent(np.array([3.0, 4.0]), np.eye(2))
+    z = np.linalg.solve(A, b.value)
+    np.testing.assert_allclose(solution_along(z, A @ z - b, A).d, np.linalg.inv(A), rtol=1e-14)
+    assert solution_along(2.0, 0.0, 4.0) == 2.0

@@ -17,7 +17,7 @@ from linkwright import _core
 from linkwright.cam.laws.motion_law import MotionLaw, Side
 from linkwright.cam.model.follower import Sizes
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 from linkwright.machine.program.numbers import core_law
 
 CamOffset = _core.CamOffset
@@ -115,7 +115,7 @@ class CamKernel:
         along = self.core.rows_along(
             self.size, _floats(angles.value), before, sizes.ravel(), np.ravel(lift), np.ravel(angles.d)
         )
-        return {name: TangentArray(row, along[name].reshape(-1, n)) for name, row in rows.items()}
+        return {name: Tangent(row, along[name].reshape(-1, n)) for name, row in rows.items()}
 
     def curve(self, angle: ArrayLike, away: float, *, before: bool = False) -> _core.CamOffset:
         """A curve ``away`` from the pitch one [m] at cam angles; see `_core.CamOffset`."""

@@ -29,12 +29,11 @@ from linkwright.cam.profile.contact import Contact, contacts, opposite
 from linkwright.cam.profile.profile import CamProfile, cam_profile, in_time, radius_beside, unit_in
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, apart, degrees
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 from linkwright.kernel.quantities import shown
 from linkwright.machine.address import get
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, columns
+from linkwright.machine.tangents import Derivatives, followed, scalars_of
 
 # Their places are looked for.
 _TIE = TIE_OF_SOLVED
@@ -67,23 +66,19 @@ def cam_tangents(machine: Machine, name: str, variables: Sequence[str]) -> Deriv
     refused: dict[str, str] = {}
     ties: dict[str, str] = {}
     # Only these have a part in the profile; the others leave it as it is.
-    own = [entry for entry in variables if entry.startswith(("mechanism.", "drive."))]
-    values = {key: getattr(profile, key) for key in _SCALARS if getattr(profile, key) is not None}
+    own: Sequence[str] = [entry for entry in variables if entry.startswith(("mechanism.", "drive."))]
 
     # What cannot be followed is found on the way to the contacts, which takes little.
-    columns(machine, own, lambda along: [_touching(along, name)[0].start], refused)
-    own = [entry for entry in own if entry not in refused]
+    own, _ = followed(machine, own, lambda along: _touching(along, name)[0].start, refused)
     scale = np.array([abs(float(get(machine, entry))) or 1.0 for entry in own])
 
-    def followed(along: Machine) -> list[Any]:
-        scalars = _Scalars(along, profile, ties, scale)
-        return [scalars.of(key) for key in values]
+    def scalars(along: Machine) -> dict[str, Any]:
+        of_cam = _Scalars(along, profile, ties, scale)
+        return {key: of_cam.of(key) for key in _SCALARS if getattr(profile, key) is not None}
 
-    by_entry = columns(machine, own, followed, refused)
+    known, numbers = followed(machine, own, scalars, refused)
     listed = tuple(entry for entry in variables if entry not in refused)
-    still = np.zeros(len(values))
-    table = np.array([by_entry.get(entry, still) for entry in listed]).reshape(len(listed), len(values)).T
-    tangents = {key: Tangent(float(values[key]), row) for key, row in zip(values, table, strict=True)}
+    tangents = scalars_of(profile, numbers, known, listed)
     missing = {key: _PLACE for key in _PLACES if getattr(profile, key) is not None}
     cam = machine.mechanism.cams[profile.name]
     units = {key: unit_in(shown(CamProfile, key).unit, cam) for key in tangents}
@@ -132,7 +127,7 @@ class _Curve:
 
     def slope(self, angles: Floats) -> Floats:
         """Derivative by the cam angle inside the pieces."""
-        value = self.plain(TangentArray(angles, np.ones((len(angles), 1))), "after")
+        value = self.plain(Tangent(angles, np.ones((len(angles), 1))), "after")
         slope: Floats = value.d[:, 0]
         return slope
 
@@ -142,8 +137,7 @@ class _Curve:
         k = int(np.argmin(np.abs(joints - angle)))
         place = self.law.breaks[k] if abs(joints[k] - angle) < _AT_JOINT else angle
         n = variables_of((place,)) or self.law.variables or 1
-        value = self.of(lifted(np.array([place], dtype=object), n), side)
-        return lifted(value, n)[0].number()
+        return lifted(self.of(lifted(place, n).reshape(1), side), n)[0]
 
 
 class _Scalars:

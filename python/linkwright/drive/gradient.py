@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -320,16 +321,24 @@ class _Tie:
 
 
 def _ties(compiled: CompiledMachine, state: SteadyState, solution: SteadySolution) -> dict[str, _Tie]:
-    """Extremes that the motion has twice."""
-    ties: dict[str, _Tie] = {}
-    peaks = _Peaks(compiled, solution)
-    for quantity in ("speed", "acceleration"):
-        for end, sign in (("min", -1.0), ("max", 1.0)):
-            name = f"{quantity}_{end}"
-            extreme = (getattr(state, f"{name}_angle"), sign * getattr(state, name))
-            angles = peaks.as_high_as(extreme, quantity, sign)
-            if len(angles) > 1:
-                ties[name] = _Tie(quantity, getattr(state, name), angles)
+    """Extremes that the motion has twice, by its peaks on the solution itself."""
+    cycle, beside = compiled.cycle, np.concatenate([-_BESIDE, _BESIDE])
+    near_kinks = (compiled.kinks()[:, None] + beside).ravel()
+    angles = np.unique(np.concatenate([turn_angles(_LOOK, compiled.turns)[:-1], near_kinks]) % cycle)
+    curves, ties = solution.curves(angles), dict[str, _Tie]()
+    for quantity, (end, sign) in product(("speed", "acceleration"), (("min", -1.0), ("max", 1.0))):
+
+        def read(at: Floats, quantity: str = quantity, sign: float = sign) -> Floats:
+            order, back = np.unique(at % cycle, return_inverse=True)
+            values: Floats = sign * getattr(solution.curves(order), quantity)
+            return values[back.reshape(at.shape)]
+
+        name = f"{quantity}_{end}"
+        looked = angles, sign * getattr(curves, quantity)
+        extreme = (getattr(state, f"{name}_angle"), sign * getattr(state, name))
+        rivals = as_high(read, looked, extreme, cycle, near=_APART, rounds=_ROUNDS)
+        if len(rivals) > 1:
+            ties[name] = _Tie(quantity, getattr(state, name), rivals)
     return ties
 
 
@@ -343,30 +352,3 @@ def _equal_peaks(state: SteadyState, gradient: SteadyGradient, along: Directions
     differs = np.isfinite(change) & (change > ALIKE_OF_SOLVED * np.abs(gradient.acceleration_max))
     by = chosen(along.variables, differs)
     return f"its positive and negative peaks are equal; {they_differ(by)}" if by else ""
-
-
-class _Peaks:
-    """Peaks of speed and acceleration over a revolution, on the solution itself."""
-
-    def __init__(self, compiled: CompiledMachine, solution: SteadySolution) -> None:
-        self.solution, self.cycle = solution, compiled.cycle
-        even = turn_angles(_LOOK, compiled.turns)[:-1]
-        beside = np.concatenate([-_BESIDE, _BESIDE])
-        angles = np.concatenate([even, (compiled.kinks()[:, None] + beside).ravel()])
-        self.angles = np.unique(angles % self.cycle)
-        self.curves = solution.curves(self.angles)
-
-    def _read(self, angles: Floats, quantity: str) -> Floats:
-        """Speed or acceleration at crank angles of any shape."""
-        order, back = np.unique(angles % self.cycle, return_inverse=True)
-        read: Floats = getattr(self.solution.curves(order), quantity)
-        return read[back.reshape(angles.shape)]
-
-    def as_high_as(self, extreme: tuple[float, float], quantity: str, sign: float) -> list[float]:
-        """Angles [rad] of the highest peak and of all that are as high, of a curve with a sign."""
-        looked = self.angles, sign * getattr(self.curves, quantity)
-
-        def read(angles: Floats) -> Floats:
-            return sign * self._read(angles, quantity)
-
-        return as_high(read, looked, extreme, self.cycle, near=_APART, rounds=_ROUNDS)

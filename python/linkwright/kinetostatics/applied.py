@@ -16,7 +16,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.kernel.numerics.tangent_array import on_lines, primal
+from linkwright.kernel.numerics.tangent import on_lines, primal
 from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.numerics.tangent_array import primal
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.public.immutable import LazyTable
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.equilibrium import Solution

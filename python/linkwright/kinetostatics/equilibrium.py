@@ -19,7 +19,7 @@ import numpy as np
 from linkwright.kernel.arrays import Bools, Floats, Indices
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.limits import FORCES, grouped
-from linkwright.kernel.numerics.tangent_array import primal
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches

@@ -22,8 +22,8 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.numerics.extreme import TIE_OF_SOLVED, Kinks, occurs_at
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
@@ -94,21 +94,20 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     if driving is not None:
         # Equilibrium makes the driving torque of torques of inertia, in a nearly neutral drive of some that
         # are a million times as large. It is that of the motor at its speed.
-        tangents["torque_drive_max"] = TangentArray(primal(tangents["torque_drive_max"]), driving)
+        tangents["torque_drive_max"] = Tangent(primal(tangents["torque_drive_max"]), driving)
     extremes, ties = {}, {}
     for name, place in places.items():
         (curve, sides), angle = curves[name], float(angles[place])
-        tangent = tangents[name][int(np.searchsorted(at, angle))].number()
+        tangent = tangents[name][int(np.searchsorted(at, angle))]
         moving = kinks.moved_at(angle, ON_KINK)
         larger = beside[np.abs(sides) > peaks[name] * (1.0 + TIE_OF_SOLVED)].tolist()
         for other in larger:
             moving = moving | kinks.moved_at(other, ON_KINK)
         # The extreme is that of the result to the last digit; the tangent's is worked out anew.
-        extremes[name] = Tangent(float(curve[place]), np.where(moving, np.nan, tangent.d))
-        reasons = [tied(np.abs(curve), place, angles)]
-        reasons += [kinks.words(larger[0] if larger else angle, moving)] if moving.any() else []
-        if any(reasons):
-            ties[name] = "; ".join(filter(None, reasons))
+        at_kink = larger[0] if larger else angle
+        extremes[name], why = kinks.extreme(float(curve[place]), tangent.d, at_kink, moving)
+        if reason := "; ".join(filter(None, (tied(np.abs(curve), place, angles), why))):
+            ties[name] = reason
     pairs = [name for name in (*extremes, *missing) if name.startswith("reaction_max.")]
     words = {name: f"maximum force of {name.partition('.')[2]}" for name in pairs}
     units = dict.fromkeys(pairs, "N")
@@ -142,12 +141,8 @@ def drive_torque_along(
     program = entries.program
     assert machine.drive is not None
     motion = motion_at(machine, None, speed=machine.drive.speed, angles=angles)
-    n, drive = len(program.variables), entries.machine.drive
-    assert drive is not None
-    given: Any = drive.speed
-    speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
-    still: Any = lifted(motion.acceleration, n)
-    along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
+    assert entries.machine.drive is not None
+    along = _at_speed(motion, entries.machine.drive.speed, len(program.variables))
     torque, _ = _collected(_SceneAlong(machine, along, entries)).drive_and_frame()
     return program, torque, kinks_of(machine, program)
 
@@ -262,24 +257,27 @@ def _motion_along(
     machine: Machine, motion: Motion, entries: _Entries, solution: SteadySolution | None
 ) -> tuple[Motion, dict[str, float], Floats | None]:
     """The motion with derivatives, entries by which they are lost, those of the driving torque if solved."""
-    program, phi = entries.program, motion.crank_angle
-    n = len(program.variables)
+    program, drive = entries.program, entries.machine.drive
     if solution is not None:
         gradient = gradient_along(machine, solution, program)
-        curves = gradient.curves(_of_speed(machine, phi))
+        curves = gradient.curves(_of_speed(machine, motion.crank_angle))
         followed: dict[str, Any] = {
-            name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
+            name: Tangent(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
-    drive = entries.machine.drive
     assert drive is not None
-    given: Any = drive.speed
-    if isinstance(drive.motor, ConstantSpeedMotor):
-        given = drive.motor.speed / drive.gearbox.ratio
-    speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
+    has_given = isinstance(drive.motor, ConstantSpeedMotor)
+    speed = drive.motor.speed / drive.gearbox.ratio if has_given else drive.speed
+    return _at_speed(motion, speed, len(program.variables)), {}, None
+
+
+def _at_speed(motion: Motion, speed: Any, n: int) -> Motion:
+    """A motion at a given speed, with derivatives by n variables."""
+    phi: Any = motion.crank_angle
+    speeds = lifted(np.ones(len(phi)), n) * speed
+    time = phi / speeds if motion.speed.any() else lifted(phi, n)
     acceleration: Any = lifted(motion.acceleration, n)
-    time: Any = phi / speed if motion.speed.any() else lifted(phi, n)
-    return replace(motion, speed=speed, acceleration=acceleration, time=time), {}, None
+    return replace(motion, speed=speeds, acceleration=acceleration, time=time)
 
 
 class _SceneAlong(Scene):
@@ -291,24 +289,24 @@ class _SceneAlong(Scene):
     def __init__(self, machine: Machine, motion: Motion, entries: _Entries) -> None:
         self.n_variables = len(entries.program.variables)
         super().__init__(machine, motion)
-        self.kinematics = kinematics_along(machine, self.kinematics, entries.program.values)
+        self.kinematics = kinematics_along(machine, self.kinematics.angles, entries.program.values)
         self.machine, self.structure = entries.machine, entries.structure
         self.mechanism = self.machine.linkage
         self.links = self.mechanism.links()
 
     def zeros(self, *shape: int) -> Any:
         """An array to be filled with what follows from the machine."""
-        return TangentArray(np.zeros(shape), np.zeros((*shape, self.n_variables)))
+        return Tangent(np.zeros(shape), np.zeros((*shape, self.n_variables)))
 
 
 def _collected(scene: Scene) -> Collector:
     """The forces of a scene, with derivatives where it has some."""
     models, sources = acting(scene, {})
     columns = {"": together(scene, sources.values())}
-    system, solution = solved(scene, models, columns)
+    system, found = solved(scene, models, columns)
     if isinstance(scene, _SceneAlong):
-        solution = _along(system, solution, columns[""])
-    return Collector(scene, models, sources, columns, solution)
+        found = _along(system, found, columns[""])
+    return Collector(scene, models, sources, columns, found)
 
 
 def _curves(of: Collector) -> dict[str, Any]:
@@ -318,9 +316,9 @@ def _curves(of: Collector) -> dict[str, Any]:
     return curves | {f"reaction_max.{name}": np.hypot(force[:, 0], force[:, 1]) for name, force in reactions}
 
 
-def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Solution:
+def _along(system: Equilibrium, found: Solution, load: AppliedLoad) -> Solution:
     """The unknowns with their derivatives, A dx = −(db + dA x)."""
-    x = solution.x.sum(axis=-1)
+    x = found.x.sum(axis=-1)
     # The extra forces are homogeneous of degree one: slopes times x, with x held.
     slopes = system.slopes_along(x)
     left = Wrenches(load.wrenches.scene).add(load.wrenches)
@@ -329,10 +327,10 @@ def _along(system: Equilibrium, solution: Solution, load: AppliedLoad) -> Soluti
             left.add(unknown, force)
         if model.is_nonlinear and model.extra is not None:
             left.add(model.extra, (slopes[:, span] * x[:, span]).sum(axis=-1))
-    change = system.equations(left.values).d
-    size = system.column_scale
-    usable = ~(solution.singular | solution.locked)
-    d = np.full((*x.shape, change.shape[-1]), np.nan)
-    d[usable] = np.linalg.solve(system.matrix(primal(slopes))[usable], -change[usable]) * size[:, None]
-    followed: Any = TangentArray(x, d)
-    return replace(solution, x=followed[:, :, None], slopes=slopes)
+    change: Any = system.equations(left.values)
+    size, usable = system.column_scale, ~(found.singular | found.locked)
+    d = np.full(change.d.shape, np.nan)
+    d[usable] = (
+        solution_along(x[usable], change[usable], system.matrix(primal(slopes))[usable]).d * size[:, None]
+    )
+    return replace(found, x=Tangent(x, d)[:, :, None], slopes=slopes)

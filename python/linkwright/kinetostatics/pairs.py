@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent_array import variables_of
+from linkwright.kernel.numerics.tangent import variables_of
 from linkwright.kinetostatics.friction import FRICTIONLESS, Friction
 from linkwright.kinetostatics.places import Scene, dot, left
 from linkwright.kinetostatics.wrench import Wrenches, units_between

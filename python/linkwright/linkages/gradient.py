@@ -13,7 +13,7 @@ Where two extremes tie and follow an entry differently, there are only one-sided
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,8 +22,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.extreme import ALIKE, TIE, chosen, differ, occurs_at, they_differ
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kernel.quantities import shown
 from linkwright.linkages.cycle import ElementMotion, examined, swept_cycle
 from linkwright.linkages.dyads import transmission, transmission_channels, transmission_slope
@@ -31,7 +30,6 @@ from linkwright.linkages.sweep import Cycle, LinkageSweep, Output, ways_between
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel
-from linkwright.machine.program.motion import WIDTHS, LinkRows, Rows, SlideRows
 from linkwright.machine.tangents import Derivatives, Directions, directions
 
 # A derivative by an entry doubled below this share of the largest is what rounding leaves of zero.
@@ -235,10 +233,10 @@ def _in_turn(angles: Floats) -> Floats:
 def _output_turns(compiled: CompiledMachine, swept: LinkageSweep, k: int, program: Directions) -> _Turns:
     """Where an output turns back."""
     output, angles = swept.outputs[k], swept.reversals(k)
-    (rows,) = _motion_along(compiled, [output.channel], angles, program)
+    (rows,) = compiled.motion([output.channel], angles, program.values)
     (bend,) = compiled.motion([output.channel], angles)
     heights = swept.positions(k, angles)
-    along = TangentArray(heights, _slope_of(output, rows))
+    along = Tangent(heights, _slope_of(output, rows))
     return _Turns.of(angles, along, rows.d1, bend.d2, len(program.variables))
 
 
@@ -261,33 +259,11 @@ def _transmission_turns(
         return None
     dyad, angles = swept.dyads[k], swept.turns_of_transmission(k)
     channels = transmission_channels(compiled, dyad)
-    rows = _motion_along(compiled, channels, angles, program)
-    numbers: Any = TangentArray(compiled.parameters, program.values)
+    rows = compiled.motion(channels, angles, program.values)
+    numbers: Any = Tangent(compiled.parameters, program.values)
     mu: Any = transmission(numbers, dyad, rows)
     slope: Any = transmission_slope(numbers, dyad, rows)
     # The slope is linear in the rates: with second derivatives in place of first ones it is its derivative.
     bends = [row._replace(d1=row.d2) for row in compiled.motion(channels, angles)]
     bend = transmission_slope(compiled.parameters, dyad, bends)
     return _Turns.of(angles, mu, slope, bend, len(program.variables))
-
-
-def _motion_along(
-    compiled: CompiledMachine, channels: list[Channel], angles: Floats, program: Directions
-) -> list[Rows]:
-    """Motion of links and slides with derivatives by the entries, at fixed crank angles."""
-    table = compiled.motions_along(program.values, angles, channels)
-    return list(_with(compiled.motion(channels, angles), channels, table))
-
-
-def _with(motion: list[Rows], channels: list[Channel], table: Floats) -> Iterator[Rows]:
-    """Motion with its derivatives, (numbers, n, k), in the order of the core's rows."""
-    array: Any = TangentArray
-    at = 0
-    for rows, channel in zip(motion, channels, strict=True):
-        d = table[at : at + WIDTHS[type(channel)]]
-        at += len(d)
-        if isinstance(rows, LinkRows):
-            yield LinkRows(array(rows.direction, d[:2]), array(rows.d1, d[2]), array(rows.d2, d[3]))
-        else:
-            assert isinstance(rows, SlideRows)
-            yield SlideRows(*(array(row, slope) for row, slope in zip(rows, d, strict=True)))

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, MachineError, Problem, ShapeError
-from linkwright.kernel.numerics.tangent_array import TangentArray
+from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array, shown
 from linkwright.kernel.public.immutable import LazyTable
@@ -225,20 +225,15 @@ def with_third(compiled: CompiledMachine, kinematics: Kinematics, what: list[tup
     return Kinematics(kinematics.angles, **parts)
 
 
-def kinematics_along(machine: Machine, motion: Kinematics, directions: Floats) -> Kinematics:
-    """A motion of a machine with its derivatives by directions of the program's numbers (parameters, k).
+def kinematics_along(machine: Machine, angles: Floats, directions: Floats) -> Kinematics:
+    """The motion of a machine with its derivatives by directions of the program's numbers (parameters, k).
 
     The attributes of points, links and slides are arrays of tangents, at fixed crank angles.
     """
     compiled = compile_machine(machine)
     what = everything(compiled)
-    table = rows_along(compiled, motion.angles, what, directions)
-    parts: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
-    at = 0
-    for part, name in what:
-        parts[part][name] = _along(part, getattr(motion, part)[name], table[at : at + _WIDTHS[part]])
-        at += _WIDTHS[part]
-    return Kinematics(motion.angles, **parts)
+    table = motion_arrays(compiled, angles, what)[0]
+    return _collect(angles, Tangent(table, rows_along(compiled, angles, what, directions)), what)
 
 
 def rows_along(
@@ -248,20 +243,6 @@ def rows_along(
     known = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
     channels = [_CHANNELS[part](known[part][name]) for part, name in what]
     return compiled.motions_along(directions, angles, channels)
-
-
-def _along(part: str, motion: Any, table: Floats) -> Any:
-    """A part's motion with derivatives, in the order of the core's rows."""
-    array: Any = TangentArray
-    if part == "points":
-        d = [table[k : k + 2].swapaxes(0, 1) for k in (0, 2, 4)]
-        return PointMotion(*map(array, (motion.position, motion.d1, motion.d2), d))
-    if part == "slides":
-        return SlideMotion(*map(array, (motion.position, motion.d1, motion.d2), table))
-    # Of a unit vector e: dψ = e × de.
-    cos, sin = np.cos(motion.angle)[:, None], np.sin(motion.angle)[:, None]
-    angle = array(motion.angle, cos * table[1] - sin * table[0])
-    return LinkMotion(angle, array(motion.d1, table[2]), array(motion.d2, table[3]))
 
 
 def checked_angles(angles: ArrayLike) -> Floats:
@@ -292,9 +273,10 @@ def crank_angles(angles: ArrayLike) -> Floats:
     return phi
 
 
-def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinematics:
+def _collect(phi: Floats, table: Any, what: list[tuple[str, str]]) -> Kinematics:
     makers: dict[str, dict[str, Any]] = {part: {} for part in _WIDTHS}
-    table.flags.writeable = False
+    if isinstance(table, np.ndarray):
+        table.flags.writeable = False
     at = 0
     for part, name in what:
         makers[part][name] = partial(_MOTIONS[part], table, at)
@@ -302,17 +284,17 @@ def _collect(phi: Floats, table: Floats, what: list[tuple[str, str]]) -> Kinemat
     return Kinematics(phi, **{part: LazyTable(maker) for part, maker in makers.items()})
 
 
-def _point(table: Floats, at: int) -> PointMotion:
+def _point(table: Any, at: int) -> PointMotion:
     # Views, not copies: x and y of a point lie one after the other.
-    return PointMotion(*(table[..., i : i + 2, :].swapaxes(-1, -2) for i in (at, at + 2, at + 4)))
+    return PointMotion(*(np.swapaxes(table[..., i : i + 2, :], -1, -2) for i in (at, at + 2, at + 4)))
 
 
-def _link(table: Floats, at: int) -> LinkMotion:
+def _link(table: Any, at: int) -> LinkMotion:
     angle = _continuous(np.arctan2(table[..., at + 1, :], table[..., at, :]))
     return LinkMotion(angle, table[..., at + 2, :], table[..., at + 3, :])
 
 
-def _slide(table: Floats, at: int) -> SlideMotion:
+def _slide(table: Any, at: int) -> SlideMotion:
     return SlideMotion(*(table[..., i, :] for i in (at, at + 1, at + 2)))
 
 

@@ -15,8 +15,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.machine.address import entry_at, entry_of, exchanged, exchanged_at, is_given, known_place
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
@@ -35,39 +34,10 @@ def columns(
     numbers: Callable[[Machine], Sequence[Any]],
     refused: dict[str, str],
 ) -> dict[str, Floats]:
-    """Derivatives of numbers by each entry that has them, entry → (numbers,); the others go into `refused`.
-
-    Entries that follow from others (the breakdown speed of a motor from its rated point) are varied one at a
-    time, all others of the file held; given ones are varied together.
-    """
-    cycles = [name for name in names if name.endswith(".cycle")]
-    refused.update(dict.fromkeys(cycles, _WHOLE))
-    names = [name for name in names if name not in refused]
-    together = [name for name in names if is_given(machine, name)]
-    groups = [together, *([name] for name in names if name not in set(together))]
-    derivatives: dict[str, Floats] = {}
-    for group in filter(None, groups):
-        derivatives |= _of_group(machine, group, numbers, refused)
-    return derivatives
-
-
-def _of_group(
-    machine: Machine,
-    names: Sequence[str],
-    numbers: Callable[[Machine], Sequence[Any]],
-    refused: dict[str, str],
-) -> dict[str, Floats]:
-    try:
-        return _derived(machine, names, numbers)
-    except _FAILURES as error:
-        if len(names) == 1:
-            refused[names[0]] = _reason(names[0], error)
-            return {}
-    # One of them has no derivative: which, is found one by one.
-    derivatives: dict[str, Floats] = {}
-    for name in names:
-        derivatives |= _of_group(machine, [name], numbers, refused)
-    return derivatives
+    """Derivatives of numbers by each entry that has some, (numbers,); the others go into `refused`."""
+    known, listed = followed(machine, names, numbers, refused)
+    table = np.array([lifted(number, len(known)).d for number in listed]).reshape(len(listed), len(known))
+    return dict(zip(known, table.T, strict=True))
 
 
 def _reason(name: str, error: Exception) -> str:
@@ -78,21 +48,6 @@ def _reason(name: str, error: Exception) -> str:
     if isinstance(error, TypeError):
         return "not differentiable: it is a count, selects a motion law, or enters a searched length"
     return str(error)
-
-
-def _derived(
-    machine: Machine, names: Sequence[str], numbers: Callable[[Machine], Sequence[Any]]
-) -> dict[str, Floats]:
-    seeds = {
-        name: Tangent(float(entry_of(machine, name)), unit)
-        for name, unit in zip(names, np.eye(len(names)), strict=True)
-    }
-    listed = numbers(exchanged(machine, seeds))
-    table = np.zeros((len(listed), len(names)))
-    for row, number in zip(table, listed, strict=True):
-        if isinstance(number, Tangent):
-            row[:] = number.d
-    return dict(zip(names, table.T, strict=True))
 
 
 @dataclass(frozen=True)
@@ -151,7 +106,7 @@ def directions(
 ) -> Directions:
     """Derivatives of the program's numbers by entries of a machine, in the order of the entries.
 
-    Entries that follow from others are varied one at a time, as `linkwright.machine.tangents.columns` says.
+    Entries that follow from others are varied as `seeded` says.
     `motor`, `brake`: whether the motor is on and the brake applied.
     """
 
@@ -240,6 +195,18 @@ def spread(number: Any, known: Sequence[str], listed: Sequence[str], value: floa
     return Tangent(float(along.value) if value is None else value, row)
 
 
+def scalars_of(
+    result: Any, numbers: Mapping[str, Any], known: Sequence[str], listed: Sequence[str]
+) -> dict[str, Tangent]:
+    """Numbers that a result has, with their values there and derivatives as `spread` gives them."""
+    values = {name: getattr(result, name) for name in numbers}
+    return {
+        name: spread(numbers[name], known, listed, float(value))
+        for name, value in values.items()
+        if value is not None
+    }
+
+
 def followed(
     machine: Machine, names: Sequence[str], work: Callable[[Machine], Any], refused: dict[str, str]
 ) -> tuple[tuple[str, ...], Any]:
@@ -262,28 +229,21 @@ def followed(
     return known, work(seeded(machine, known))
 
 
-def _is_of_law(machine: Machine, name: str) -> bool:
-    place = known_place(machine, name)
-    return place[:2] == ("mechanism", "cams") and place[3] in ("sections", "train")
-
-
 def seeded(machine: Machine, names: Sequence[str]) -> Machine:
-    """The machine with arrays of tangents by some of its entries, for what is worked out in arrays.
+    """The machine with tangents by some of its entries.
 
     An entry that follows from others keeps its derivatives by these, beside that by itself with all entries
-    of the file held. What the law of a cam is made of are tangents: its pieces are numbers, which then meet
-    arrays.
+    of the file held.
     """
     units = dict(zip(names, np.eye(len(names)), strict=True))
     seeds: dict[str, Any] = {
-        name: (Tangent if _is_of_law(machine, name) else TangentArray)(float(entry_of(machine, name)), unit)
-        for name, unit in units.items()
+        name: Tangent(float(entry_of(machine, name)), unit) for name, unit in units.items()
     }
     following = {name: known_place(machine, name) for name in names if not is_given(machine, name)}
     given = exchanged(machine, {name: seeds[name] for name in names if name not in following})
     alone = [given, *(exchanged(machine, {name: seeds[name]}) for name in following)]
     for name, place in following.items():
         entries = [entry_at(one, place) for one in alone]
-        d = sum((x.d for x in entries if isinstance(x, TangentArray)), start=np.zeros(len(names)))
-        seeds[name] = TangentArray(seeds[name].value, d)
+        d = sum((x.d for x in entries if isinstance(x, Tangent)), start=np.zeros(len(names)))
+        seeds[name] = Tangent(seeds[name].value, d)
     return exchanged_at(given, {place: seeds[name] for name, place in following.items()})

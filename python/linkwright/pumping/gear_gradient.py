@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, numbers, on_lines, primal
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, on_lines, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, effect_of_weights, stroke_load
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
@@ -79,7 +80,7 @@ def _at_place(rod: PolishedRod, along: Any, angle: float, *, rising: bool) -> St
     heights = load.force if load.angle is not None else load.up if rising else load.down
     if end is not None:
         late = _one(end_angles(along.unit)[end], travel) - place
-        moved: Any = place + TangentArray(np.zeros(1), late.d)
+        moved: Any = place + Tangent(np.zeros(1), late.d)
         force = _one(heights[-end], travel)
         if load.angle is not None:
             force = on_lines(moved, load.angle, heights, period=2 * np.pi)
@@ -89,7 +90,7 @@ def _at_place(rod: PolishedRod, along: Any, angle: float, *, rising: bool) -> St
         if load.angle is None:
             away = _one(knots[corner], travel) - travel / along.unit.stroke
             late = away / (factor.value / rod.stroke)
-        moved, force = place + TangentArray(np.zeros(1), late.d), _one(heights[corner], travel)
+        moved, force = place + Tangent(np.zeros(1), late.d), _one(heights[corner], travel)
     else:
         return stroke_load(along.unit, load, motion, place)
     return StrokeLoad(along.unit, force, factor + bend.value * (moved - place), np.sin(moved + load.phase))
@@ -105,7 +106,7 @@ def _balanced(at: dict[str, StrokeLoad], size: float) -> Any:
     up, down = at["torque_net_up"], at["torque_net_down"]
     excess: Any = up.net(size)[0] - down.net(size)[0]
     slope = float(primal(up.net_slope(size)[0] - down.net_slope(size)[0]))
-    return TangentArray(np.float64(size), -excess.d / slope)
+    return solution_along(size, excess, slope)
 
 
 def _shares(scalars: dict[str, Any], gear: GearTorque) -> dict[str, Any]:

@@ -27,8 +27,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.numerics.tangent import primal
-from linkwright.kernel.numerics.tangent_array import on_lines
+from linkwright.kernel.numerics.tangent import on_lines, primal
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.numerics.zeros import zero, zeros

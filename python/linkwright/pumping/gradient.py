@@ -15,10 +15,9 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray
 from linkwright.linkages.kinematics import rows_along
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, directions, followed, spread
+from linkwright.machine.tangents import Derivatives, directions, followed, scalars_of
 from linkwright.pumping.gear_gradient import gear_scalars, without_derivatives
 from linkwright.pumping.model.unit import BEAM_LINK, PumpingUnit
 from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles, pumping_unit, turn_extreme
@@ -41,12 +40,9 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     along = RodAlong.of_unit(rod, unit, program.values[:, at])
     scalars = _scalars(rod, along, result)
     listed = tuple(name for name in variables if name not in refused)
-    tangents = {name: spread(x, known, listed, float(getattr(result, name))) for name, x in scalars.items()}
+    tangents = scalars_of(result, scalars, known, listed)
     gear, ties = gear_scalars(rod, along, result)
-    tangents |= {
-        f"gear.{name}": spread(x, known, listed, float(getattr(result.gear, name)))
-        for name, x in gear.items()
-    }
+    tangents |= {f"gear.{name}": x for name, x in scalars_of(result.gear, gear, known, listed).items()}
     missing = {f"gear.{name}": why for name, why in without_derivatives(result.gear).items()}
     return Derivatives(listed, tangents | _at_speed(result, tangents, listed), ties, missing, refused)
 
@@ -73,7 +69,7 @@ class RodAlong(PolishedRod):
     def beam(self, angles: Floats) -> Any:
         """The motion of the beam at fixed crank angles."""
         rows = rows_along(self.compiled, angles, [("links", BEAM_LINK)], self.values)
-        return TangentArray(super().beam(angles), rows)
+        return Tangent(super().beam(angles), rows)
 
 
 def _scalars(rod: PolishedRod, along: Any, result: PumpingUnitMotion) -> dict[str, Any]:

@@ -24,10 +24,10 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, chosen, common, differ, they_differ
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, spread
+from linkwright.machine.tangents import CHANGE_POINTS, Derivatives, directions, followed, scalars_of
 from linkwright.pumping.gradient import RodAlong
 from linkwright.pumping.lever import Lever
 from linkwright.pumping.model.rod_rotator import RodRotator, diagonal
@@ -63,10 +63,7 @@ def rotator_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of a rotator by some entries. Raises what `rod_rotator` raises."""
     along = RotatorAlong.of(machine, variables)
     listed = tuple(name for name in variables if name not in along.refused)
-    tangents = {
-        name: spread(number, along.entries, listed, float(getattr(along.result, name)))
-        for name, number in along.scalars().items()
-    }
+    tangents = scalars_of(along.result, along.scalars(), along.entries, listed)
     return Derivatives(listed, tangents, along.ties, _missing(along.result), along.refused)
 
 
@@ -177,7 +174,7 @@ class RotatorAlong:
         """Extremes of the distance from pin to hanger."""
 
         def slope(share: Floats) -> Floats:
-            rate: Floats = self.still.stroke(TangentArray(share, np.ones((len(share), 1)))).distance.d[..., 0]
+            rate: Floats = self.still.stroke(Tangent(share, np.ones((len(share), 1)))).distance.d[..., 0]
             return rate
 
         shares = zeros_of_stroke(slope)
@@ -271,7 +268,7 @@ class RotatorAlong:
         differs = chosen(self.entries, differ(d))
         if differs:
             self.ties[name] = f"the extreme occurs at {len(d)} positions; {they_differ(differs)}"
-        return TangentArray(row.value[best], common(d))
+        return Tangent(row.value[best], common(d))
 
 
 def _sine(distance: Any, link: Any, lever: Any) -> Any:

@@ -25,7 +25,8 @@ from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Result
 from linkwright.machine.address import addresses, entry_of, kind
 from linkwright.machine.machine import Machine
-from linkwright.sensitivity.sources import SOURCES, Source, analysis_of, chosen, source, usual_analysis
+from linkwright.machine.tangents import Derivatives
+from linkwright.sensitivity.sources import SOURCES, analysis_of, chosen, source, usual_analysis
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -297,7 +298,7 @@ def _entries(machine: Machine, variables: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(variables))
 
 
-def _named(of: Source, name: str) -> list[str]:
+def _named(of: Derivatives, name: str) -> list[str]:
     """The responses that a name means."""
     if name in SOURCES:
         if not of.usual:
@@ -316,14 +317,14 @@ def _named(of: Source, name: str) -> list[str]:
     return named
 
 
-def _by_source(asked_of: Sequence[tuple[Source, str]]) -> Iterator[tuple[Source, list[str]]]:
+def _by_source(asked_of: Sequence[tuple[Derivatives, str]]) -> Iterator[tuple[Derivatives, list[str]]]:
     """Responses that follow each other from one source."""
     for _, pairs in groupby(asked_of, lambda pair: id(pair[0])):
         listed = list(pairs)
         yield listed[0][0], [name for _, name in listed]
 
 
-def _rows(of: Source, names: Sequence[str], variables: Sequence[str]) -> Floats:
+def _rows(of: Derivatives, names: Sequence[str], variables: Sequence[str]) -> Floats:
     """Derivatives of responses by some of the variables of their source."""
     places = {variable: place for place, variable in enumerate(of.variables)}
     rows = np.stack([of.tangents[name].d for name in names])[:, [places[variable] for variable in variables]]
@@ -332,7 +333,7 @@ def _rows(of: Source, names: Sequence[str], variables: Sequence[str]) -> Floats:
     return rows
 
 
-def _require_found(of: Source, name: str, variables: Sequence[str], row: Floats) -> None:
+def _require_found(of: Derivatives, name: str, variables: Sequence[str], row: Floats) -> None:
     """Raise FindingError if a derivative of a response is missing without a reason."""
     unknown = [variable for variable, slope in zip(variables, row, strict=True) if not np.isfinite(slope)]
     lost = next((variable for variable in unknown if name not in of.ties or variable in of.lost), None)

@@ -20,14 +20,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, get_type_hints
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from typing import get_type_hints
 
 from linkwright.app.subjects import ANALYSES
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.errors import InputError, cut
-from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.kernel.quantities import Label, shown
 from linkwright.kernel.result import result_within
 from linkwright.machine.analysis import Analysis
@@ -36,27 +35,6 @@ from linkwright.machine.tangents import Derivatives
 
 # Analyses whose results have derivatives, by name.
 SOURCES = {analysis.name: analysis for analysis in ANALYSES if analysis.tangents is not None}
-
-
-@dataclass(frozen=True)
-class Source:
-    """Responses of an analysis with their derivatives by `variables`, those of the entries asked for that
-    have some.
-
-    `words` and `units` by response; `ties`, `refused` and `missing`, responses without derivatives, with
-    their reasons; `usual` are the responses that are given if none is named; `lost` are entries by which the
-    move of a kink was not found, each with the crank angle of the kink [rad].
-    """
-
-    variables: tuple[str, ...]
-    tangents: Mapping[str, Tangent]
-    words: Mapping[str, str]
-    units: Mapping[str, str]
-    ties: Mapping[str, str]
-    refused: Mapping[str, str]
-    usual: Sequence[str] = field(default=())
-    missing: Mapping[str, str] = field(default_factory=dict)
-    lost: Mapping[str, float] = field(default_factory=dict)
 
 
 def usual_analysis(machine: Machine) -> str:
@@ -76,8 +54,11 @@ def usual_analysis(machine: Machine) -> str:
     return next((name for name, part in own.items() if part is not None), last)
 
 
-def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
-    """Results of an analysis along entries of a machine. Raises what the analysis raises."""
+def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Derivatives:
+    """Results of an analysis along entries of a machine, by name of the response, with words and units.
+
+    Raises what the analysis raises.
+    """
     of = SOURCES[analysis]
     derive = of.tangents
     assert derive is not None
@@ -89,27 +70,30 @@ def source(machine: Machine, analysis: str, variables: Sequence[str]) -> Source:
     refused = {entry: why for one in alone.values() for entry, why in one.refused.items()}
     kept = tuple(entry for entry in variables if entry not in refused)
     parts = [_named(of, f"{analysis}.{name}", one.only(kept)) for name, one in alone.items()]
-    return _joined(kept, parts, refused)
+    merged = {
+        field: {name: x for part in parts for name, x in getattr(part, field).items()} for field in _NAMED
+    }
+    lost = {entry: angle for part in parts for entry, angle in part.lost.items()}
+    usual = tuple(name for part in parts for name in part.usual or ())
+    return Derivatives(kept, **merged, refused=refused, lost=lost, usual=usual)
 
 
-def _named(of: Analysis, prefix: str, derived: Derivatives) -> Source:
+# Parts of derivatives that are by name of the response.
+_NAMED = ("tangents", "ties", "missing", "words", "units")
+
+
+def _named(of: Analysis, prefix: str, derived: Derivatives) -> Derivatives:
     """Scalars of a result, called as they are declared unless their room says otherwise."""
     kind: type = get_type_hints(of.analyse)["return"]
     marks = {name: _mark(kind, name) for name in derived.tangents if name not in derived.words}
-    words = {name: f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()}
-    units = {name: mark.unit for name, mark in marks.items()}
-
-    def prefixed(of: Mapping[str, Any]) -> dict[str, Any]:
-        return {f"{prefix}.{name}": value for name, value in of.items()}
-
-    usual = derived.tangents if derived.usual is None else derived.usual
-    return Source(
-        *(derived.variables, prefixed(derived.tangents)),
-        *(prefixed(words | dict(derived.words)), prefixed(units | dict(derived.units))),
-        *(prefixed(derived.ties), derived.refused),
-        [f"{prefix}.{name}" for name in usual],
-        prefixed(derived.missing),
-        derived.lost,
+    words = {name: f"{mark.word} {mark.symbol}".strip() for name, mark in marks.items()} | dict(derived.words)
+    units = {name: mark.unit for name, mark in marks.items()} | dict(derived.units)
+    usual = tuple(derived.tangents) if derived.usual is None else derived.usual
+    whole = replace(derived, words=words, units=units)
+    return replace(
+        whole,
+        **{part: {f"{prefix}.{name}": x for name, x in getattr(whole, part).items()} for part in _NAMED},
+        usual=tuple(f"{prefix}.{name}" for name in usual),
     )
 
 
@@ -121,16 +105,6 @@ def _mark(kind: type, name: str) -> Label:
     inner = result_within(kind, within)
     assert inner is not None, name
     return _mark(inner, rest)
-
-
-def _joined(variables: tuple[str, ...], parts: Sequence[Source], refused: Mapping[str, str]) -> Source:
-
-    def merged(field: str) -> dict[str, Any]:
-        return {name: value for part in parts for name, value in getattr(part, field).items()}
-
-    usual = [name for part in parts for name in part.usual]
-    tangents, words, units, ties = (merged(field) for field in ("tangents", "words", "units", "ties"))
-    return Source(variables, tangents, words, units, ties, refused, usual, merged("missing"), merged("lost"))
 
 
 def chosen(listed: Collection[str], asked: str) -> list[str]:

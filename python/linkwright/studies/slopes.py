@@ -18,10 +18,11 @@ from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.description.formula import names as names_in
 from linkwright.kernel.errors import FindingError, InputError
-from linkwright.kernel.numerics.formula_value import value
+from linkwright.kernel.numerics.formula_value import OPERATIONS, value
 from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.machine.machine import Machine
-from linkwright.sensitivity.sources import SOURCES, Source, chosen, source
+from linkwright.machine.tangents import Derivatives
+from linkwright.sensitivity.sources import SOURCES, chosen, source
 from linkwright.studies.axes import Axis
 from linkwright.studies.engine import evaluate, sound_variant
 from linkwright.studies.plan import Formula, StudyPlan
@@ -122,14 +123,22 @@ def _tangent(x: Any, n: int) -> Tangent:
     return x if isinstance(x, Tangent) else Tangent(float(x), np.zeros(n))
 
 
+# Where branches meet, a search needs the derivatives of one of them: of the first.
+_OPERATIONS = OPERATIONS | {
+    "min": lambda *x: min(x, key=primal),
+    "max": lambda *x: max(x, key=primal),
+    "abs": lambda x: -x if x < 0 else x,
+}
+
+
 def _worked(formula: Formula, known: Mapping[str, Any]) -> Any:
     """Value of a formula with its derivatives; None if one of its functions has no rule for them."""
     try:
         with np.errstate(all="ignore"):
-            tangent = value(formula.tree, {**NUMBERS, **known})
+            tangent = value(formula.tree, {**NUMBERS, **known}, _OPERATIONS)
     except (TypeError, KeyError, ArithmeticError, ValueError):
         return None
-    return tangent.item() if isinstance(tangent, np.ndarray) and tangent.ndim == 0 else tangent
+    return tangent if isinstance(tangent, Tangent) else float(tangent)
 
 
 def _worked_all(plan: StudyPlan, known: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -145,7 +154,7 @@ def _analysed(plan: StudyPlan, known: Mapping[str, Any]) -> tuple[dict[str, Tang
     """Responses of analyses with exact derivatives, NaN where there is none, and which of them tie."""
     entries = _entries(plan, known)
     machine = machine_at(plan, entries)
-    sources: dict[str, Source | None] = {}
+    sources: dict[str, Derivatives | None] = {}
     tangents: dict[str, Tangent] = {}
     ties: dict[str, str] = {}
     of_points, kinks = point_tangents(machine, plan.asked, tuple(entries))
@@ -186,7 +195,7 @@ def _by_variables(places: Sequence[str], slopes: Floats, entries: Mapping[str, A
     return np.where(lost, np.nan, slopes[is_known] @ table[is_known])
 
 
-def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Source | None:
+def _source(machine: Any, analysis: str, entries: tuple[str, ...]) -> Derivatives | None:
     """Results with derivatives by entries; None if some have no derivative."""
     try:
         tangents = source(machine, analysis, entries)

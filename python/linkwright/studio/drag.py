@@ -27,7 +27,7 @@ from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.units.marks import Quantity
 from linkwright.linkages.closure import Closure, closure, closure_error
-from linkwright.linkages.kinematics import kinematics, kinematics_along, motions
+from linkwright.linkages.kinematics import kinematics_along, motions
 from linkwright.machine.address import get, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import directions
@@ -161,8 +161,8 @@ class _Search:
             ]
             return slopes
         if exact.variables:
-            motion = kinematics(machine, [self.angle])
-            along: Any = kinematics_along(machine, motion, exact.values).points[self.point].position
+            angles = np.array([self.angle])
+            along: Any = kinematics_along(machine, angles, exact.values).points[self.point].position
             slopes[:, [self.free.index(name) for name in exact.variables]] = along.d[0]
         for n, address in enumerate(self.free):
             if address in exact.refused:

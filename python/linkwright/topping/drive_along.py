@@ -50,11 +50,10 @@ def drive_along(machine: Machine, names: Sequence[str], drive: KnifeDrive) -> Dr
         name, moving = f"drive_torque_{end}", kinks.moved_at(float(ends[nth]), ON_KINK)
         d = np.concatenate([torque.d[[nth - 2]], others[nth]])
         differs = differ(d, np.abs(torque.d).max(), ALIKE_OF_SOLVED)
-        numbers[name] = Tangent(getattr(drive, f"torque_{end}"), np.where(moving | differs, np.nan, d[0]))
-        if moving.any():
-            ties[name] = kinks.words(float(ends[nth]), moving)
-        elif differs.any():
-            ties[name] = occurs_at((ends[nth], *rivals[nth]))
+        value, alike = getattr(drive, f"torque_{end}"), np.where(differs, np.nan, d[0])
+        numbers[name], why = kinks.extreme(value, alike, float(ends[nth]), moving)
+        if why or differs.any():
+            ties[name] = why or occurs_at((ends[nth], *rivals[nth]))
     means = {"drive_torque_mean": Tangent(drive.torque_mean, torque.d[: len(DRIVE_ANGLES)].mean(axis=0))}
     speed = Tangent(machine.drive.speed, speed_d) if machine.drive and machine.drive.speed else 0.0
     means["drive_power_mean"] = means["drive_torque_mean"] * speed

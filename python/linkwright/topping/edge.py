@@ -26,7 +26,7 @@ import numpy as np
 
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.extreme import greatest
-from linkwright.kernel.numerics.tangent_array import plain
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.machine.machine import Machine
 from linkwright.topping.core import KnifeKernel
 from linkwright.topping.knife import Knife, knives

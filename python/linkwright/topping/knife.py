@@ -27,7 +27,7 @@ from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.numerics.extreme import as_high, greatest, size
-from linkwright.kernel.numerics.tangent_array import plain
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.kinetostatics.forces import forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.kinematics import kinematics_of

@@ -15,8 +15,7 @@ import numpy as np
 
 from linkwright.cam.laws.motion_law import Harmonic, MotionLaw, Piece
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import plain, primal
+from linkwright.kernel.numerics.tangent import Tangent, plain, primal
 from linkwright.linkages.kinematics import kinematics_of, rows_along
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine

@@ -23,13 +23,13 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, common
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, primal
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import TopperStudy
-from linkwright.topping.uncut_along import EdgeAlong, Heads, passes, slopes
+from linkwright.topping.uncut_along import EdgeAlong, Heads, passes
 from linkwright.topping.worst_head import CURVE_OFFSETS
 
 _TURN = 2 * np.pi
@@ -116,7 +116,7 @@ def _worst(needs: Needs, study: TopperStudy) -> tuple[dict[str, Any], dict[str, 
 
 def _number(x: Any) -> Any:
     """One number with derivatives, of an array of one or none."""
-    return x.reshape(-1)[0].number() if hasattr(x, "reshape") else x
+    return x.reshape(-1)[0] if hasattr(x, "reshape") else x
 
 
 def _lift(number: Any, n: int) -> Any:
@@ -169,7 +169,7 @@ def _turning(along: EdgeAlong, edge: Edge, at: float, n: int) -> tuple[Any, str]
     if abs(bend) <= _NEAR * abs(fixed.peak(2).value):
         return psi, _NOT_ALONE
     slope = law.value(at, 1)
-    return psi + Tangent(0.0, -np.broadcast_to(slopes(slope), n) / bend), ""
+    return solution_along(at, _lift(slope, n), bend), ""
 
 
 def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: Any) -> _Last:
@@ -187,8 +187,7 @@ def _in_phase(needs: Needs, last: tuple[int, float, float], phase: Any, offset: 
             t = t - slope / bend
         # How the condition moves at a fixed time: worked out in tangents.
         moved = _condition(along, side, lifted(t, needs.n), phase, offset, _lift(along.radius, needs.n))
-        time = lifted(t, needs.n)
-        time.d[:] = -moved.d / _climb(edge, head, side, t)[1][:, None]
+        time = solution_along(t, moved, _climb(edge, head, side, t)[1])
     q, p = along.edge.place(time, phase, offset)
     radius = _lift(along.radius, needs.n)
     return _Last(nth, side, time, p, np.sqrt(radius * radius - p * p), q)

@@ -25,7 +25,7 @@ import numpy as np
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import greatest, least, size
-from linkwright.kernel.numerics.tangent_array import primal
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.topping.edge import Edge
 
 # Times of a pass and places of the edge at which its use is counted.

@@ -32,8 +32,8 @@ import numpy as np
 
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Bools, Floats, Indices
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kernel.numerics.zeros import brackets, zeros
 from linkwright.topping.edge import Edge
 
@@ -52,8 +52,8 @@ class Heads:
     """Heads, (n,) each: radius r [m], offset δ [m], phase θ [rad]."""
 
     radius: float
-    offset: Floats
-    phase: Floats
+    offset: Any
+    phase: Any
 
 
 @dataclass(frozen=True)
@@ -135,11 +135,10 @@ class EdgeAlong:
     radius: Any
 
 
-def uncut_slopes(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: dict[str, Any]) -> Floats:
+def uncut_slopes(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: Heads) -> Floats:
     """Derivatives of the area that is left on the right and on the left, (n, 2, variables).
 
-    `moved`: derivatives of the ``offset`` and the ``phase`` of each
-    head, (n, variables) or zero.
+    `moved`: the heads with derivatives of offset and phase.
     """
     n, side = len(heads.phase), (ends.side < 0).astype(int)
     weight = ends.sign * ends.chord
@@ -151,16 +150,13 @@ def uncut_slopes(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: 
     return np.asarray(total)
 
 
-def _terms(
-    edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: dict[str, Any]
-) -> list[tuple[Floats, Any]]:
+def _terms(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: Heads) -> list[tuple[Floats, Any]]:
     """What each number gives at the ends, (k,) or by variable (k, variables), and its derivatives."""
     v, s, t, r = edge.forward_speed, ends.side, ends.time, heads.radius
     knife = edge.knife
     psi = heads.phase[ends.head] + knife.rate * t
     law = knife.law.at(np.mod(psi, _TURN))
     way = _way(knife.law, psi) / knife.rate if knife.rate else law * t
-    shifts = [np.asarray(x)[:, None, :] if np.ndim(x) else 0.0 for x in (moved["offset"], moved["phase"])]
     aside = v * law / knife.rate if knife.rate else v * knife.law.at(np.mod(psi, _TURN), 1) * t
     lag = (
         v * (t * law - way) / knife.rate
@@ -175,15 +171,15 @@ def _terms(
         (s * (way - t * law - 0.5 * knife.drift * t**2), d(along.edge.forward_speed)),
         (s * lag, d(along.edge.knife.rate)),
         (0.5 * s * v * t**2, d(along.edge.knife.drift)),
-        (-s * v * t, shifts[0]),
-        (s * aside, shifts[1]),
+        (-s * v * t, moved.offset.d[:, None]),
+        (s * aside, moved.phase.d[:, None]),
         ((s * v * _law_way(along.edge.knife.law, knife.rate, psi, t).T).T, 1.0),
     ]
 
 
 def slopes(number: Any) -> Any:
     """Derivatives of a number; zero if it has none."""
-    return number.d if isinstance(number, Tangent | TangentArray) else 0.0
+    return number.d if isinstance(number, Tangent) else 0.0
 
 
 def _way(law: MotionLaw, psi: Floats) -> Any:
@@ -203,26 +199,14 @@ def _law_way(law: MotionLaw, rate: float, psi: Floats, t: Floats) -> Floats:
     return np.asarray(_way(law, psi).d / rate)
 
 
-def end_times(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: dict[str, Any]) -> Any:
+def end_times(edge: Edge, along: EdgeAlong, heads: Heads, ends: Ends, moved: Heads) -> Any:
     """The times of the ends with their derivatives, (k,): those of p = ±r, or of a bracket that is zero."""
-    t, r = ends.time, heads.radius
-    n = along.n
-    phase = lifted(heads.phase[ends.head], n)
-    offset = lifted(heads.offset[ends.head], n)
-    for number, name in ((offset, "offset"), (phase, "phase")):
-        number.d[:] = np.asarray(moved[name])[ends.head] if np.ndim(moved[name]) else 0.0
-    q, p = along.edge.place(lifted(t, n), phase, offset)
+    t, r, at_rim = ends.time, along.radius, ends.is_rim
     qt, pt = edge.velocity(t, heads.phase[ends.head])
-    rest = np.sqrt(np.clip(r**2 - ends.p**2, 0.0, None))
+    q, p = along.edge.place(lifted(t, along.n), moved.phase[ends.head], moved.offset[ends.head])
     with np.errstate(divide="ignore", invalid="ignore"):
-        lean = np.where(ends.is_rim, 0.0, ends.p / rest)
-        pull = np.where(ends.is_rim, 0.0, r / rest)
-    # Of s q ± c − h at a fixed time, and its rate.
-    of_bracket = (ends.side * q.d.T).T + (ends.chord * pull)[:, None] * slopes(along.radius)
-    of_bracket = of_bracket - (ends.chord * lean)[:, None] * p.d - slopes(along.half)
-    rate = ends.side * qt - ends.chord * lean * pt
-    of_rim = p.d - np.sign(ends.p)[:, None] * slopes(along.radius)
-    d = np.where(ends.is_rim[:, None], -of_rim / pt[:, None], -of_bracket / rate[:, None])
-    times: Any = lifted(t, n)
-    times.d[:] = d
-    return times
+        rest = np.sqrt(r * r - p * p)
+        bracket = ends.side * q + ends.chord * rest - along.half
+        rate = ends.side * qt - ends.chord * (p.value / rest.value) * pt
+        residual = np.where(at_rim, p - np.sign(ends.p) * r, bracket)
+    return solution_along(t, residual, np.where(at_rim, pt, rate))

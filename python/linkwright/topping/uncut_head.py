@@ -19,14 +19,15 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, common
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal
 from linkwright.topping.coverage import coverage
 from linkwright.topping.edge import Edge
 from linkwright.topping.model.topper import Topper
 from linkwright.topping.topper import NOTHING, TopperStudy
 from linkwright.topping.uncut_along import (
     EdgeAlong,
+    Ends,
     Heads,
     end_times,
     exposed,
@@ -118,66 +119,44 @@ class _Worst:
         )
         if not free.any():
             return moved[0], moved[1], {}
-        conditions = self._conditions(moved[1], moved[0])[free]
-        matrix = conditions[:, n:][:, free]
-        if np.linalg.matrix_rank(matrix, tol=_LEVEL * np.abs(conditions).max()) < free.sum():
+        # By the variables at a held place, and by phase and offset.
+        held = np.zeros_like(moved[0]) if self.turns else moved[0]
+        changes = self._conditions(self.along, held, moved[1])[free]
+        still = EdgeAlong(2, self.edge, self.half, self.radius)
+        matrix = self._conditions(still, *np.eye(2)).d[free][:, free]
+        most = max(np.abs(changes.d).max(initial=0.0), np.abs(matrix).max())
+        if np.linalg.matrix_rank(matrix, tol=_LEVEL * most) < free.sum():
             moved[free] = np.nan
             return moved[0], moved[1], dict.fromkeys(_SIDES, _NOT_ALONE)
-        moved[free] = -np.linalg.solve(matrix, conditions[:, :n])
+        moved[free] = solution_along(np.array([self.phase, self.offset])[free], changes, matrix).d
         return moved[0], moved[1], {}
 
-    def _heads(self) -> Heads:
-        return Heads(self.radius, np.array([self.offset]), np.array([self.phase]))
+    def _exposed(self, phase_d: Floats, offset_d: Floats) -> tuple[Heads, Ends, Heads]:
+        """The head, the ends of what it has uncut, and the head with derivatives."""
+        offset, phase = np.array([self.offset]), np.array([self.phase])
+        heads = Heads(self.radius, offset, phase)
+        moved = Heads(self.radius, Tangent(offset, offset_d[None]), Tangent(phase, phase_d[None]))
+        return heads, exposed(self.edge, heads, self.half), moved
 
     def _areas(self, phase_d: Floats, offset_d: Floats) -> Floats:
-        heads = self._heads()
-        ends = exposed(self.edge, heads, self.half)
-        moved = {"offset": offset_d[None], "phase": phase_d[None]}
-        areas: Floats = uncut_slopes(self.edge, self.along, heads, ends, moved)[0]
+        """Derivatives of the areas on the right and on the left."""
+        areas: Floats = uncut_slopes(self.edge, self.along, *self._exposed(phase_d, offset_d))[0]
         return areas
 
     def _values(self) -> Floats:
         cut = coverage(self.edge, 2 * self.radius, self.offset, self.phase, length=2 * self.half)
         return np.array([cut.uncut_right[0], cut.uncut_left[0]])
 
-    def _conditions(self, offset_d: Floats, phase_d: Floats) -> Floats:
-        """Derivatives of both conditions by the variables, and by phase and offset, (2, variables + 2)."""
-        heads = self._heads()
-        ends = exposed(self.edge, heads, self.half)
-        wide = widened(self.along, self.n)
-        moved = {
-            "offset": np.append(offset_d, [0.0, 1.0])[None],
-            "phase": np.append(phase_d if not self.turns else np.zeros(self.n), [1.0, 0.0])[None],
-        }
-        times = end_times(self.edge, wide, heads, ends, moved)
+    def _conditions(self, along: EdgeAlong, phase_d: Floats, offset_d: Floats) -> Any:
+        """Both conditions of the place with derivatives, (2,)."""
+        heads, ends, moved = self._exposed(phase_d, offset_d)
+        times = end_times(self.edge, along, heads, ends, moved)
         weight = ends.sign * ends.chord * ends.side
-        phase = lifted(np.full(len(ends.time), self.phase), wide.n)
-        phase.d[:] = moved["phase"]
-        y = replace(wide.edge.knife, drift=0.0).at(times, phase)
-        return np.stack([(y * weight).sum().d, (times * weight).sum().d])
+        y = replace(along.edge.knife, drift=0.0).at(times, moved.phase[ends.head])
+        return np.stack([(y * weight).sum(), (times * weight).sum()])
 
 
 _SIDES = ("uncut_phase", "uncut_offset", "uncut_right", "uncut_left")
-
-
-def widened(along: EdgeAlong, n: int) -> EdgeAlong:
-    """An edge with two variables more, which none of its numbers depends on."""
-
-    def wider(x: Any) -> Any:
-        return type(x)(x.value, np.append(x.d, [0.0, 0.0])) if variables_of((x,)) else x
-
-    edge, knife, law = along.edge, along.edge.knife, along.edge.knife.law
-    pieces = tuple(
-        piece._replace(
-            polynomial=tuple(map(wider, piece.polynomial)),
-            harmonics=tuple(type(wave)(*map(wider, wave)) for wave in piece.harmonics),
-        )
-        for piece in law.pieces
-    )
-    law = type(law)(tuple(map(wider, law.breaks)), pieces)
-    wide = replace(knife, law=law, rate=wider(knife.rate), drift=wider(knife.drift))
-    moving = Edge(wide, wider(edge.angle), wider(edge.forward_speed))
-    return EdgeAlong(n + 2, moving, wider(along.half), wider(along.radius))
 
 
 def _share(value: float, d: Floats, disc: float, radius: float, radius_d: Any) -> Tangent:
@@ -190,16 +169,14 @@ def mean_left_along(
     """Mean share that is left, over the heads of `topping.worst_head`."""
     shares, phases = mean_heads(described, edges)
     n = along[0].n
-    radius_d = np.broadcast_to(slopes(along[0].radius), n)
-    radius = float(primal(along[0].radius))
+    radius, radius_d = float(primal(along[0].radius)), slopes(along[0].radius)
     disc, half = np.pi * radius**2, 0.5 * described.edge_length
-    offset_d = shares[:, None] * np.broadcast_to(slopes(topper.offset), n)
-    phase_d = np.broadcast_to(slopes(topper.motion.phase), (len(phases), n))
     value, d = 0.0, np.zeros(n)
     heads = Heads(radius, shares * described.offset, phases)
+    phase_d = np.broadcast_to(slopes(topper.motion.phase), (len(phases), n))
+    moved = Heads(radius, lifted(shares * topper.offset, n), Tangent(phases, phase_d))
     for edge, with_d in zip(edges, along, strict=True):
         value += float(coverage(edge, 2 * radius, heads.offset, phases, length=2 * half).uncut.mean())
         ends = exposed(edge, heads, half)
-        moved = {"offset": offset_d, "phase": phase_d}
         d = d + uncut_slopes(edge, with_d, heads, ends, moved).sum(axis=1).mean(axis=0)
     return _share(value / len(edges), d / len(edges), disc, radius, radius_d)

@@ -17,11 +17,10 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import TIE, apart, chosen, degrees, occurs_at, off
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, numbers, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, primal, variables_of
 from linkwright.kernel.numerics.turn_curve import TurnCurve
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, followed, spread
+from linkwright.machine.tangents import Derivatives, followed, scalars_of
 from linkwright.turning.diagram import (
     DRIVER,
     EXCESS,
@@ -55,11 +54,7 @@ def turning_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     own = [name for name in own if name not in refused]
     known, numbers_of = followed(machine, own, lambda along: work.scalars(along.turning_moment), refused)
     listed = tuple(name for name in variables if name not in refused)
-    tangents = {
-        name: spread(number, known, listed, float(value))
-        for name, number in numbers_of.items()
-        if (value := getattr(result, name)) is not None
-    }
+    tangents = scalars_of(result, numbers_of, known, listed)
     made_of_energy = dict.fromkeys(_OF_ENERGY & set(tangents), work.tie) if work.tie else {}
     ties = made_of_energy | work.ties | _lost(tangents, listed)
     return Derivatives(listed, tangents, {name: ties[name] for name in tangents if name in ties}, {}, refused)

@@ -28,7 +28,7 @@ from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle
 from linkwright.kernel.description.formula import NUMBERS, conditions, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value
-from linkwright.kernel.numerics.tangent_array import numbers
+from linkwright.kernel.numerics.tangent import numbers
 from linkwright.kernel.units.kinds import COUNT, DENSITY, ENERGY, INERTIA, LENGTH, PRESSURE, RATIO, SPEED
 from linkwright.kernel.units.marks import (
     FRACTION,

@@ -15,16 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.cam.dynamics.hertz import SHEAR_MAX
-from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam
+from linkwright.cam.dynamics.hertz import SHEAR_MAX, compliance, peak_pressure
+from linkwright.cam.dynamics.loaded import LoadedCam, loaded_cam, outer_radii, radii
 from linkwright.cam.profile.contact import contacts
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kinetostatics.gradient import drive_forces_along, tied
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import Derivatives, columns
+from linkwright.machine.tangents import Derivatives, followed, spread
 
 # How far beside a joint the place of an extreme may be found that is reached on a side of it [rad].
 _NEAR = 1e-5
@@ -54,11 +53,10 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
         places["shear_max"] = places["pressure_max"]
     tangents, ties = {}, {}
     for key, slope in slopes.items():
-        moving = kinks.moved_at(places[key], _NEAR)
-        tangents[key] = Tangent(float(getattr(loaded, key)), np.where(moving, np.nan, slope))
-        words = [_tied(loaded, key), kinks.words(places[key], moving) if moving.any() else ""]
-        if any(words):
-            ties[key] = "; ".join(filter(None, words))
+        moving, value = kinks.moved_at(places[key], _NEAR), float(getattr(loaded, key))
+        tangents[key], why = kinks.extreme(value, slope, places[key], moving)
+        if words := "; ".join(filter(None, (_tied(loaded, key), why))):
+            ties[key] = words
     derivatives = Derivatives(program.variables, tangents, ties, {}, refused, lost)
     return derivatives.only([entry for entry in program.variables if entry not in refused])
 
@@ -72,38 +70,22 @@ def _of_pressure(
     refused: dict[str, str],
 ) -> Floats:
     """Derivatives of the largest pressure, where the force is `load`; zero by entries that are refused."""
-    assert loaded.pressure_max is not None
-    pushes = load.value >= 0 or profile.cam.closure == "spring"
-    contact = (0, 1.0) if pushes else (0, -1.0) if len(profile.flanks) == 1 else (1, 1.0)
-    own = [entry for entry in variables if entry.startswith("mechanism.")]
+    pushes, is_groove = load.value >= 0 or profile.cam.closure == "spring", len(profile.flanks) == 1
+    radii_of = outer_radii if is_groove and not pushes else radii
 
     def numbers(along: Machine) -> list[Any]:
-        cam = along.mechanism.cams[profile.name]
-        return [*_curvatures(along, loaded, *contact), cam.width, cam.elastic_modulus, cam.poisson_ratio]
+        """1/R₁ + 1/R₂, width and compliance of the contact that carries the largest pressure."""
+        cam: Any = along.mechanism.cams[profile.name]
+        contact = contacts(cam, along.mechanism.fixed_points(), profile.name)[not (pushes or is_groove)]
+        rows = contact.kernel.rows(np.mod(loaded.pressure_max_angle - cam.phase, 2 * np.pi))
+        curvature = sum(1.0 / radius for radius in radii_of(contact, rows))
+        return [curvature[0], cam.width, 2 * compliance(cam.elastic_modulus, cam.poisson_ratio)]
 
-    by_entry = columns(machine, own, numbers, refused)
-    values = [float(primal(number)) for number in numbers(machine)]
-    still = np.zeros(len(values))
-    table = np.array([by_entry.get(entry, still) for entry in variables]).reshape(len(variables), len(values))
-    kappa, width, modulus, poisson = (Tangent(x, d) for x, d in zip(values, table.T, strict=True))
-    pressure = (abs(load) * kappa * modulus / (2 * np.pi * width * (1 - poisson * poisson))) ** 0.5
+    own = [entry for entry in variables if entry.startswith("mechanism.")]
+    known, of_contact = followed(machine, own, numbers, refused)
+    curvature, width, both = (spread(number, known, variables) for number in of_contact)
+    pressure: Any = peak_pressure(abs(load) / width, curvature, both)
     return np.asarray(pressure.d)
-
-
-def _curvatures(along: Machine, loaded: LoadedCam, nth: int, flank: float) -> list[Any]:
-    """1/R₁ + 1/R₂ of a contact where the pressure is largest; `flank`: −1 of the outer one of a groove."""
-    cam = along.mechanism.cams[loaded.name]
-    contact = contacts(cam, along.mechanism.fixed_points(), loaded.name)[nth]
-    assert loaded.pressure_max_angle is not None
-    cam_angle: Any = np.mod(loaded.pressure_max_angle - cam.phase, 2 * np.pi)
-    place = np.array([cam_angle], dtype=object)
-    n = variables_of((*place, *contact.sizes)) or contact.law.variables
-    bend: Any = contact.kernel.rows(lifted(place, n) if n else place.astype(float))["bend"][0]
-    bend = bend.number() if n else float(bend)
-    if not contact.kernel.is_roller:
-        return [1.0 / bend]
-    roller = contact.sizes.roller_radius
-    return [flank * (1.0 / (1.0 / bend - flank * roller) + flank / roller)]
 
 
 def _tied(loaded: LoadedCam, key: str) -> str:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -69,7 +69,17 @@ class Material:
     @property
     def compliance(self) -> float:
         """(1 − ν²)/E [1/Pa]."""
-        return (1.0 - self.poisson**2) / self.modulus
+        return compliance(self.modulus, self.poisson)
+
+
+def compliance(modulus: Any, poisson: Any) -> Any:
+    """(1 − ν²)/E."""
+    return (1.0 - poisson * poisson) / modulus
+
+
+def peak_pressure(load: Any, curvature: Any, compliance: Any) -> Any:
+    """p₀ of a load per length, of 1/R, and of the compliances of both bodies together."""
+    return np.sqrt(load * curvature / (math.pi * compliance))
 
 
 STEEL = Material(206e9, 0.3)
@@ -149,10 +159,10 @@ def line_contact(
     in_range(length=(length, positive(LENGTH)), force=(force, Quantity(FORCE)))
     given = alike(force=force, radius=radius, radius_other=radius_other)
     kappa = _curvature(given["radius"], given["radius_other"])
-    compliance = material.compliance + material_other.compliance
+    both = material.compliance + material_other.compliance
     load = np.maximum(given["force"], 0.0)
-    p0 = np.sqrt(load / length * kappa / (math.pi * compliance))
-    b = np.sqrt(4 * load / length * compliance / (math.pi * kappa))
+    p0 = peak_pressure(load / length, kappa, both)
+    b = np.sqrt(4 * load / length * both / (math.pi * kappa))
     mises, depth = max(von_mises_largest(body.poisson) for body in (material, material_other))
     sharpest = np.maximum(np.abs(1 / given["radius"]), np.abs(1 / given["radius_other"]))
     return LineContact(

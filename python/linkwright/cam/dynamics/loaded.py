@@ -23,14 +23,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.cam.core import Extreme
 from linkwright.cam.dynamics.hertz import LineContact, Material, line_contact
 from linkwright.cam.dynamics.lift_off import speed_of_loss
-from linkwright.cam.profile.profile import CamProfile, Flank, cam_profile
+from linkwright.cam.profile.contact import Contact
+from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
@@ -304,9 +305,9 @@ def _hertz(
     if cam.width is None or cam.contact == "point":
         return None, ()
     material = Material(cam.elastic_modulus, cam.poisson_ratio)
-    first = profile.flanks[0]
-    pulled = _outer(first, rows[0]) if len(rows) == 1 else _inner(profile.flanks[1], rows[1])
-    pushed = _inner(first, rows[0])
+    first = profile.flanks[0].contact
+    pulled = outer_radii(first, rows[0]) if len(rows) == 1 else radii(profile.flanks[1].contact, rows[1])
+    pushed = radii(first, rows[0])
     carried = np.abs(force) if cam.closure != "spring" else np.maximum(force, 0.0)
     # A follower that only a spring closes has no other side that could carry.
     pushes = (force >= 0) | (cam.closure == "spring")
@@ -317,17 +318,17 @@ def _hertz(
         return None, (f"cam {profile.name}: {error}",)
 
 
-def _inner(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
-    bend = rows["bend"]
-    if not flank.contact.kernel.is_roller:
-        return bend, np.full_like(bend, np.inf)
-    roller = flank.contact.sizes.roller_radius
+def radii(contact: Contact, rows: dict[str, Any]) -> tuple[Any, Any]:
+    """Radii of curvature of profile and follower."""
+    bend, roller = rows["bend"], contact.sizes.roller_radius
+    if not contact.kernel.is_roller:
+        return bend, np.inf
     with np.errstate(divide="ignore"):
-        return 1.0 / bend - roller, np.full_like(bend, roller)
+        return 1.0 / bend - roller, roller
 
 
-def _outer(flank: Flank, rows: dict[str, Floats]) -> tuple[Floats, Floats]:
+def outer_radii(contact: Contact, rows: dict[str, Any]) -> tuple[Any, Any]:
     """The same at the outer flank of a groove, which is concave where the pitch curve is convex."""
-    roller = flank.contact.sizes.roller_radius
+    roller = contact.sizes.roller_radius
     with np.errstate(divide="ignore"):
-        return -(1.0 / rows["bend"] + roller), np.full_like(rows["bend"], roller)
+        return -(1.0 / rows["bend"] + roller), roller

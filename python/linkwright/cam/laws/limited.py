@@ -24,7 +24,8 @@ from linkwright.cam.laws.handbook import constant_velocity, rest_to_rest
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
-from linkwright.kernel.numerics.tangent import Tangent, moves, primal, sqrt
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import moves, primal, sqrt
 
 # Halvings after which an interval of floats is two neighbours.
 _HALVINGS = 100
@@ -74,9 +75,8 @@ class Limits:
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if middle * bare.ramp(middle) <= lift else (low, middle)
-        # One step of Newton's method leaves the root and gives its derivatives.
         missing = low * self.ramp(low) - lift
-        return _moved(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
+        return solution_along(low, missing, bare.ramp(low) + low * bare.ramp_slope(low))
 
     def shortest(self, lift: Any) -> Any:
         """Minimum length of a section with a lift of this size [rad]."""
@@ -121,13 +121,8 @@ def limited(limits: Limits, lift: float, length: float) -> MotionLaw:
             slow = primal(lift) / middle + bare.ramp(middle) > length
             low, high = (middle, high) if slow else (low, middle)
         missing = lift / high + limits.ramp(high) - length
-        high = _moved(high, missing, bare.ramp_slope(high) - primal(lift) / high**2)
+        high = solution_along(high, missing, bare.ramp_slope(high) - primal(lift) / high**2)
     return _profile(limits, high, lift / high).scaled(lift)
-
-
-def _moved(root: float, missing: Any, slope: float) -> Any:
-    """A root with the derivatives of what is missing to zero there."""
-    return root - Tangent(0.0, missing.d) / slope if isinstance(missing, Tangent) else root
 
 
 def _profile(limits: Limits, v: float, fast: float) -> MotionLaw:

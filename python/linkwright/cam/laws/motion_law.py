@@ -17,8 +17,7 @@ import numpy as np
 from linkwright.cam.laws.piece import Harmonic, Piece, zeros
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics.tangent import Tangent, total
-from linkwright.kernel.numerics.tangent_array import lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, plain, primal, total, variables_of
 from linkwright.kernel.public.arguments import array, integer, number, shown
 
 __all__ = ["Extreme", "Harmonic", "MotionLaw", "Piece", "combined", "joined"]
@@ -121,6 +120,8 @@ class MotionLaw:
             raise InputError(f'side: found {shown(side)}, expected "after" or "before"')
         n = variables_of((x,)) or self.variables
         x = _places(x) if n is None else lifted(x, n)
+        if n is not None and not x.ndim:
+            return self.at(x.reshape(1), order, side)[0]
         law = self.derivative(order)
         inner = np.array(self.primal.breaks[1:-1])
         index = np.searchsorted(inner, primal(x), side="right" if side == "after" else "left")
@@ -133,8 +134,7 @@ class MotionLaw:
 
     def value(self, x: Any, order: int = 0, side: Side = "after") -> Any:
         """The value at one place, a number; with derivatives if it has some."""
-        value = self.at(x, order, side)
-        return float(value) if isinstance(value, np.ndarray | np.generic) else value.number()
+        return plain(self.at(x, order, side))
 
     @cached_property
     def variables(self) -> int | None:
@@ -274,8 +274,7 @@ class MotionLaw:
         """Values at places, which move if they are tangents; numbers."""
         if self.variables is None:
             return [float(v) for v in self.at(np.array(places), order, side)]
-        values = self.at(lifted(np.array(places, dtype=object), self.variables), order, side)
-        return [values[i].number() for i in range(len(places))]
+        return list(self.at(numbers(places), order, side))
 
     def peak(self, order: int = 0) -> Extreme:
         """The value of a derivative that is largest in magnitude."""

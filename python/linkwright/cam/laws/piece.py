@@ -18,8 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.numerics.tangent import cos, primal, sin, total
-from linkwright.kernel.numerics.tangent_array import lifted, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, cos, plain, primal, sin, total, variables_of
 
 # Points beyond the degree of the polynomial, and for each radian of the fastest harmonic: its series falls
 # like Bessel functions J_n(k/2), which are below rounding from n = k/2 + 20 on for the frequencies of motion
@@ -80,9 +79,8 @@ class Piece(NamedTuple):
 
     def at(self, u: Any) -> Any:
         """Value over u, of the same shape; with derivatives where the piece or u has some."""
-        n = variables_of((u, *self.numbers))
-        u = np.asarray(u, dtype=float) if n is None else lifted(u, n)
-        value: Any = np.zeros_like(u) if n is None else lifted(np.zeros(u.shape), n)
+        u = u if isinstance(u, Tangent) else np.asarray(u, dtype=float)
+        value: Any = np.zeros(np.shape(u))
         for coefficient in reversed(self.polynomial):
             value = value * u + coefficient
         for k, a, b in self.harmonics:
@@ -91,8 +89,7 @@ class Piece(NamedTuple):
 
     def value(self, u: Any) -> Any:
         """The value at one place, a number; with derivatives if it has some."""
-        value = self.at(u)
-        return float(value) if isinstance(value, np.ndarray | np.generic) else value.number()
+        return plain(self.at(u))
 
     @property
     def numbers(self) -> tuple[Any, ...]:

@@ -19,7 +19,7 @@ from typing import Any
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import LawError, Problem
-from linkwright.kernel.numerics.tangent import Tangent, primal
+from linkwright.kernel.numerics.tangent import Tangent, plain, primal
 
 Row = list[Fraction]
 
@@ -61,7 +61,7 @@ def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None 
     if solved is None:
         expected = "powers that can meet every condition: each order that is given at the start is one"
         raise LawError(Problem("powers", _listed(used), expected))
-    by_power: dict[int, Any] = dict(zip(used, solved, strict=True))
+    by_power: dict[int, Any] = dict(zip(used, map(float, solved), strict=True))
     for i, value in enumerate(values):
         if isinstance(value, Tangent):
             # The coefficients are linear in each condition.
@@ -74,7 +74,7 @@ def polynomial(start: Conditions, end: Conditions, powers: Sequence[int] | None 
 def coefficients(by_power: Mapping[int, Any]) -> tuple[Any, ...]:
     """All coefficients from the constant on, of power → coefficient."""
     given = (by_power.get(p, 0) for p in range(max(by_power) + 1))
-    return tuple(c if isinstance(c, Tangent) else float(c) for c in given)
+    return tuple(map(plain, given))
 
 
 def polynomial_3_4_5() -> MotionLaw:

@@ -205,7 +205,8 @@ def _closed(sections: Sequence[Section]) -> list[Section]:
     closed = [replace(section, angle=section.angle * TURN / turn) for section in sections]
     if isinstance(left, Tangent):
         # Of a lift that an entry changes alone, all give way in proportion to their sizes.
-        lifts, rest = sum(abs(section.lift) for section in sections), Tangent(0.0, left.d)
+        lifts: Any = sum(abs(section.lift) for section in sections)
+        rest: Any = Tangent(0.0, left.d)
         shares = [primal(abs(section.lift) / lifts) if lifts else 0.0 for section in sections]
         closed = [
             replace(section, lift=section.lift - share * rest)

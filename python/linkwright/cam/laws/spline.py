@@ -28,8 +28,7 @@ from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import LawError, Problem
-from linkwright.kernel.numerics.tangent import Tangent, primal
-from linkwright.kernel.numerics.tangent_array import variables_of
+from linkwright.kernel.numerics.tangent import Tangent, primal, variables_of
 
 
 def spline(places: Sequence[float], values: Sequence[float], task: Boundary, degree: int = 5) -> MotionLaw:

@@ -22,7 +22,7 @@ from linkwright.cam.profile.contact import CamCurve, Contact, Opposite, contacts
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, show
-from linkwright.kernel.numerics.tangent_array import plain, primal
+from linkwright.kernel.numerics.tangent import plain, primal
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result

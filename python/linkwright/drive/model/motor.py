@@ -30,6 +30,7 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import Description, fault, raise_faults
 from linkwright.kernel.description.curve import curve_faults, unread_file
 from linkwright.kernel.description.place import keys, look
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
 from linkwright.kernel.units.marks import Speeds, Torque, Torques, not_negative, positive
 
@@ -124,7 +125,7 @@ def breakdown_slip(slip_rated: Any, overload: Any, resistance_ratio: Any) -> Any
     with np.errstate(all="ignore"):
         square = np.divide(1.0, s_n) + 2 * a - 2 * lam * a
         slip = np.where(square > 0, (lam + np.sqrt(lam * lam - square * s_n)) / square, np.nan)
-    return slip if slip.ndim else slip.item()
+    return slip if slip.ndim else plain(slip)
 
 
 def _coincide(first: Any, second: Any) -> bool:

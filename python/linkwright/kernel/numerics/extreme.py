@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.numerics.tangent_array import TangentArray, lifted, primal, variables_of
+from linkwright.kernel.numerics.tangent import Tangent, lifted, primal, variables_of
 
 # Extremes this near, as a share of their size or of the curve's range, tie: what is known to rounding, and
 # what is solved for or looked for.
@@ -127,6 +127,11 @@ class Kinks:
         on = [kink for kink in self.angles.tolist() if (off(angles, kink, self.cycle) <= near).any()]
         return [kink for kink in on if self.moved_at(kink, near).any()]
 
+    def extreme(self, value: float, d: Floats, angle: float, moving: Bools) -> tuple[Tangent, str]:
+        """An extreme beside a kink that variables move, by which it has no derivatives, and why."""
+        why = self.words(angle, moving) if moving.any() else ""
+        return Tangent(value, np.where(moving, np.nan, d)), why
+
     def words(self, angle: float, moving: Bools) -> str:
         """Which entries have no derivative there."""
         kink = float(self.angles[off(self.angles, angle, self.cycle).argmin()])
@@ -174,7 +179,7 @@ def greatest(*numbers: Any) -> Any:
         return first
     near = primal(first) - TIE * abs(primal(first))
     rivals = [lifted(x, n).d for x in (first, *numbers) if primal(x) >= near]
-    return TangentArray(primal(first), common(np.stack(rivals)))
+    return Tangent(primal(first), common(np.stack(rivals)))
 
 
 def least(*numbers: Any) -> Any:

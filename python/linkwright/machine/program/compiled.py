@@ -176,9 +176,15 @@ class CompiledMachine:
         """Radicand of each dyad at crank angles, (dyads, n); negative where it does not close."""
         return _core.gaps(self.plan, self.parameters, angles)
 
-    def motion(self, channels: Sequence[_core.Channel], angles: Floats) -> list[Rows]:
-        """Motion of the first row at crank angles [rad]: a point, link or slide each."""
-        return motion(self.plan, self.parameters, channels, angles)
+    def motion(
+        self, channels: Sequence[_core.Channel], angles: Floats, directions: Floats | None = None
+    ) -> list[Rows]:
+        """Motion of the first row at crank angles [rad]: a point, link or slide each.
+
+        With derivatives by directions (parameters, k).
+        """
+        slopes = None if directions is None else self.motions_along(directions, angles, channels)
+        return motion(self.plan, self.parameters, channels, angles, slopes)
 
     def point_motion(self, point: int, angles: Floats) -> PointRows:
         """Motion of a point of the first row at crank angles [rad]."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import accumulate, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.tangent import Tangent
 
 _NO_SLOTS = np.empty(0, dtype=np.int32)
 _NO_VALUES = np.empty((0, 1))
@@ -50,13 +51,18 @@ WIDTHS: dict[type[_core.Channel], int] = {
 
 
 def motion(
-    plan: _core.Plan, parameters: Floats, channels: Sequence[_core.Channel], angles: Floats
+    plan: _core.Plan,
+    parameters: Floats,
+    channels: Sequence[_core.Channel],
+    angles: Floats,
+    slopes: Floats | None = None,
 ) -> list[Rows]:
-    """Motion of what is asked for at crank angles (n,) [rad]."""
+    """Motion of what is asked for at crank angles (n,) [rad]; tangents with `slopes`, (numbers, n, k)."""
     ends = list(accumulate((WIDTHS[type(channel)] for channel in channels), initial=0))
     out = np.empty((1, ends[-1], len(angles)))
     _core.motions(plan, parameters, _NO_SLOTS, _NO_VALUES, angles, channels, out)
-    tables = [out[0, start:end] for start, end in pairwise(ends)]
+    table: Any = out[0] if slopes is None else Tangent(out[0], slopes)
+    tables = [table[start:end] for start, end in pairwise(ends)]
     return [_ROWS[type(channel)](table) for channel, table in zip(channels, tables, strict=True)]
 
 

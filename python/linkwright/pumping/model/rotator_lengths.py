@@ -29,10 +29,9 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.errors import AssemblyError
-from linkwright.kernel.numerics.tangent import Tangent
-from linkwright.kernel.numerics.tangent_array import (
-    TangentArray,
-    in_arrays,
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import (
+    Tangent,
     lifted,
     plain,
     primal,
@@ -76,7 +75,6 @@ def lengths(unit: PumpingUnit, rotator: RodRotator) -> Lengths:
     """Link and lever, given or made for the unit and the regime [m]."""
     if rotator.link_length is not None:
         return Lengths(rotator.link_length, rotator.lever_length)
-    unit, rotator = _in_arrays(unit), _in_arrays(rotator)
     m, M = diagonal_extremes(unit, rotator)
     varies = bool(np.ndim(M)) or isinstance(rotator.swing, np.ndarray)
     if not varies and not unit.reaches_ends:
@@ -126,9 +124,9 @@ def _lever_along(unit: PumpingUnit, rotator: RodRotator, n: int) -> Any:
         return angle[:, 1:2] - angle[:, 2:3]
 
     moved = LeverStroke.of(unit, rotator, places)
-    late = lifted(required(rotator) - spread(moved, swing), n).d
-    slope = spread(LeverStroke.of(*still, places), TangentArray(swing, np.ones((1, 1, 1)))).d
-    return moved.lever(TangentArray(swing, late / slope))[0, 0]
+    late = lifted(spread(moved, swing) - required(rotator), n)
+    slope = spread(LeverStroke.of(*still, places), Tangent(swing, np.ones((1, 1, 1)))).d
+    return moved.lever(solution_along(swing, late, slope[..., 0]))[0, 0]
 
 
 def _swing(stroke: LeverStroke, rotator: RodRotator, varies: bool) -> Any:
@@ -257,7 +255,7 @@ def turning_shares(unit: PumpingUnit, rotator: RodRotator, lever: float, excess:
     """Shares of the stroke at which a rocking lever turns back, with 0 and 1; as of `LeverStroke.angle`."""
 
     def slope(share: Floats) -> Floats:
-        stroke = LeverStroke.of(unit, rotator, TangentArray(share, np.ones((len(share), 1))))
+        stroke = LeverStroke.of(unit, rotator, Tangent(share, np.ones((len(share), 1))))
         rate: Floats = stroke.angle(lever, excess).d[..., 0]
         return rate
 
@@ -270,14 +268,8 @@ def zeros_of_stroke(slope: Callable[[Floats], Floats]) -> Floats:
     return np.concatenate([[0.0], inside, [1.0]])
 
 
-def _in_arrays(part: P) -> P:
-    """The description with numbers that meet arrays where they have derivatives."""
-    along = {name: in_arrays(value) for name, value in part if isinstance(value, Tangent)}
-    return part.with_entries(along) if along else part
-
-
 def _still(part: P) -> P:
-    along = {name: float(value.value) for name, value in part if isinstance(value, TangentArray)}
+    along = {name: value.value for name, value in part if isinstance(value, Tangent)}
     return part.with_entries(along) if along else part
 
 

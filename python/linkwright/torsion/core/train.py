@@ -15,13 +15,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
+from typing import Any
 
 import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.numerics.tangent import primal
+from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
@@ -155,23 +156,23 @@ def refer(train: Train) -> ReferredTrain:
     twisting: dict[str, Shaft | TrainGear] = {**train.shafts, **elastic}
     pairs = [part.between for part in twisting.values()]
     # What counts is the end of a shaft that turns, and the first disc of a mesh.
-    factor = np.array([n[a if a != GROUND else b] ** 2 for a, b in pairs])
+    factor = numbers([n[a if a != GROUND else b] ** 2 for a, b in pairs])
 
-    def summed(entry: str) -> Floats:
-        return np.array([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+    def summed(entry: str) -> Any:
+        return numbers([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
 
     referred = ReferredTrain(
         discs=tuple(train.discs),
         shafts=tuple(twisting),
-        speed=np.array(list(n.values())),
+        speed=numbers(list(n.values())),
         mass=np.array([place[name] for name in train.discs], np.int32),
         ends=_indices(pairs, place),
         tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
         inertia=summed("inertia"),
-        stiffness=factor * np.array([_rate(part) for part in twisting.values()]),
+        stiffness=factor * numbers([_rate(part) for part in twisting.values()]),
         disc_damping=summed("damping"),
-        damping=factor * np.array([part.damping for part in twisting.values()]),
-        loss_factor=np.array([part.loss_factor for part in twisting.values()]),
+        damping=factor * numbers([part.damping for part in twisting.values()]),
+        loss_factor=numbers([part.loss_factor for part in twisting.values()]),
         rods=tuple(_rods(list(twisting.values()), factor)),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
@@ -180,8 +181,8 @@ def refer(train: Train) -> ReferredTrain:
 def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:
     for n, part in enumerate(twisting):
         if isinstance(part, RodShaft):
-            k = np.array([piece.stiffness for piece in part.pieces])
-            j = np.array([piece.inertia for piece in part.pieces])
+            k = numbers([piece.stiffness for piece in part.pieces])
+            j = numbers([piece.inertia for piece in part.pieces])
             first, second = (factor[n] * end for end in part.end_inertias)
             yield Rod(n, factor[n] * k, factor[n] * j, (first, second))
 

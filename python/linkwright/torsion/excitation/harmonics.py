@@ -12,11 +12,12 @@ phase sooner or later: of them the amplitudes add up.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import lcm
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from numpy.typing import NDArray
 from linkwright.kernel.arrays import Bools, Complexes, Floats
 from linkwright.kernel.errors import require_within
 from linkwright.kernel.limits import RESPONSE
+from linkwright.kernel.numerics.tangent import numbers, zeros_for
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.model.train import Train
 
@@ -76,33 +78,36 @@ def torques_of(
     """
     place = {name: k for k, name in enumerate(train.discs)}
     every = [*sources, *_excitations(train, place, turning, speeds)]
-    mean = np.zeros((len(place), len(speeds)))
-    for torque in every:
-        if torque.mean is not None:
-            mean[torque.disc] += torque.mean
-    for driver in train.drivers.values():
-        if driver.torque is not None:
-            n = turning[place[driver.on]]
-            mean[place[driver.on]] += [driver.torque_at(n * speed) for speed in speeds.tolist()]
+    driving = [(torque.disc, torque.mean) for torque in every if torque.mean is not None]
+    driving += [
+        (place[driver.on], _at(driver.torque_at, turning[place[driver.on]] * speeds))
+        for driver in train.drivers.values()
+        if driver.torque is not None
+    ]
+    mean = _summed(driving, len(place), speeds)
     resistance, of_loads = _loads(train, place, turning, speeds)
     factor = np.ones(len(speeds))
     if is_free:
         # Power balances: what turns n times as fast counts n times.
-        drive, needed = turning @ mean, turning @ resistance
+        drive, needed = _powers(turning, mean), _powers(turning, resistance)
         if has_engine and loads_follow:
             factor = np.divide(drive, needed, out=factor, where=needed > 0)
             resistance, of_loads = factor * resistance, np.maximum(factor, 0.0) * of_loads
         elif not has_engine:
-            for on, share in train.shares.items():
-                mean[place[on]] += share * (needed - drive) / turning[place[on]]
+            given = [
+                (place[on], share * (needed - drive) / turning[place[on]])
+                for on, share in train.shares.items()
+            ]
+            mean = mean + _summed(given, len(place), speeds)
     every += _load_harmonics(train, place, turning, speeds, factor)
     orders = _orders(torque.orders for torque in every)
-    harmonics = np.zeros((len(orders), len(place), len(speeds)), complex)
+    shape = (len(orders), len(place), len(speeds))
+    harmonics = zeros_for([torque.harmonics for torque in every], shape, complex)
     for torque in every:
         at = np.abs(orders[:, None] - torque.orders).argmin(axis=0)
         np.add.at(harmonics, (at, torque.disc), torque.harmonics)
     own = of_loads if damping is None else of_loads + damping
-    surplus = turning @ (mean - resistance) if is_free else np.zeros(len(speeds))
+    surplus = _powers(turning, mean - resistance) if is_free else np.zeros(len(speeds))
     return Torques(speeds, orders, harmonics, mean - resistance, own, factor, surplus)
 
 
@@ -110,8 +115,8 @@ def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: F
     sources = []
     for excitation in train.excitations.values():
         n = turning[place[excitation.on]]
-        size = np.array([wave.torque * np.exp(1j * wave.phase) for wave in excitation.harmonics])
-        factor = np.array([excitation.factor(n * speed) for speed in speeds.tolist()])
+        size = numbers([wave.torque * np.exp(1j * wave.phase) for wave in excitation.harmonics])
+        factor = _at(excitation.factor, n * speeds)
         orders = n * np.array([wave.order for wave in excitation.harmonics])
         sources.append(Source(place[excitation.on], orders, size[:, None] * factor))
     return sources
@@ -119,13 +124,28 @@ def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: F
 
 def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> tuple[Floats, Floats]:
     """Mean resistance and damping of the loads, (discs, speeds) each."""
-    resistance = np.zeros((len(place), len(speeds)))
-    damping = np.zeros_like(resistance)
-    for load in train.loads.values():
-        n, disc = turning[place[load.on]], place[load.on]
-        resistance[disc] += [load.resistance(n * speed) for speed in speeds.tolist()]
-        damping[disc] += [load.damping(n * speed) for speed in speeds.tolist()]
+    listed = [(place[load.on], load, turning[place[load.on]] * speeds) for load in train.loads.values()]
+    resistance = _summed([(disc, _at(load.resistance, at)) for disc, load, at in listed], len(place), speeds)
+    damping = _summed([(disc, _at(load.damping, at)) for disc, load, at in listed], len(place), speeds)
     return resistance, damping
+
+
+def _at(function: Callable[[float], Any], speeds: Floats) -> Any:
+    """A number of one speed at each of some."""
+    return numbers([function(speed) for speed in speeds.tolist()])
+
+
+def _summed(torques: Sequence[tuple[int, Any]], discs: int, speeds: Floats) -> Any:
+    """Pairs of a disc and its torques over the speeds as sums on all discs, (discs, speeds)."""
+    sums = zeros_for([torque for _, torque in torques], (discs, len(speeds)))
+    for disc, torque in torques:
+        sums[disc] += torque
+    return sums
+
+
+def _powers(turning: Floats, torques: Any) -> Any:
+    """Power of torques on all discs over the speed of the first disc, (speeds,)."""
+    return np.einsum("d,ds->s", turning, torques)
 
 
 def _load_harmonics(
@@ -136,9 +156,8 @@ def _load_harmonics(
     for load in train.loads.values():
         if load.harmonics:
             disc = place[load.on]
-            resistance = [load.resistance(turning[disc] * speed) for speed in speeds.tolist()]
-            waves = [-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics]
-            size = np.array(waves, dtype=np.complex128)
+            resistance = _at(load.resistance, turning[disc] * speeds)
+            size = numbers([-wave.share * np.exp(1j * wave.phase) for wave in load.harmonics])
             orders = turning[disc] * np.array([wave.order for wave in load.harmonics])
             harmonics = size[:, None] * (factor * resistance)
             sources.append(Source(disc, orders, harmonics))

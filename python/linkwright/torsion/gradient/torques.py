@@ -19,14 +19,17 @@ import numpy as np
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.numerics.differences import Numbers, slopes, step_at
+from linkwright.kernel.numerics.tangent import lifted
 from linkwright.machine.address import entry_of, outside, replace
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import columns
+from linkwright.machine.tangents import followed
 from linkwright.torsion.core.response import tree_of
 from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.excitation.excited_train import excited_train, mean_shaft_torques
+from linkwright.torsion.excitation.harmonics import Torques, torques_of
 from linkwright.torsion.gradient.train import TrainTangents
 from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.whole_train import whole_train
 
 _Arrays = tuple[Numbers, ...]
 
@@ -66,25 +69,26 @@ def torque_tangents(
     if not _is_plain(machine, referred):
         return _by_differences(machine, referred, speeds, d, refused)
     at = excited_train(machine, speeds)
-    orders = at.torques.orders
-    discs = list(train.discs)
-    shape = (len(speeds), 2 * len(orders) + 2, len(discs))
-    numbers = partial(_torques, discs=discs, turning=referred.speed, orders=orders, speeds=speeds)
     acting = [name for name in d.variables if name.startswith(_ACTING)]
-    derivatives = columns(machine, acting, numbers, refused)
-    table = np.zeros((*shape, len(d.variables)))
-    for name, column in derivatives.items():
-        table[..., list(d.variables).index(name)] = column.reshape(shape)
-    onto = np.zeros((len(referred.inertia), len(discs)))
-    onto[referred.mass, np.arange(len(discs))] = referred.speed
-    n = len(orders)
-    waves = np.einsum("md,sodv->somv", onto, table[:, :n] + 1j * table[:, n : 2 * n])
-    damping = np.einsum("md,sdv->smv", onto * referred.speed, table[:, -1])
+    known, torques = followed(machine, acting, partial(_torques, referred=referred, speeds=speeds), refused)
+    places = [d.variables.index(name) for name in known]
+
+    def spread(torques: Any) -> Any:
+        """Derivatives of torques by all variables."""
+        of_known = lifted(torques, len(known)).d
+        table = np.zeros((*of_known.shape[:-1], len(d.variables)), of_known.dtype)
+        table[..., places] = of_known
+        return table
+
+    onto = np.zeros((len(referred.inertia), len(train.discs)))
+    onto[referred.mass, np.arange(len(train.discs))] = referred.speed
+    waves = np.einsum("md,odsv->somv", onto, spread(torques.harmonics))
+    damping = np.einsum("md,dsv->smv", onto * referred.speed, spread(torques.damping))
     means = [
         np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
         .reshape(value.shape[1], len(referred.shafts))
         .T
-        for value in table[:, -2]
+        for value in np.moveaxis(spread(torques.mean), 1, 0)
     ]
     shared = [_shared(referred, mean, d.stiffness) for mean in at.mean_torques.T]
     return [
@@ -172,43 +176,8 @@ def _curved(machine: Machine) -> list[str]:
     return [name for name, coupling in couplings.items() if coupling.twist is not None]
 
 
-def _torques(
-    machine: Machine, discs: list[str], turning: Floats, orders: Floats, speeds: Floats
-) -> Sequence[Any]:
-    """Of file and loads at each speed: cosines and −sines of each order, means, dampings, on all discs."""
-    train = machine.train
-    assert train is not None
-    table = np.zeros((len(speeds), 2 * len(orders) + 2, len(discs)), dtype=object)
-    for k, speed in enumerate(speeds.tolist()):
-        for excitation in train.excitations.values():
-            disc = discs.index(excitation.on)
-            factor = excitation.factor(turning[disc] * speed)
-            for wave in excitation.harmonics:
-                _add_wave(
-                    table[k], orders, disc, turning[disc] * wave.order, wave.torque * factor, wave.phase
-                )
-        for load in train.loads.values():
-            disc = discs.index(load.on)
-            resistance = load.resistance(turning[disc] * speed)
-            table[k, -2, disc] -= resistance
-            table[k, -1, disc] += load.damping(turning[disc] * speed)
-            for part in load.harmonics:
-                _add_wave(
-                    table[k], orders, disc, turning[disc] * part.order, -part.share * resistance, part.phase
-                )
-        for driver in train.drivers.values():
-            if driver.torque is not None:
-                disc = discs.index(driver.on)
-                table[k, -2, disc] += driver.torque_at(turning[disc] * speed)
-        if not train.installed and not any("ground" in shaft.between for shaft in train.shafts.values()):
-            left = (turning * table[k, -2]).sum()
-            for on, share in train.shares.items():
-                table[k, -2, discs.index(on)] -= share * left / turning[discs.index(on)]
-    return list(table.ravel())
-
-
-def _add_wave(table: Any, orders: Floats, disc: int, order: float, size: Any, phase: Any) -> None:
-    """Add size·e^{i phase} to the order of a disc."""
-    nth = int(np.abs(orders - order).argmin())
-    table[nth, disc] += size * np.cos(phase)
-    table[len(orders) + nth, disc] += size * np.sin(phase)
+def _torques(machine: Machine, referred: ReferredTrain, speeds: Floats) -> Torques:
+    """Those of file and loads at each speed."""
+    assert machine.train is not None
+    train = whole_train(machine.train)
+    return torques_of(train, referred.speed, speeds, is_free=referred.is_free)

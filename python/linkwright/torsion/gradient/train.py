@@ -11,11 +11,10 @@ from dataclasses import dataclass, fields
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.tangent import lifted, numbers
 from linkwright.machine.machine import Machine
-from linkwright.machine.tangents import columns
+from linkwright.machine.tangents import followed
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import drive_line, mean_inertia
 from linkwright.torsion.model.drive_train import drive_train
@@ -57,18 +56,15 @@ class TrainTangents:
 _NUMBERS = tuple(field.name for field in fields(TrainTangents))[1:]
 
 
-def _listed(referred: ReferredTrain) -> list[Sequence[Any]]:
+def _listed(referred: ReferredTrain) -> list[Any]:
     """The numbers of a referred train by the names of `_NUMBERS`; they may be tangents."""
     bare = list(referred.inertia)
     for rod in referred.rods:
         for mass, lumped in zip(referred.ends[rod.shaft].tolist(), rod.ends, strict=True):
             if mass != HELD:
                 bare[mass] = bare[mass] - lumped
-    of_rods = [
-        [number for rod in referred.rods for number in getattr(rod, name)]
-        for name in ("stiffness", "inertia")
-    ]
-    return [*(getattr(referred, name) for name in _NUMBERS[:-3]), bare, *of_rods]
+    of_rods = ([x for rod in referred.rods for x in getattr(rod, name)] for name in ("stiffness", "inertia"))
+    return [*(getattr(referred, name) for name in _NUMBERS[:-3]), *map(numbers, (bare, *of_rods))]
 
 
 def train_tangents(
@@ -83,11 +79,8 @@ def train_tangents(
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
     refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
-    derivatives = columns(machine, free, partial(_numbers, inertia=J), refused)
-    known = tuple(name for name in free if name in derivatives)
-    ends = np.cumsum([len(numbers) for numbers in _listed(referred)])
-    table = np.array([derivatives[name] for name in known]).reshape(len(known), ends[-1]).T
-    return train, referred, TrainTangents(known, *np.split(table, ends[:-1]))
+    known, listed = followed(machine, free, partial(_numbers, inertia=J), refused)
+    return train, referred, TrainTangents(known, *(lifted(x, len(known)).d for x in listed))
 
 
 def _starts_of_curves(machine: Machine) -> set[str]:
@@ -101,14 +94,11 @@ def _described(machine: Machine) -> Train:
     return drive_line(machine) if machine.train is None else machine.train
 
 
-def _numbers(machine: Machine, inertia: float) -> Sequence[Any]:
-    """All numbers of the referred train, one behind the other."""
-    drive = machine.drive
-    if machine.train is None:
-        assert drive is not None
-        train = drive_train(drive, inertia)
-    else:
-        train = machine.train
+def _numbers(machine: Machine, inertia: float) -> list[Any]:
+    """The numbers of the referred train."""
+    train = machine.train
+    if train is None:
+        assert machine.drive is not None
+        train = drive_train(machine.drive, inertia)
     # Ratios of damping belong to modes, and change none of these numbers.
-    referred = refer(train.model_copy(update={"modal_damping": None}))
-    return [number for numbers in _listed(referred) for number in numbers]
+    return _listed(refer(train.model_copy(update={"modal_damping": None})))

@@ -20,7 +20,8 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
-from linkwright.kernel.numerics.tangent_array import numbers, primal
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.units.kinds import INERTIA, POWER
 from linkwright.kernel.units.marks import Angles, Torques, positive
@@ -99,9 +100,9 @@ class Coupling(CheckedDescription):
             over: Floats = torques[n] + _hermite(z, *piece)[0] - size
             return over
 
-        z, _ = zeros(lambda z: primal(beyond(z)), np.zeros_like(primal(size)), np.ones_like(primal(size)))
-        # Where the curve moves with its points, the place on it moves by one step of Newton's method.
-        z = z - (beyond(z) - primal(beyond(z))) / primal(_hermite(z, *piece)[1])
+        low, high = np.zeros(np.shape(size)), np.ones(np.shape(size))
+        z, _ = zeros(lambda z: np.asarray(primal(beyond(z))), low, high)
+        z = solution_along(z, beyond(z), primal(_hermite(z, *piece)[1]))
         stiffness: Floats = _hermite(z, *piece)[1] / h
         return stiffness
 

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 
 from pydantic import Field
 
-from linkwright.kernel.numerics.tangent_array import plain
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces

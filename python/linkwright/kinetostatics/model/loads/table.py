@@ -12,8 +12,7 @@ from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.description.cycle import ONE_TURN, CycleAngle, cycle_faults, cycle_turns
 from linkwright.kernel.errors import InputError
-from linkwright.kernel.numerics.tangent import moves
-from linkwright.kernel.numerics.tangent_array import variables_of
+from linkwright.kernel.numerics.tangent import moves, variables_of
 from linkwright.kernel.units.marks import Angles, Forces, Lengths, Speeds, Torques
 from linkwright.kinetostatics.model.loads.force import Load
 

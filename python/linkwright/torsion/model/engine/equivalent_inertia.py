@@ -70,7 +70,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, ConvergenceError
-from linkwright.kernel.numerics.tangent_array import plain
+from linkwright.kernel.numerics.tangent import plain
 from linkwright.torsion.model.engine.rod import Rod
 from linkwright.torsion.model.engine.running_gear import RunningGear, throw_reduction
 

@@ -40,7 +40,6 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import AssemblyError
-from linkwright.kernel.numerics.tangent_array import in_arrays
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -85,15 +84,20 @@ class RodMotion:
 
 
 def crank_pin(crank_radius: float, crank_angle: ArrayLike) -> PinMotion:
-    """Motion of the crank pin at crank angles [rad], in their shape; r [m]."""
-    p = in_arrays(crank_radius) * np.exp(1j * np.asarray(crank_angle, dtype=np.float64))
+    """Motion of the crank pin.
+
+    In the shape of the crank angles. `crank_radius`: r [m]; `crank_angle`: [rad].
+    """
+    p = crank_radius * np.exp(1j * np.asarray(crank_angle, dtype=np.float64))
     return PinMotion(p, 1j * p, -p)
 
 
 def articulated_pin(master: RodMotion, pin_radius: float, pin_angle: float) -> PinMotion:
-    """Motion of an articulated pin on a master rod; ρ from the axis of the big end [m]; angle [rad]."""
-    rho, gamma = in_arrays(pin_radius), in_arrays(pin_angle)
-    return master.point(rho * np.cos(gamma), rho * np.sin(gamma))
+    """Motion of an articulated pin on a master rod.
+
+    The pin. `pin_radius`: ρ, from the axis of its big end to the pin [m]; `pin_angle`: [rad].
+    """
+    return master.point(pin_radius * np.cos(pin_angle), pin_radius * np.sin(pin_angle))
 
 
 def rod_motion(
@@ -110,7 +114,6 @@ def rod_motion(
     `rod_length`: l [m]; `bank_angle`: [rad]; `offset`: [m].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
-    rod_length, bank_angle, offset = (in_arrays(x) for x in (rod_length, bank_angle, offset))
     turn = np.exp(-1j * bank_angle)
     p, p_d1, p_d2 = pin.position * turn, pin.d1 * turn, pin.d2 * turn
     sine = (offset - p.imag) / rod_length

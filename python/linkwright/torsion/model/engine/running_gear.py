@@ -44,7 +44,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError
-from linkwright.kernel.numerics.tangent_array import in_arrays, primal
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.torsion.model.engine.pendulum import FREE_FALL
 from linkwright.torsion.model.engine.rod import ArticulatedRod, Rod
 from linkwright.torsion.model.engine.rod_motion import RodMotion, articulated_pin, crank_pin, rod_motion
@@ -130,17 +130,17 @@ def throw_reduction(
     `static_moment`: [kg m]; `gravity`: [m/s²].
     """
     phi = np.asarray(crank_angle, dtype=np.float64)
-    J, J_d1 = in_arrays(own_inertia) + np.zeros(phi.shape), np.zeros(phi.shape)
+    J, J_d1 = own_inertia + np.zeros(phi.shape), np.zeros(phi.shape)
     # Σ m Re S′ of all that has weight.
     lift = np.zeros(phi.shape) if not static_moment else (1j * static_moment * np.exp(1j * phi)).real
     for gear, motion in zip(gears, throw_motion(crank_radius, gears, phi), strict=True):
-        m, centre, J_S, m_3 = (in_arrays(x) for x in (*gear.rod.body, gear.piston_mass))
+        m, centre, J_S, m_3 = (*gear.rod.body, gear.piston_mass)
         S = motion.point(centre)
         x_d1, x_d2, turn, turn_d1 = motion.piston_d1, motion.piston_d2, motion.angle_d1, motion.angle_d2
         J = J + m * (S.d1.real**2 + S.d1.imag**2) + J_S * turn**2 + m_3 * x_d1**2
         J_d1 = J_d1 + 2.0 * m * (S.d1.real * S.d2.real + S.d1.imag * S.d2.imag)
         J_d1 = J_d1 + 2.0 * (J_S * turn * turn_d1 + m_3 * x_d1 * x_d2)
-        lift = lift + m * S.d1.real + m_3 * np.cos(in_arrays(gear.bank_angle)) * x_d1
+        lift = lift + m * S.d1.real + m_3 * np.cos(gear.bank_angle) * x_d1
     return ThrowReduction(phi, J, J_d1, -gravity * lift)
 
 
