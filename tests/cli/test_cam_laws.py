@@ -80,6 +80,7 @@ def test_an_unknown_law_and_a_folder_that_is_a_file(tmp_path: Path) -> None:
 
 
 def group(default: Callable[..., None] | None) -> Commands:
+    """A group with a command and perhaps one for what is none."""
     load = None if default is None else lambda: command(default)
     return Commands("group", "A group.", {"one": Entry("One.", lambda: command(one))}, load)
 
@@ -90,6 +91,7 @@ def one() -> None:
 
 
 def other(file: File, fast: Annotated[bool, Option("--fast")] = False) -> None:
+    """Other."""
     click.echo(f"{file.file} {fast}")
 
 

@@ -41,6 +41,7 @@ def call(words: str) -> tuple[Result, list[Any]]:
         at: Annotated[float, Value("--at", ANGLE, "Angle.", "180 deg")],
         to: Annotated[FolderOutput, to_folder("Write there.")],
     ) -> None:
+        """Draw a shape."""
         taken.extend((sizes, at))
         to.hand_over(Answer(machine="M", results={"at": at}))
 

@@ -1,4 +1,4 @@
-"""Random cases of all tests: how many, from which seeds, and what is told of one that fails.
+"""Random cases of all tests: how many, from which seeds, and what a failing test prints.
 
 Few cases, always the same, in `make test`, many in `make test-deep`. A failing test prints the seeds of its
 case, with which `generator` makes it again, and the machine that it was at as a file.

@@ -31,10 +31,12 @@ DECLARED = [each for each in RESULTS if declared(each)]
 
 
 def is_coherent(unit: str) -> bool:
+    """Whether a unit is one of SI without a factor."""
     return REGISTRY.Quantity(1.0, plain(unit)).to_base_units().magnitude == 1.0
 
 
 def plain(unit: str) -> str:
+    """A unit as pint reads it."""
     return unit.replace("²", "**2").replace("³", "**3").replace(" ", "*")
 
 
@@ -116,6 +118,7 @@ class Heated(SteadyState):
 
     @property
     def loss(self) -> Annotated[float, Label("what is lost", "V", "J", table="drive", before="efficiency")]:
+        """Work of the motor less that of the loads."""
         return self.energy_motor - self.energy_load
 
 
