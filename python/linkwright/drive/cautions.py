@@ -327,7 +327,7 @@ def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
     """A factor below 1 in reverse hands the motor more power than the crank gives."""
-    factor = float(reverse_factor(drive))
+    factor = float(reverse_factor(drive.gearbox))
     driven = np.minimum(steady.torque_drive, 0.0)
     gained = -float(np.trapezoid(driven, steady.crank_angle)) * (1 / factor - 1)
     if gained > 0.1 * _SMALL * abs(steady.energy_drive):

@@ -43,12 +43,14 @@ def _reverse(value: object) -> object:
 _REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "minimum": 0}]}
 
 
-class Gearbox(Description):
-    """Gears between the motor and the crankshaft; a ratio of 1 stands for a direct drive."""
+class Gears(Description):
+    """Gears between a motor and a shaft that it drives; a ratio of 1 stands for a direct drive."""
 
-    ratio: Annotated[float, positive(RATIO)] = Field(1.0, description="Motor speed over crankshaft speed.")
+    ratio: Annotated[float, positive(RATIO)] = Field(
+        1.0, description="Motor speed over speed of the driven shaft."
+    )
     efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Torque at the crankshaft over motor torque times ratio, while the motor drives."
+        1.0, description="Torque at the driven shaft over motor torque times ratio, while the motor drives."
     )
     reverse: Annotated[
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
@@ -61,6 +63,16 @@ class Gearbox(Description):
     inertia: Annotated[float, not_negative(INERTIA)] = Field(
         0.0, description="Moment of inertia, referred to the motor shaft."
     )
+
+    @property
+    def locks(self) -> bool:
+        """Whether it is self-locking: no load drives the motor through it."""
+        return is_number(self.reverse) and float(self.reverse) == 0
+
+
+class Gearbox(Gears):
+    """Gears between the motor and the crankshaft."""
+
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
         0.0,
         description="Moment of inertia of the last wheel or pulley, about the crankshaft, if "
@@ -71,11 +83,6 @@ class Gearbox(Description):
         description="Stiffness of teeth or belt, referred to the motor shaft: torque per angle. Default: "
         "rigid.",
     )
-
-    @property
-    def locks(self) -> bool:
-        """Whether it is self-locking: no load drives the motor through it."""
-        return is_number(self.reverse) and float(self.reverse) == 0
 
 
 class Coupling(Description):
