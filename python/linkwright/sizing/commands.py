@@ -21,9 +21,9 @@ from linkwright.studies.commands.study_file import ToStudy, hand_over_study
 
 if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
+    from linkwright.kernel.check import Check
     from linkwright.kernel.page.table import Row, Table
     from linkwright.machine.machine import Machine
-    from linkwright.sizing.checks import Check
     from linkwright.sizing.flywheel import FlywheelChoice
     from linkwright.sizing.motor import Candidate, MotorChoice
     from linkwright.studies.plan import StudyPlan

@@ -36,7 +36,7 @@ from linkwright.cam.model.motion_law import (
 from linkwright.cam.model.point_law import FormulaLaw, SplineLaw, TableLaw
 from linkwright.kernel.description.base import Description, fault, wrong
 from linkwright.kernel.errors import LawError
-from linkwright.kernel.units.kinds import ANGLE, LENGTH, LIFT_D1, LIFT_D2, RATIO, SWING_D2
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, LIFT_D1, LIFT_D2, RATIO, SWING_D2, TIME
 from linkwright.kernel.units.marks import Angle, Length, Quantity, positive
 from linkwright.kernel.units.reading import to_text
 
@@ -156,16 +156,37 @@ class MotionSection(Description):
         return self.law.own_lift(self.angle, swing=family == "swing")
 
 
+class AxisSection(MotionSection):
+    """A section of the motion of a servo axis, over an angle of the master or a time."""
+
+    angle: Annotated[float, positive(ANGLE)] | None = Field(  # type: ignore[assignment]
+        None, description="Angle of the master over the section."
+    )
+    time: Annotated[float, positive(TIME)] | None = Field(
+        None, description="Duration of the section, instead of the angle; the master gives the cycle time."
+    )
+
+    def over(self, cycle_time: float | None) -> MotionSection:
+        """The section over an angle of the master. `cycle_time`: of a revolution [s]."""
+        entries = {name: getattr(self, name) for name in MotionSection.model_fields}
+        if self.time is not None:
+            assert cycle_time is not None
+            entries["angle"] = TURN * self.time / cycle_time
+        return MotionSection.model_construct(**entries)
+
+
 def key_of(name: str, family: Family) -> str:
     """The key of an entry that the two families have under different names."""
     return f"swing_{name}" if family == "swing" else name
 
 
-def programme(sections: Sequence[MotionSection], expected: Family = "lift") -> Programme:
-    """The motion that sections describe."""
+def programme(
+    sections: Sequence[MotionSection], expected: Family = "lift", advance: float = 0.0
+) -> Programme:
+    """The motion that sections describe. `advance`: of the lift or swing over a revolution."""
     from linkwright.cam.laws.programme import programme as joined
 
-    return joined([stretch(section, expected) for section in sections])
+    return joined([stretch(section, expected) for section in sections], advance)
 
 
 def stretch(section: MotionSection, family: Family) -> Section:
@@ -184,8 +205,10 @@ def stretch(section: MotionSection, family: Family) -> Section:
 _SAME = 1e-9
 
 
-def section_faults(sections: Sequence[MotionSection], expected: Family) -> Iterator[InitErrorDetails]:
-    """What is wrong with the sections of a programme."""
+def section_faults(
+    sections: Sequence[MotionSection], expected: Family, advance: float = 0.0
+) -> Iterator[InitErrorDetails]:
+    """What is wrong with the sections of a programme. `advance`: of the lift or swing over a revolution."""
     if not sections:
         yield fault("sections", found="an empty list", expected="at least one section")
         return
@@ -198,7 +221,7 @@ def section_faults(sections: Sequence[MotionSection], expected: Family) -> Itera
         )
     ]
     faults += _turn_faults(sections)
-    faults = faults or list(_lift_faults(sections, expected))
+    faults = faults or list(_lift_faults(sections, expected, advance))
     yield from faults or _law_faults(sections, expected)
 
 
@@ -271,10 +294,12 @@ def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails
     yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 
-def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
-    """Lifts that do not come back to zero."""
+def _lift_faults(
+    sections: Sequence[MotionSection], family: Family, advance: float
+) -> Iterator[InitErrorDetails]:
+    """Lifts that do not come back to zero, or to what the programme advances."""
     lifts = [section.change(family) or 0.0 for section in sections]
-    over, largest = math.fsum(lifts), max(map(abs, lifts))
+    over, largest = math.fsum(lifts) - advance, max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
         return
     # The last section that moves by an entry of its own brings the follower home; a law by points, or by a
@@ -282,9 +307,13 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[
     given = [getattr(section, family) is not None for section in sections]
     last = max(range(len(lifts)), key=lambda i: (given[i] and lifts[i] != 0.0, given[i], lifts[i] != 0.0, i))
     noun = "swings" if family == "swing" else "lifts"
-    remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
-    found = f"{noun} that add to {_size(over, family)}"
-    problem = wrong(found, f"{noun} that add to 0", remedy)
+    found = f"{noun} that add to {_size(over + advance, family)}"
+    if advance:
+        remedy = f'or advance = "{_size(over + advance, family)}"'
+        problem = wrong(found, f"{noun} that add to advance, {_size(advance, family)}", remedy)
+    else:
+        remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
+        problem = wrong(found, f"{noun} that add to 0", remedy)
     yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 
