@@ -18,6 +18,11 @@ _WORDS = {
     "run_up": "run-up time",
     "torque_rms": "root mean square torque",
     "torque_peak": "peak torque",
+    "gearbox_torque_rms": "root mean square torque of the gearbox",
+    "gearbox_torque_peak": "peak torque of the gearbox",
+    "gearbox_speed": "input speed of the gearbox",
+    "resistor_power_mean": "mean power of the brake resistor",
+    "resistor_power_peak": "peak power of the brake resistor",
 }
 
 
@@ -85,4 +90,4 @@ def _shown(value: float, unit: str) -> str:
     """A number of four digits with its unit; powers in kW, as motors are rated."""
     value, unit = (value / 1e3, "kW") if unit == "W" else (value, unit)
     digits = max(0, 3 - math.floor(math.log10(abs(value)))) if value else 0
-    return f"{value:.{min(digits, 3)}f} {unit}"
+    return f"{value:.{min(digits, 3)}f} {unit}".rstrip()
