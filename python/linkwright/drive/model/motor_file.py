@@ -20,13 +20,13 @@ from linkwright.kernel.errors import MachineFileError, show
 from linkwright.kernel.files.catalogue_file import CatalogueFile, Columns
 from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.public import public
-from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
-from linkwright.kernel.units.marks import Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import COUNT, INERTIA, POWER, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.marks import Quantity, QuantityList, not_negative, positive
 
 _KEY = "drive.motor.file"
 
 # Columns that are entries of a motor, and what is in them.
-_ENTRIES: dict[str, Quantity] = {
+ENTRIES: dict[str, Quantity] = {
     "power_rated": positive(POWER),
     "speed_rated": positive(SPEED),
     "torque_rated": positive(TORQUE),
@@ -52,13 +52,26 @@ KINDS = ("induction", "dc", "servo")
 # Over the rated torque.
 _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "torque_start"}
 
+# Columns that describe a servo motor of an axis besides; a drive has no use for them.
+SERVO: dict[str, Quantity | QuantityList] = {
+    "brake_inertia": not_negative(INERTIA),
+    "torque_speed_max": not_negative(TORQUE),
+    "speed_torque_max": positive(SPEED),
+    "torque_max_speed_max": not_negative(TORQUE),
+    "speed_continuous": QuantityList(SPEED),
+    "torque_continuous": QuantityList(TORQUE),
+    "speed_peak": QuantityList(SPEED),
+    "torque_peak": QuantityList(TORQUE),
+    "cost": not_negative(COUNT),
+}
+
 # Columns for people.
-_WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
+WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
 
 _COLUMNS = Columns(
     noun="motors",
-    numbers={**_ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))},
-    words=_WORDS,
+    numbers={**ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))},
+    words=(*WORDS, *SERVO),
     example="type, power_rated [kW], speed_rated [rpm]",
 )
 
