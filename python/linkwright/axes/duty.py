@@ -323,16 +323,13 @@ def _peak_check(duty: MotorDuty, curve: TorqueCurve | None) -> Check:
     speed, torque = np.abs(duty.speed), np.abs(duty.torque)
     if curve is None:
         return _unknown("torque_peak", duty.torque_peak, "N m", "no peak torque")
-    beyond = speed > curve.speed[-1] * (1 + _ROUNDED)
+    end, fastest = curve.speed[-1], float(np.max(speed))
+    if fastest > end * (1 + _ROUNDED):
+        why = f"the curve of peak torque ends at {end:.4g} rad/s, the motor reaches {fastest:.4g} rad/s"
+        return _unknown("torque_peak", duty.torque_peak, "N m", why)
     limits = np.interp(speed, curve.speed, curve.torque)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.where(torque > 0, torque / limits, 0.0)
-    within = np.where(beyond, 0.0, share)
-    worst = int(np.argmax(within))
-    if np.any(beyond) and within[worst] <= 1:
-        end, fastest = curve.speed[-1], float(np.max(speed))
-        why = f"the curve of peak torque ends at {end:.4g} rad/s, the motor reaches {fastest:.4g} rad/s"
-        return _unknown("torque_peak", float(np.max(torque[beyond])), "N m", why)
+        worst = int(np.argmax(np.where(torque > 0, torque / limits, 0.0)))
     quadrant = "braking" if duty.power[worst] < 0 else "driving"
     note = f"peak torque at {speed[worst]:.4g} rad/s, {quadrant}, at {duty.time[worst]:.4g} s"
     return _at_most("torque_peak", float(torque[worst]), float(limits[worst]), "N m", note)
