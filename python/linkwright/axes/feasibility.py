@@ -128,7 +128,7 @@ def ratio_ranges(
 
 
 def _top_ratio(load: LoadFactor, motor: ServoMotor) -> float:
-    """Ratio with which the motor reaches its maximum speed, or on average the end of its continuous torque."""
+    """Ratio with which the motor reaches its maximum speed, or its mean speed the end of the S1 curve."""
     speeds = (
         (motor.top_speed, load.speed_peak),
         (
