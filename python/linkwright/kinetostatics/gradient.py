@@ -140,11 +140,8 @@ def drive_torque_along(
     """
     entries = _entries(machine, variables)
     program = entries.program
-    assert machine.drive is not None
-    motion = motion_at(machine, None, speed=machine.drive.speed, angles=angles)
-    n, drive = len(program.variables), entries.machine.drive
-    assert drive is not None
-    given: Any = drive.speed
+    motion = motion_at(machine, None, speed=machine.design_speed, angles=angles)
+    n, given = len(program.variables), entries.machine.design_speed
     speed: Any = lifted(given * lifted(np.ones(len(angles)), n), n)
     still: Any = lifted(motion.acceleration, n)
     along = replace(motion, speed=speed, acceleration=still, time=motion.crank_angle / speed)
@@ -271,10 +268,8 @@ def _motion_along(
             name: TangentArray(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
-    drive = entries.machine.drive
-    assert drive is not None
-    given: Any = drive.speed
-    if isinstance(drive.motor, ConstantSpeedMotor):
+    drive, given = entries.machine.drive, entries.machine.design_speed
+    if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         given = drive.motor.speed / drive.gearbox.ratio
     speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
     acceleration: Any = lifted(motion.acceleration, n)

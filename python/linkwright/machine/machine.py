@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError
 from pydantic_core import InitErrorDetails
 
-from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.drive import Drive, design_speed
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.description.place import keys, look
@@ -120,6 +120,11 @@ class Machine(WholeDescription):
         """The whole mechanism: elements of the file, and those that cams and a pumping unit expand into."""
         own = with_followers(self.mechanism, self.axes, self.master, self.drive)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
+
+    @property
+    def design_speed(self) -> Any:
+        """Speed of the crankshaft, or of the master, that the file gives [rad/s]; None without it."""
+        return design_speed(self.master, self.drive)
 
     def plot(self, *names: str, over: str | None = None) -> "Figure":
         """Curves by name as a figure, an axis for each unit.

@@ -10,12 +10,12 @@ from linkwright.axes.model.axis import Axis, Master
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.programme import CLOSES, TURN, periodic
 from linkwright.cam.model.motion_section import Family, MotionSection, programme
+from linkwright.drive.model.drive import Drive, design_speed
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
 from linkwright.linkages.model.element import Crank, LinearDriver
 
 if TYPE_CHECKING:
-    from linkwright.drive.model.drive import Drive
     from linkwright.linkages.model.mechanism import Mechanism
 
 
@@ -53,11 +53,7 @@ class AxisDriver(LinearDriver):
 
 def cycle_time_of(master: Master | None, drive: Drive | None) -> float | None:
     """Duration of a cycle [s]; None where neither master nor drive says it."""
-    if master is not None and master.cycle_time is not None:
-        return master.cycle_time
-    speed = master.speed if master is not None and master.speed is not None else None
-    if speed is None and drive is not None:
-        speed = drive.speed
+    speed = design_speed(master, drive)
     return None if speed is None else TURN / speed
 
 

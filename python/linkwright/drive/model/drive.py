@@ -15,6 +15,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.motor import AnyMotor
 from linkwright.kernel.description.base import CheckedDescription, Description, fault, wrong
+from linkwright.kernel.description.cycle import ONE_TURN
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.errors import show
 from linkwright.kernel.units.kinds import INERTIA, RATIO, SPEED, TORQUE
@@ -154,3 +155,12 @@ class Drive(Description):
     def twists(self) -> bool:
         """Whether a shaft, or the gears, are elastic."""
         return not (self.motor_shaft is None and self.crankshaft is None and self.gearbox.stiffness is None)
+
+
+def design_speed(master: Any, drive: Drive | None) -> Any:
+    """Speed of the crankshaft [rad/s]: that of the master of its cycle, else the drive's; None without either."""
+    if master is not None and master.speed is not None:
+        return master.speed
+    if master is not None and master.cycle_time is not None:
+        return ONE_TURN / master.cycle_time
+    return None if drive is None else drive.speed
