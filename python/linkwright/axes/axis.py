@@ -1,4 +1,4 @@
-"""A servo axis over the cycle: motion and torque of its driver, what that means for its motor, and the checks."""
+"""A servo axis over the cycle: motion and torque of its driver, duty of its motor, checks."""
 
 from __future__ import annotations
 
@@ -161,12 +161,12 @@ def servo_axis(machine: Machine, name: str | None = None, *, speed: float | None
     InputError
         There is no such axis, or no speed.
     FindingError
-        The mechanism does not close over the cycle, or a part is moved by the crankshaft and an axis together.
+        The mechanism does not close over the cycle, or crankshaft and axis move a part together.
 
     Notes
     -----
-    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are those of 720
-    angles a revolution and of both sides of all ends of sections.
+    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are those of
+    720 angles a revolution and of both sides of all ends of sections.
     """
     name = the_axis(machine, name)
     return servo_axes(machine, speed=speed, names=(name,))[name]

@@ -65,8 +65,8 @@ class DcBus(Result):
             "power-balance residual of all drivers",
             "",
             "",
-            "Largest power of drivers, loads and friction less the change of kinetic energy, over the largest "
-            "of these powers.",
+            "Largest power of drivers, loads and friction less the change of kinetic energy, over the "
+            "largest of these powers.",
         ),
     ]
     powers: Annotated[dict[str, Floats], About("Power of each axis at its motor shaft [W].", "(n,)")]

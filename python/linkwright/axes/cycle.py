@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
-# Intervals of a revolution of the master, and at least of a piece; a cycle of many revolutions has fewer in each.
+# Intervals of a revolution of the master, at least of a piece, and at most of a cycle of many revolutions.
 _INTERVALS, _LEAST, _MOST = 720, 8, 8640
 
 # By how much an end of a piece is looked at inside the piece [rad], and pieces shorter than that are none.
@@ -100,7 +101,7 @@ def _with_all_loads(machine: Machine, compiled: CompiledMachine) -> CompiledMach
 
 
 def _sampled(machine: Machine, compiled: CompiledMachine, turns: int) -> tuple[Floats, Floats]:
-    """Angles of the master over some revolutions, piece by piece, and where the values of a piece are taken."""
+    """Angles of the master over some revolutions, piece by piece, and where their values are taken."""
     cycle = 2 * math.pi * turns
     own = compiled.over_turns(turns)
     places = [0.0, cycle, *own.kinks()]
@@ -116,7 +117,7 @@ def _sampled(machine: Machine, compiled: CompiledMachine, turns: int) -> tuple[F
     ends[-1] = cycle
     per_turn = min(_INTERVALS, _MOST // turns)
     angles, inside = [], []
-    for low, high in zip(ends, ends[1:], strict=False):
+    for low, high in pairwise(ends.tolist()):
         n = max(_LEAST, math.ceil(per_turn * (high - low) / (2 * math.pi)))
         piece = np.linspace(low, high, n + 1)
         angles.append(piece)

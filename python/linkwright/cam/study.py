@@ -36,7 +36,7 @@ def made_forces(known: Results, findings: Findings) -> dict[str, LoadedCam]:
     speed = machine.design_speed
     if not (machine.bodies or machine.loads) or (known.forces is None and speed is None):
         return {}
-    along = None if known.forces is not None else speed
+    along = None if known.steady_state is not None else speed
     loaded = [findings.of(loaded_cam, machine, cam, along) for cam in known.sound_cams]
     return {cam.name: cam for cam in loaded if cam is not None}
 

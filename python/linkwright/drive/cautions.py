@@ -42,6 +42,9 @@ def cautions(machine: Machine, reduced: Reduction, steady: SteadyState | None) -
         *first_revolution_words(machine),
         *unjudged_limits(machine),
     ]
+    if machine.axes and (drive is None or drive.motor is None):
+        # Nothing but axes moves it: their motors are looked at instead.
+        return tuple(sentences)
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)

@@ -48,8 +48,8 @@ def require_separate_axes(machine: Machine) -> None:
             axes, others = drivers & set(own), drivers - set(own)
             if axes and others:
                 raise FindingError(
-                    f"{table}.{name} is moved by the crankshaft ({', '.join(sorted(others))}) and by the axis "
-                    f"{', '.join(own[driver] for driver in sorted(axes))} together: its uneven motion under "
+                    f"{table}.{name} is moved by the crankshaft ({', '.join(sorted(others))}) and by the "
+                    f"axis {', '.join(own[driver] for driver in sorted(axes))} together: its uneven motion under "
                     "[drive.motor] is not computed; give the crank an axis too, or replace the motor by "
                     "[master] with a constant speed"
                 )

@@ -45,9 +45,8 @@ def axes_faults(machine: object) -> Iterator[InitErrorDetails]:
 
 def _unmoved(mechanism: object, axes: object) -> Iterator[InitErrorDetails]:
     """Linear drivers that neither their own entries nor an axis moves."""
-    by_axis = {
-        look(look(axes, name), "driver") or name for name in keys(axes) if look(look(axes, name), "sections")
-    }
+    followed = {name: look(axes, name) for name in keys(axes)}
+    by_axis = {look(axis, "driver") or name for name, axis in followed.items() if look(axis, "sections")}
     drivers = look(mechanism, "linear_drivers")
     for name in keys(drivers):
         driver = look(drivers, name)
@@ -125,7 +124,7 @@ def _section_faults(machine: Any, axis: Axis, family: Family) -> Iterator[InitEr
     if over > CLOSES * TURN:
         yield _too_long(axis, angles, over, cycle_time)
         return
-    advance = axis.advance if family == "swing" else axis.travel
+    advance = ("advance", axis.advance) if family == "swing" else ("travel", axis.travel)
     yield from section_faults(whole_sections(axis, cycle_time), family, advance)
 
 
@@ -136,5 +135,6 @@ def _too_long(axis: Axis, angles: list[float], over: float, cycle_time: float | 
     remedy = f"{math.degrees(over):.6g} deg too much: shorten sections.{longest}"
     if cycle_time is not None and any(section.time is not None for section in axis.sections):
         found = f"sections that take {(TURN + over) / TURN * cycle_time:.6g} s"
-        remedy = f"{over / TURN * cycle_time:.6g} s more than the cycle of {cycle_time:.6g} s: shorten sections.{longest}"
+        more = f"{over / TURN * cycle_time:.6g} s more than the cycle of {cycle_time:.6g} s"
+        remedy = f"{more}: shorten sections.{longest}"
     return fault("sections", found=found, expected="at most 360 deg, one cycle", remedy=remedy)

@@ -124,7 +124,9 @@ class Programme:
 
 
 def programme(sections: Sequence[Section], advance: float = 0.0) -> Programme:
-    """The programme of sections in their order, closed. ``advance``: of the lift over a revolution [m or rad].
+    """The programme of sections in their order, closed.
+
+    ``advance``: of the lift over a revolution [m or rad].
 
     What rounding leaves of the revolution is shared by all angles in proportion, and what it leaves of the
     lift is taken from the largest lift. Raises `InputError` if angles or lifts do not close, `LawError` if a

@@ -206,9 +206,12 @@ _SAME = 1e-9
 
 
 def section_faults(
-    sections: Sequence[MotionSection], expected: Family, advance: float = 0.0
+    sections: Sequence[MotionSection], expected: Family, advance: tuple[str, float] | None = None
 ) -> Iterator[InitErrorDetails]:
-    """What is wrong with the sections of a programme. `advance`: of the lift or swing over a revolution."""
+    """What is wrong with the sections of a programme.
+
+    `advance`: key and value of what lift or swing advance by over a revolution; None if they must return.
+    """
     if not sections:
         yield fault("sections", found="an empty list", expected="at least one section")
         return
@@ -295,11 +298,12 @@ def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails
 
 
 def _lift_faults(
-    sections: Sequence[MotionSection], family: Family, advance: float
+    sections: Sequence[MotionSection], family: Family, advance: tuple[str, float] | None
 ) -> Iterator[InitErrorDetails]:
     """Lifts that do not come back to zero, or to what the programme advances."""
     lifts = [section.change(family) or 0.0 for section in sections]
-    over, largest = math.fsum(lifts) - advance, max(map(abs, lifts))
+    key, wanted = advance or ("", 0.0)
+    over, largest = math.fsum(lifts) - wanted, max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
         return
     # The last section that moves by an entry of its own brings the follower home; a law by points, or by a
@@ -307,13 +311,12 @@ def _lift_faults(
     given = [getattr(section, family) is not None for section in sections]
     last = max(range(len(lifts)), key=lambda i: (given[i] and lifts[i] != 0.0, given[i], lifts[i] != 0.0, i))
     noun = "swings" if family == "swing" else "lifts"
-    found = f"{noun} that add to {_size(over + advance, family)}"
-    if advance:
-        remedy = f'or advance = "{_size(over + advance, family)}"'
-        problem = wrong(found, f"{noun} that add to advance, {_size(advance, family)}", remedy)
-    else:
-        remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
-        problem = wrong(found, f"{noun} that add to 0", remedy)
+    found = f"{noun} that add to {_size(over + wanted, family)}"
+    expected = f"{noun} that add to {key}, {_size(wanted, family)}" if wanted else f"{noun} that add to 0"
+    remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
+    if key:
+        remedy = f'{key} = "{_size(over + wanted, family)}" for steps that add up from cycle to cycle'
+    problem = wrong(found, expected, remedy)
     yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 

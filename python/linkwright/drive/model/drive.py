@@ -158,7 +158,7 @@ class Drive(Description):
 
 
 def design_speed(master: Any, drive: Drive | None) -> Any:
-    """Speed of the crankshaft [rad/s]: that of the master of its cycle, else the drive's; None without either."""
+    """Speed of the crankshaft [rad/s]: that of its master, else the drive's; None without either."""
     if master is not None and master.speed is not None:
         return master.speed
     if master is not None and master.cycle_time is not None:

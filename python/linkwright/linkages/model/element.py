@@ -28,8 +28,9 @@ from linkwright.kernel.description.base import CheckedDescription, Description, 
 from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
 from linkwright.kernel.numerics.formula_value import value as formula_value
-from linkwright.kernel.units.kinds import COUNT, LENGTH
+from linkwright.kernel.units.kinds import ANGLE, COUNT, LENGTH, Kind
 from linkwright.kernel.units.marks import Angle, AnyQuantity, Length, positive
+from linkwright.kernel.units.reading import worded
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(COUNT)]
@@ -74,7 +75,7 @@ _CLOSES = 1e-6
 
 
 def _law_faults(
-    law: str | None, constants: Constants, advance: float | None, unit: str
+    law: str | None, constants: Constants, advance: float | None, kind: Kind
 ) -> Iterator[InitErrorDetails]:
     """A law that is no formula of the crank angle, or does not advance as it says."""
     yield from constant_faults(constants, law or "")
@@ -92,12 +93,9 @@ def _law_faults(
             ends = np.asarray(formula_value(parse(law), names) * np.ones(2), dtype=float)
         advances = float(ends[1] - ends[0])
         if not abs(advances - advance) <= _CLOSES * max(1e-3, *np.abs(ends)):
-            remedy = (
-                f'the law must end {advance:.6g} {unit} above its start, or advance = "{advances:.6g} {unit}"'
-            )
-            yield fault(
-                "advance", found=f"{advance:.6g} {unit}", expected=f"{advances:.6g} {unit}", remedy=remedy
-            )
+            said, done = worded(advance, kind), worded(advances, kind)
+            remedy = f'advance = "{done}", or a law that ends {said} above its start'
+            yield fault("advance", found=said, expected=f"{done}, from phi = 0 to 2*pi", remedy=remedy)
 
 
 class Crank(CheckedDescription):
@@ -123,11 +121,11 @@ class Crank(CheckedDescription):
     pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
 
     def follows(self) -> Any:
-        """Cam or axis whose programme it follows: `lift`, `phase`, `advance`; None where it is moved otherwise."""
+        """Cam or axis whose `lift`, `phase` and `advance` it follows; None where it is moved otherwise."""
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        return _law_faults(self.law, self.constants, self.advance, "rad")
+        return _law_faults(self.law, self.constants, self.advance, ANGLE)
 
 
 class LinearDriver(CheckedDescription):
@@ -146,11 +144,11 @@ class LinearDriver(CheckedDescription):
     pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
 
     def follows(self) -> Any:
-        """Cam or axis whose programme it follows: `lift`, `phase`, `advance`; None where it is moved otherwise."""
+        """Cam or axis whose `lift`, `phase` and `advance` it follows; None where it is moved otherwise."""
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from _law_faults(self.law, self.constants, self.advance, "m")
+        yield from _law_faults(self.law, self.constants, self.advance, LENGTH)
         if self.law is not None and self.per_turn is not None:
             yield fault(found="both", expected="either per_turn or law")
 

@@ -108,7 +108,7 @@ class Elements(Places):
         return slide
 
     def _followed(self, name: str, programme: Any, sense: float) -> tuple[Any, list[tuple[int | None, Any]]]:
-        """A constant and terms of a place that follows the lift of a programme and advances in every cycle."""
+        """Constant and terms of a place that follows a lift and advances in every cycle."""
         slide = self._slide(f"{name}.lift")
         phase = self.slot(programme.phase)
         law = self.motion_law(programme.lift)
