@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -177,8 +177,6 @@ def choose_servo(
     servos, gears = tuple(motors), tuple(gearboxes)
     if not servos or not gears:
         raise InputError(f"{'gearboxes' if servos else 'motors'}: found none to choose from")
-    if goal not in get_args(Goal):
-        raise InputError(f"goal: found {goal!r}, expected one of {', '.join(get_args(Goal))}")
     used = _utilisations(cycle.divided(), servos, gears, coupling, inertia_ratio)
     value = _values(goal, servos, gears, used)
     worst = np.max(np.nan_to_num(used, nan=np.inf), axis=0)
