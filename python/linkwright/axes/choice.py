@@ -111,18 +111,21 @@ class ServoChoice(Record):
         for motor in range(len(self.motors)):
             yield motor, first.get(motor, int(np.argmin(worst[motor])))
 
-    def to_dict(self, *, most: int = 20) -> dict[str, Any]:
-        """The first pairs, what refuses others, and if none passes the one that comes nearest."""
+    def to_dict(self, *, curves: bool = False, most: int = 20) -> dict[str, Any]:
+        """The first pairs, what refuses others, and if none passes the one that comes nearest.
+
+        `curves`: with speed and torque of these; `most`: pairs.
+        """
         pairs = self.order[:most].tolist() or [self.nearest]
         return {
             "goal": self.goal,
             "pairs": len(self.motors) * len(self.gearboxes),
             "passing": len(self.order),
             "refused": self.refused,
-            "chosen" if len(self.order) else "nearest": [self._pair(*pair) for pair in pairs],
+            "chosen" if len(self.order) else "nearest": [self._pair(*pair, curves) for pair in pairs],
         }
 
-    def _pair(self, motor: int, gearbox: int) -> dict[str, Any]:
+    def _pair(self, motor: int, gearbox: int, curves: bool) -> dict[str, Any]:
         servo, gears, duty = self.motors[motor], self.gearboxes[gearbox], self.duty(motor, gearbox)
         return {
             "motor": servo.type,
@@ -130,7 +133,7 @@ class ServoChoice(Record):
             "ratio": gears.gearbox.ratio,
             "power_rated": servo.power_rated,
             "cost": _cost(servo, gears),
-            **duty.to_dict(),
+            **duty.to_dict(curves=curves),
         }
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from linkwright.kernel.command.answer import Answer
-from linkwright.kernel.command.common import Curves, FolderOutput, to_folder
-from linkwright.kernel.command.parameter import Value
+from linkwright.kernel.command.common import Curves, FolderOutput, belong_to, to_folder
+from linkwright.kernel.command.parameter import Group, Option, Value
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.later import later
 from linkwright.kernel.units.kinds import SPEED
@@ -15,6 +17,7 @@ from linkwright.machine.file_argument import File
 if TYPE_CHECKING:
     from linkwright.axes.axis import ServoAxis
     from linkwright.axes.bus import DcBus
+    from linkwright.axes.choice import ServoChoice
     from linkwright.axes.timing import Track
     from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.table import Table
@@ -28,18 +31,51 @@ Speed = Annotated[
         "the crankshaft.",
     ),
 ]
+Catalogue = Annotated[
+    Path | None,
+    Option("--catalogue", "FILE", "Choose motors for the axes from a CSV file of servo motors."),
+]
+Gearboxes = Annotated[
+    Path | None,
+    Option("--gearboxes", "FILE", "Gearboxes to choose from, a CSV file. Default: those of the axes."),
+]
+AxisName = Annotated[str | None, Option("--axis", "NAME", "Choose for this axis alone.")]
+Goal = Annotated[
+    Literal["cost", "power", "inertia", "rms"],
+    Option(
+        "--goal", help="What is to be least: cost, rated power, inertia of the rotor, or rms utilisation."
+    ),
+]
 To = Annotated[
     FolderOutput,
     to_folder("Write results.json, the curves of each axis as CSV, and figures there.", curves=Curves),
 ]
 
 
-def axes(file: File, speed: Speed = None, *, to: To) -> None:
+@dataclass(frozen=True)
+class ChoiceOptions:
+    """Catalogues to choose from."""
+
+    catalogue: Catalogue = None
+    gearboxes: Gearboxes = None
+    axis: AxisName = None
+    goal: Goal = "power"
+
+
+def axes(
+    file: File,
+    speed: Speed = None,
+    *,
+    choice: Annotated[ChoiceOptions, Group(ChoiceOptions)],
+    to: To,
+) -> None:
     """Torque of every servo axis over the cycle, and whether its motor stands it.
 
     Each driver has its own torque or force; at its motor: speed, peak and root mean square torque, inertia
     ratio and regenerated energy against the limits of motor, gearbox and brake resistor; the DC bus of all
-    axes; the timing of all cams and axes over one master angle. Exit code 1 if a motor fails a check.
+    axes; the timing of all cams and axes over one master angle. With --catalogue: every motor with every
+    gearbox, the pairs that pass, and what refuses the others. Exit code 1 if a motor fails a check, or none
+    of a catalogue passes.
     """
     from linkwright.axes.axis import servo_axes
     from linkwright.axes.bus import bus_of
@@ -56,37 +92,90 @@ def axes(file: File, speed: Speed = None, *, to: To) -> None:
     bus, tracks = bus_of(machine, found, cycle), tracks_of(machine, cycle)
     listed = list(found.values())
     speeds = speeds_of(cycle.forces.speed, machine, speed)
+    chosen = _chosen(found, choice)
     results: dict[str, Any] = {
         **speeds,
         "axes": found,
         "dc_bus": bus,
         "timing": {track.name: track for track in tracks},
+        **({"choice": chosen} if chosen else {}),
     }
     answer = Answer(
         machine=machine,
         is_described=True,
         results=results,
-        findings=[*cycle.forces.findings, *axis_findings(listed)],
+        findings=[*cycle.forces.findings, *(_choice_findings(chosen) if chosen else axis_findings(listed))],
         warnings=list(axis_warnings(listed)),
-        head=speed_words(speeds),
-        tables=later("axes.commands:_tables", listed, bus, tracks),
+        head=later("axes.commands:_head", speed_words(speeds), chosen),
+        tables=later("axes.commands:_tables", listed, bus, tracks, chosen),
         files={
             f"axis_{name}.csv": later("kernel.page.table:curves_csv", axis) for name, axis in found.items()
-        },
-        figures=later("axes.commands:_figures", listed, bus, tracks),
+        }
+        | {f"choice_{name}.csv": later("axes.page.choice:pairs_csv", one) for name, one in chosen.items()},
+        figures=later("axes.commands:_figures", listed, bus, tracks, chosen),
     )
     to.hand_over(answer)
 
 
-def _tables(axes: list[ServoAxis], bus: DcBus, tracks: tuple[Track, ...]) -> list[Table]:
-    """A row an axis, checks, bus, timing."""
+def _chosen(axes: dict[str, ServoAxis], options: ChoiceOptions) -> dict[str, ServoChoice]:
+    """The choice for each axis, or for one; none without a catalogue."""
+    from linkwright.axes.choice import choose_servo
+    from linkwright.axes.model.axis_catalogue import CatalogueGearbox, read_gearboxes, read_servo_motors
+    from linkwright.kernel.description.base import suggestion
+
+    if options.catalogue is None:
+        belong_to("--catalogue", "gearboxes", "axis", "goal")
+        return {}
+    if options.axis is not None and options.axis not in axes:
+        known = suggestion(options.axis, axes)
+        raise InputError(f'--axis: found "{options.axis}", expected an axis of the machine; {known}')
+    motors = read_servo_motors(options.catalogue)
+    gears = None if options.gearboxes is None else read_gearboxes(options.gearboxes)
+    return {
+        name: choose_servo(
+            found.cycle,
+            motors,
+            gears or (CatalogueGearbox("the gearbox of the axis", found.axis.gearbox, 0.0),),
+            goal=options.goal,
+            coupling=0.0 if found.axis.coupling is None else found.axis.coupling.inertia,
+        )
+        for name, found in axes.items()
+        if options.axis in (None, name)
+    }
+
+
+def _choice_findings(chosen: dict[str, ServoChoice]) -> list[str]:
+    """Axes for which no pair suffices."""
+    from linkwright.axes.page.choice import choice_headline
+
+    return [choice_headline(name, choice) for name, choice in chosen.items() if not len(choice.order)]
+
+
+def _head(speeds: str, chosen: dict[str, ServoChoice]) -> str:
+    """The speed, and what is chosen."""
+    from linkwright.axes.page.choice import choice_headline
+
+    found = [choice_headline(name, choice) for name, choice in chosen.items() if len(choice.order)]
+    return "\n".join([speeds, *found])
+
+
+def _tables(
+    axes: list[ServoAxis], bus: DcBus, tracks: tuple[Track, ...], chosen: dict[str, ServoChoice]
+) -> list[Table]:
+    """A row an axis, checks, bus, timing; what is chosen."""
+    from linkwright.axes.page.choice import choice_tables
     from linkwright.axes.tables import axis_tables, bus_tables, timing_tables
 
-    return [*timing_tables(tracks), *axis_tables(axes), *bus_tables(bus)]
+    choices = [table for name, choice in chosen.items() for table in choice_tables(name, choice)]
+    return [*timing_tables(tracks), *axis_tables(axes), *bus_tables(bus), *choices]
 
 
-def _figures(axes: list[ServoAxis], bus: DcBus, tracks: tuple[Track, ...]) -> list[CaptionedFigure]:
-    """Timing diagram, torque over speed of each motor, power of the bus."""
+def _figures(
+    axes: list[ServoAxis], bus: DcBus, tracks: tuple[Track, ...], chosen: dict[str, ServoChoice]
+) -> list[CaptionedFigure]:
+    """Timing diagram, torque over speed of each motor, power of the bus, motors to choose from."""
     from linkwright.axes.figures import axis_figures, bus_figures, timing_figures
+    from linkwright.axes.page.ratio_chart import ratio_chart
 
-    return [*timing_figures(tracks), *axis_figures(axes), *bus_figures(bus)]
+    charts = [ratio_chart(name, choice) for name, choice in chosen.items()]
+    return [*timing_figures(tracks), *axis_figures(axes), *bus_figures(bus), *charts]

@@ -48,7 +48,7 @@ class Check(Record):
     @property
     def title(self) -> str:
         """What it compares."""
-        return _WORDS.get(self.name, self.name.replace("_", " "))
+        return title_of(self.name)
 
     @property
     def words(self) -> str:
@@ -91,3 +91,8 @@ def _shown(value: float, unit: str) -> str:
     value, unit = (value / 1e3, "kW") if unit == "W" else (value, unit)
     digits = max(0, 3 - math.floor(math.log10(abs(value)))) if value else 0
     return f"{value:.{min(digits, 3)}f} {unit}".rstrip()
+
+
+def title_of(name: str) -> str:
+    """What a check compares, by its name."""
+    return _WORDS.get(name, name.replace("_", " "))
