@@ -47,7 +47,7 @@ class Track(Result):
 
 
 def moved_drivers(machine: Machine) -> tuple[str, ...]:
-    """Drivers with a law of their own: cams, axes, formulas; not what turns evenly with the master."""
+    """Drivers with a law of their own: cams, axes, formulas; not what rotates with the master."""
     mechanism, own = machine.linkage, axis_drivers(machine)
     drivers = (*mechanism.cranks.items(), *mechanism.linear_drivers.items())
     return tuple(

@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from pydantic import Field
+
 from linkwright.axes.model.axis import Axis, Master
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.cam.laws.programme import CLOSES, TURN, periodic
@@ -31,8 +33,8 @@ class AxisProgramme(NamedTuple):
 class AxisCrank(Crank):
     """A crank that follows the law of an axis."""
 
-    programme: Any
-    turn: float = 1.0
+    programme: Any = Field(description="Its motion over the master angle.")
+    turn: float = Field(1.0, description="Sense of the angle as the law grows.")
 
     def follows(self) -> AxisProgramme:
         """Its motion over the master angle."""
@@ -43,7 +45,7 @@ class AxisCrank(Crank):
 class AxisDriver(LinearDriver):
     """A linear driver that follows the law of an axis."""
 
-    programme: Any
+    programme: Any = Field(description="Its motion over the master angle.")
 
     def follows(self) -> AxisProgramme:
         """Its motion over the master angle."""

@@ -70,7 +70,7 @@ class Guide(Description):
 Constants = dict[str, Annotated[float, AnyQuantity()]]
 
 
-# Share of the largest size of a law by which what it advances may differ from `advance`.
+# Share of the peak absolute value of a law by which its advance may differ from `advance`.
 _CLOSES = 1e-6
 
 
