@@ -6,6 +6,7 @@
 | `axis` | A servo axis over the cycle: motion and torque of its driver, duty of its motor |
 | `bus` | The DC bus of all axes, and the balance of power over all drivers |
 | `choice` | Every motor of a catalogue with every gearbox, and why pairs are refused |
+| `clearance` | Distance of points of two axes, and the shift that keeps a wanted one |
 | `commands` | `linkwright axes` |
 | `cycle` | Forces along the motion of the master, piece by piece |
 | `duty` | What an axis asks of its motor over the cycle, and whether the motor stands it |

@@ -11,16 +11,19 @@ from linkwright.kernel.command.common import Curves, FolderOutput, belong_to, to
 from linkwright.kernel.command.parameter import Group, Option, Value
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.later import later
-from linkwright.kernel.units.kinds import SPEED
+from linkwright.kernel.units.kinds import LENGTH, SPEED
+from linkwright.kernel.units.marks import positive
 from linkwright.machine.file_argument import File
 
 if TYPE_CHECKING:
     from linkwright.axes.axis import ServoAxis
     from linkwright.axes.bus import DcBus
     from linkwright.axes.choice import ServoChoice
+    from linkwright.axes.clearance import Clearance
     from linkwright.axes.timing import Track
     from linkwright.kernel.figure.style import CaptionedFigure
     from linkwright.kernel.page.table import Table
+    from linkwright.machine.machine import Machine
 
 Speed = Annotated[
     float | None,
@@ -52,6 +55,22 @@ To = Annotated[
 ]
 
 
+Points = Annotated[
+    str | None,
+    Option(
+        "--clearance", '"P Q"', "Minimum distance of two points over the cycle, which different axes move."
+    ),
+]
+Keep = Annotated[
+    float | None,
+    Value(
+        "--keep",
+        positive(LENGTH),
+        'With --clearance: distance to keep, such as "20 mm"; says how much earlier the axis of Q may start.',
+    ),
+]
+
+
 @dataclass(frozen=True)
 class ChoiceOptions:
     """Catalogues to choose from."""
@@ -65,6 +84,8 @@ class ChoiceOptions:
 def axes(
     file: File,
     speed: Speed = None,
+    clearance: Points = None,
+    keep: Keep = None,
     *,
     choice: Annotated[ChoiceOptions, Group(ChoiceOptions)],
     to: To,
@@ -76,6 +97,9 @@ def axes(
     axes; the timing of all cams and axes over one master angle. With --catalogue: every motor with every
     gearbox, the pairs that pass, and what refuses the others. Exit code 1 if a motor fails a check, or none
     of a catalogue passes.
+
+    Examples: linkwright axes packaging.toml --clearance "pusher jaw" --keep "20 mm"; linkwright axes
+    packaging.toml --catalogue motors.csv --gearboxes gearboxes.csv --axis dial.
     """
     from linkwright.axes.axis import servo_axes
     from linkwright.axes.bus import bus_of
@@ -93,21 +117,27 @@ def axes(
     listed = list(found.values())
     speeds = speeds_of(cycle.forces.speed, machine, speed)
     chosen = _chosen(found, choice)
+    apart = _clearance(machine, clearance, keep)
     results: dict[str, Any] = {
         **speeds,
         "axes": found,
         "dc_bus": bus,
         "timing": {track.name: track for track in tracks},
         **({"choice": chosen} if chosen else {}),
+        **({} if apart is None else {"clearance": apart}),
     }
     answer = Answer(
         machine=machine,
         is_described=True,
         results=results,
-        findings=[*cycle.forces.findings, *(_choice_findings(chosen) if chosen else axis_findings(listed))],
+        findings=[
+            *cycle.forces.findings,
+            *(_choice_findings(chosen) if chosen else axis_findings(listed)),
+            *_not_kept(apart),
+        ],
         warnings=list(axis_warnings(listed)),
         head=later("axes.commands:_head", speed_words(speeds), chosen),
-        tables=later("axes.commands:_tables", listed, bus, tracks, chosen),
+        tables=later("axes.commands:_tables", listed, bus, tracks, apart, chosen),
         files={
             f"axis_{name}.csv": later("kernel.page.table:curves_csv", axis) for name, axis in found.items()
         }
@@ -115,6 +145,28 @@ def axes(
         figures=later("axes.commands:_figures", listed, bus, tracks, chosen),
     )
     to.hand_over(answer)
+
+
+def _clearance(machine: Machine, points: str | None, keep: float | None) -> Clearance | None:
+    """Distance of the two points of --clearance; None without it."""
+    from linkwright.axes.clearance import clearance
+
+    if points is None:
+        belong_to("--clearance", "keep")
+        return None
+    names = points.replace(",", " ").split()
+    if len(names) != 2:
+        raise InputError(f'--clearance: found "{points}", expected two points, such as "pusher jaw"')
+    return clearance(machine, *names, keep=keep)
+
+
+def _not_kept(apart: Clearance | None) -> list[str]:
+    """A wanted distance that no shift keeps."""
+    if apart is None or apart.wanted is None or apart.earlier is not None:
+        return []
+    return [
+        f"no start of axis {apart.axis} keeps {apart.wanted:.4g} m between {apart.first} and {apart.second}"
+    ]
 
 
 def _chosen(axes: dict[str, ServoAxis], options: ChoiceOptions) -> dict[str, ServoChoice]:
@@ -160,14 +212,19 @@ def _head(speeds: str, chosen: dict[str, ServoChoice]) -> str:
 
 
 def _tables(
-    axes: list[ServoAxis], bus: DcBus, tracks: tuple[Track, ...], chosen: dict[str, ServoChoice]
+    axes: list[ServoAxis],
+    bus: DcBus,
+    tracks: tuple[Track, ...],
+    apart: Clearance | None,
+    chosen: dict[str, ServoChoice],
 ) -> list[Table]:
-    """A row an axis, checks, bus, timing; what is chosen."""
+    """A row an axis, checks, bus, timing; a clearance; what is chosen."""
     from linkwright.axes.page.choice import choice_tables
-    from linkwright.axes.tables import axis_tables, bus_tables, timing_tables
+    from linkwright.axes.tables import axis_tables, bus_tables, clearance_tables, timing_tables
 
     choices = [table for name, choice in chosen.items() for table in choice_tables(name, choice)]
-    return [*timing_tables(tracks), *axis_tables(axes), *bus_tables(bus), *choices]
+    clearances = () if apart is None else clearance_tables(apart)
+    return [*timing_tables(tracks), *axis_tables(axes), *bus_tables(bus), *clearances, *choices]
 
 
 def _figures(

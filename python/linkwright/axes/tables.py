@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.axes.axis import ServoAxis
 from linkwright.axes.bus import DcBus
+from linkwright.axes.clearance import Clearance
 from linkwright.axes.timing import Track
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.checks import check_table
@@ -99,6 +100,17 @@ def _motor_name(axis: ServoAxis) -> str:
 def bus_tables(bus: DcBus) -> Iterator[Table]:
     """The DC bus of all axes."""
     yield Table("dc_bus", "DC bus of all axes", ("quantity", "", "value", "where"), known_rows(bus, "bus"))
+
+
+def clearance_tables(apart: Clearance) -> Iterator[Table]:
+    """Minimum distance of two points of axes, and the shift that keeps a wanted one."""
+    beside = {"distance_min": f"at φ = {degrees(apart.distance_min_angle)}"}
+    if apart.earlier is not None:
+        beside["earlier"] = f"of axis {apart.axis}; negative: later"
+    title = f"Clearance between {apart.first} and {apart.second}"
+    yield Table(
+        "clearance", title, ("quantity", "", "value", "where"), known_rows(apart, "clearance", beside)
+    )
 
 
 def timing_tables(tracks: Sequence[Track]) -> Iterator[Table]:
