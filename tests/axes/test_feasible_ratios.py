@@ -22,7 +22,7 @@ def motor(inertia: object, torque: float = 2.4, top: float = 1e5) -> ServoMotor:
 
 
 def test_load_factor_of_a_pure_inertia() -> None:
-    """β = 4 J_L ω̇_rms², and the least torque is 2 √(J_M J_L) ω̇_rms."""
+    """β = 4 J_L ω̇_rms², and the minimum torque is 2 √(J_M J_L) ω̇_rms."""
     load = load_factor(inertia_cycle(0.02))
     assert load.load_factor == pytest.approx(4 * 0.02 * ACCELERATION_RMS**2, rel=1e-9)
     found = ratio_range(load, motor(0.9e-4))

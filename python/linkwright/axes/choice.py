@@ -47,9 +47,7 @@ _SPREAD = 1.5
 class ServoChoice(Record):
     """Pairs of motor and gearbox for an axis."""
 
-    goal: Annotated[
-        Goal, About("What is least: ``cost``, rated ``power``, ``inertia``, or ``rms`` utilisation.")
-    ]
+    goal: Annotated[Goal, About("Criterion: ``cost``, rated ``power``, ``inertia``, or ``rms`` utilisation.")]
     motors: Annotated[tuple[CatalogueServo, ...], About("Of the catalogue.")]
     gearboxes: Annotated[tuple[CatalogueGearbox, ...], About("Of the catalogue.")]
     utilisation: Annotated[
@@ -71,8 +69,8 @@ class ServoChoice(Record):
     inertia_ratio: Annotated[float, About("At most permitted.")]
 
     @property
-    def passes(self) -> np.ndarray:
-        """Whether each pair passes all checks: (motors, gearboxes)."""
+    def passes(self) -> Annotated[np.ndarray, About("", "(motors, gearboxes)")]:
+        """Whether each pair passes all checks."""
         return np.asarray(np.all(self.utilisation <= 1 + _ROUNDED, axis=0))
 
     def duty(self, motor: int, gearbox: int) -> MotorDuty:
@@ -160,7 +158,7 @@ def choose_servo(
     motors, gearboxes : sequence
         Of catalogues, such as those of `read_servo_motors` and `read_gearboxes`.
     goal : str
-        What is least: ``"cost"`` of motor and gearbox, rated ``"power"``, ``"inertia"`` of the rotor, or
+        The lowest comes first: ``"cost"`` of motor and gearbox, rated ``"power"``, ``"inertia"`` of the rotor, or
         ``"rms"``, the utilisation of the continuous torque.
     coupling : float
         Inertia of a coupling at the motor shaft [kg m²].
@@ -191,7 +189,7 @@ def choose_servo(
 def _values(
     goal: Goal, servos: Sequence[CatalogueServo], gears: Sequence[CatalogueGearbox], used: Floats
 ) -> Floats:
-    """What the goal makes least, of every pair."""
+    """The criterion of every pair."""
     if goal == "rms":
         return used[CHECKS.index("torque_rms")]
     if goal == "inertia":

@@ -45,9 +45,7 @@ Gearboxes = Annotated[
 AxisName = Annotated[str | None, Option("--axis", "NAME", "Choose for this axis alone.")]
 Goal = Annotated[
     Literal["cost", "power", "inertia", "rms"],
-    Option(
-        "--goal", help="What is to be least: cost, rated power, inertia of the rotor, or rms utilisation."
-    ),
+    Option("--goal", help="Lowest first: cost, rated power, inertia of the rotor, or rms utilisation."),
 ]
 To = Annotated[
     FolderOutput,

@@ -5,7 +5,7 @@ With :math:`\dot\omega` and :math:`M_L` at the driver, losses of the gears inclu
 
 .. math:: M_{rms}^2 = J_M^2\,\dot\omega_{rms}^2/\tau^2 + 2 J_M\,\overline{\dot\omega M_L} + \tau^2 M_{L,rms}^2
 
-It is least, :math:`J_M\,\beta`, at :math:`\tau^2 = J_M\,\dot\omega_{rms}/M_{L,rms}`, with the load factor
+Its minimum, :math:`J_M\,\beta`, is at :math:`\tau^2 = J_M\,\dot\omega_{rms}/M_{L,rms}`, with the load factor
 :math:`\beta = 2(\dot\omega_{rms} M_{L,rms} + \overline{\dot\omega M_L})`. A motor of the continuous torque
 :math:`M_N` is therefore possible only if its accelerating factor :math:`\alpha = M_N^2/J_M` is at least
 :math:`\beta`; the ratio then lies between the roots of a biquadratic equation.
@@ -65,7 +65,7 @@ class RatioRange(Result):
     accelerating_factor: Annotated[float | None, Label("accelerating factor", "α", "W/s")]
     ratio_best: Annotated[
         float | None,
-        Label("best ratio", "i", "", "Of least root mean square torque within the speeds of the motor."),
+        Label("best ratio", "i", "", "Of minimum root mean square torque within the speeds of the motor."),
     ]
     torque_rms_best: Annotated[float | None, Label("root mean square torque with the best ratio", "", "N m")]
     ratio_min: Annotated[float | None, Label("minimum ratio", "", "", "None if no ratio is feasible.")]

@@ -1,4 +1,4 @@
-"""Servo motors: what they give for ever, S1, and for a short time, over their speed.
+"""Servo motors: torque in continuous operation, S1, and peak torque, over the speed.
 
 Both curves hold in all four quadrants: for either sense of rotation, driving and braking.
 """

@@ -96,7 +96,7 @@ def choice_headline(name: str, choice: ServoChoice) -> str:
     total = len(choice.motors) * len(choice.gearboxes)
     if not len(choice.order):
         motor, gearbox = choice.nearest
-        reasons = "; ".join(choice.reasons(motor, gearbox))
+        reasons = ", ".join(check.brief for check in choice.duty(motor, gearbox).failed)
         return (
             f"axis {name}: none of {total} pairs of motor and gearbox suffices; the nearest, "
             f"{choice.motors[motor].type} with {choice.gearboxes[gearbox].type}, is refused: {reasons}"
@@ -111,7 +111,7 @@ def choice_headline(name: str, choice: ServoChoice) -> str:
     )
 
 
-# What is least, in words.
+# Criteria in words.
 _GOALS = {
     "cost": "cost",
     "power": "rated power",

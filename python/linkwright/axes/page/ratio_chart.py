@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 def ratio_chart(name: str, choice: ServoChoice) -> CaptionedFigure:
     """The chart with its words."""
     load = load_factor(choice.cycle)
+    # Nothing of the gears' efficiency is known before one is chosen.
     words = (
-        f"Motors of the catalogue by continuous torque squared over inertia. Only above the load factor β = "
-        f"{number(load.load_factor)} W/s, with losses of the gears more, is there a ratio with which a motor "
-        "bears the torque of the axis in continuous operation; limits of speed and peak torque come beside. "
-        "Filled: a pair with a gearbox of the catalogue passes all checks."
+        "Motors of the catalogue by continuous torque squared over inertia. Only above the load factor β = "
+        f"{number(load.load_factor)} W/s can a motor bear the torque of the axis in continuous operation; "
+        "losses of the gears raise it, and limits of speed and peak torque apply besides. Filled: a pair with "
+        "a gearbox of the catalogue passes all checks."
     )
     return CaptionedFigure(f"ratios_{name}", f"Axis {name}: accelerating factors", words, _chart(choice))
 
