@@ -118,7 +118,7 @@ EDGES = {
     ("pumping.model", "linkages.model"),
     ("pumping", "linkages"),
     ("pumping", "linkages.model"),
-    # An axis moves a driver of the linkage by sections as cams have them, through gears as a drive has them, ...
+    # An axis moves a driver of the linkage by sections of cams, through gears as a drive has them, ...
     ("axes.model", "cam.laws"),
     ("axes.model", "cam.model"),
     ("axes.model", "drive.model"),

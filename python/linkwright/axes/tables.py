@@ -106,7 +106,10 @@ def clearance_tables(apart: Clearance) -> Iterator[Table]:
     """Minimum distance of two points of axes, and the shift that keeps a wanted one."""
     beside = {"distance_min": f"at φ = {degrees(apart.distance_min_angle)}"}
     if apart.earlier is not None:
-        beside["earlier"] = f"of axis {apart.axis}; negative: later"
+        is_any = apart.earlier >= 2 * np.pi
+        beside["earlier"] = (
+            f"any start of axis {apart.axis}" if is_any else f"axis {apart.axis}; negative: later"
+        )
     title = f"Clearance between {apart.first} and {apart.second}"
     yield Table(
         "clearance", title, ("quantity", "", "value", "where"), known_rows(apart, "clearance", beside)

@@ -50,8 +50,8 @@ def require_separate_axes(machine: Machine) -> None:
                 raise FindingError(
                     f"{table}.{name} is moved by the crankshaft ({', '.join(sorted(others))}) and by the "
                     f"axis {', '.join(own[driver] for driver in sorted(axes))} together: its motion "
-                    "under [drive.motor] is not computed; give the crank an axis too, or replace the motor by "
-                    "[master] with a constant speed"
+                    "under [drive.motor] is not computed; give the crank an axis too, or replace the "
+                    "motor by [master] with a constant speed"
                 )
 
 

@@ -92,7 +92,9 @@ def _law_faults(
         with np.errstate(all="ignore"):
             ends = np.asarray(formula_value(parse(law), names) * np.ones(2), dtype=float)
         advances = float(ends[1] - ends[0])
-        if not abs(advances - advance) <= _CLOSES * max(1e-3, *np.abs(ends)):
+        rounding = _CLOSES * max(1e-3, *np.abs(ends))
+        advances = 0.0 if abs(advances) <= rounding else advances
+        if not abs(advances - advance) <= rounding:
             said, done = worded(advance, kind), worded(advances, kind)
             remedy = f'advance = "{done}", or a law that ends {said} above its start'
             yield fault("advance", found=said, expected=f"{done}, from phi = 0 to 2*pi", remedy=remedy)
