@@ -158,8 +158,8 @@ def choose_servo(
     motors, gearboxes : sequence
         Of catalogues, such as those of `read_servo_motors` and `read_gearboxes`.
     goal : str
-        The lowest comes first: ``"cost"`` of motor and gearbox, rated ``"power"``, ``"inertia"`` of the rotor, or
-        ``"rms"``, the utilisation of the continuous torque.
+        The lowest comes first: ``"cost"`` of motor and gearbox, rated ``"power"``, ``"inertia"`` of the
+        rotor, or ``"rms"``, the utilisation of the continuous torque.
     coupling : float
         Inertia of a coupling at the motor shaft [kg m²].
     inertia_ratio : float

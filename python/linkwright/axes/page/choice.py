@@ -122,7 +122,7 @@ _GOALS = {
 
 def pairs_csv(choice: ServoChoice) -> str:
     """Every pair with the utilisation of every check, and the checks that refuse it."""
-    heads = ("motor", "gearbox", "ratio [-]", "passes", *(f"{check} [-]" for check in CHECKS), "refused by")
+    heads = ("motor", "gearbox", "ratio [-]", "passes", *(f"{check} [-]" for check in CHECKS), "refused_by")
     used = np.moveaxis(choice.utilisation, 0, -1).tolist()
     passes = choice.passes.tolist()
 

@@ -23,8 +23,8 @@ def ratio_chart(name: str, choice: ServoChoice) -> CaptionedFigure:
     words = (
         "Motors of the catalogue by continuous torque squared over inertia. Only above the load factor β = "
         f"{number(load.load_factor)} W/s can a motor bear the torque of the axis in continuous operation; "
-        "losses of the gears raise it, and limits of speed and peak torque apply besides. Filled: a pair with "
-        "a gearbox of the catalogue passes all checks."
+        "losses of the gears raise it, and limits of speed and peak torque apply besides. Filled: a pair "
+        "with a gearbox of the catalogue passes all checks."
     )
     return CaptionedFigure(f"ratios_{name}", f"Axis {name}: accelerating factors", words, _chart(choice))
 
