@@ -109,6 +109,8 @@ def test_a_goal_needs_its_column() -> None:
     motors = (*servos(2), CatalogueServo("bare", servos(1)[0].motor))
     with pytest.raises(InputError, match="motors: bare has no cost; add a column cost"):
         choose_servo(lively_cycle(), motors, gearboxes(2), goal="cost")
+    with pytest.raises(InputError, match="coupling"):
+        choose_servo(lively_cycle(), motors, gearboxes(2), coupling=-1.0)
     with pytest.raises(InputError, match="gearboxes: found none"):
         choose_servo(lively_cycle(), motors, ())
     with pytest.raises(InputError, match='expected one of "cost", "power"'):

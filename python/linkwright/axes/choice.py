@@ -20,8 +20,11 @@ from linkwright.axes.model.servo_motor import TorqueCurve
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
+from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.quantities import About
 from linkwright.kernel.result import Record
+from linkwright.kernel.units.kinds import INERTIA, RATIO
+from linkwright.kernel.units.marks import not_negative, positive
 
 Goal = Literal["cost", "power", "inertia", "rms"]
 
@@ -69,7 +72,7 @@ class ServoChoice(Record):
     inertia_ratio: Annotated[float, About("At most permitted.")]
 
     @property
-    def passes(self) -> Annotated[np.ndarray, About("", "(motors, gearboxes)")]:
+    def passes(self) -> Annotated[np.ndarray, About("True for a pair that passes.", "(motors, gearboxes)")]:
         """Whether each pair passes all checks."""
         return np.asarray(np.all(self.utilisation <= 1 + _ROUNDED, axis=0))
 
@@ -175,6 +178,7 @@ def choose_servo(
     InputError
         No motors or gearboxes; or the goal needs a column that a catalogue does not have.
     """
+    in_range(coupling=(coupling, not_negative(INERTIA)), inertia_ratio=(inertia_ratio, positive(RATIO)))
     servos, gears = tuple(motors), tuple(gearboxes)
     if not servos or not gears:
         raise InputError(f"{'gearboxes' if servos else 'motors'}: found none to choose from")
