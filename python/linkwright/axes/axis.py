@@ -203,16 +203,16 @@ def servo_axes(
 def _inertias(machine: Machine, turns: int) -> dict[str, float]:
     """Mean inertia at each driver, worked out once."""
     kept = compile_machine(machine).kept
-    if "inertias of drivers" not in kept:
-        kept["inertias of drivers"] = driver_inertias(machine, turns)
-    known: dict[str, float] = kept["inertias of drivers"]
+    if "driver_inertias" not in kept:
+        kept["driver_inertias"] = driver_inertias(machine, turns)
+    known: dict[str, float] = kept["driver_inertias"]
     return known
 
 
 def _starts(machine: Machine, speed: float) -> tuple[AxesCycle | None, AxesCycle | None]:
     """Start and stop of the master, as far as the file has their times; kept with the machine."""
     master, kept = machine.master, compile_machine(machine).kept
-    key = f"starts of axes at {speed}"
+    key = f"starts_at_{speed}"
     if key not in kept:
         times = (None, None) if master is None else (master.start_time, master.stop_time)
         kept[key] = tuple(

@@ -58,7 +58,7 @@ def axes_cycle(machine: Machine, speed: float | None = None) -> AxesCycle:
     that has a motor, else the speed that the file gives.
     """
     kept = compile_machine(machine).kept
-    key = f"axes at {speed}"
+    key = f"axes_at_{speed}"
     if key not in kept:
         kept[key] = _cycle(machine, speed)
     known: AxesCycle = kept[key]

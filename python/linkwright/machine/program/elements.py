@@ -26,8 +26,8 @@ from linkwright.linkages.model.element import (
 )
 from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
 
-# Name of what a law advances by among its constants; no constant of a file has a blank.
-_ADVANCE = "the advance"
+# Name of what a law advances by among its constants; no constant of a file has a colon.
+_ADVANCE = ":advance"
 
 
 class Elements(Places):
