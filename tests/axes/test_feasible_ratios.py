@@ -7,6 +7,8 @@ import math
 import pytest
 from axis_cycles import ACCELERATION_RMS, SPEED_MEAN, SPEED_PEAK, inertia_cycle
 
+import linkwright as lw
+from linkwright.axes.axis import servo_axis
 from linkwright.axes.duty import motor_duty
 from linkwright.axes.feasibility import load_factor, ratio_range, ratio_ranges
 from linkwright.axes.model.axis_catalogue import CatalogueServo
@@ -86,3 +88,40 @@ def test_speeds_of_the_motor_limit_the_ratio() -> None:
     assert ratio_range(load, short).ratio_max == pytest.approx(3, rel=1e-6)
     named = ratio_ranges(load, (CatalogueServo("A", slow), CatalogueServo("B", short)))
     assert [found.type for found in named] == ["A", "B"]
+
+
+TURNTABLE = """
+format = 1
+name = "turntable"
+[master]
+cycle_time = "0.5 s"
+[axes.A]
+sections = [{{ swing = "45 deg", angle = "324 deg" }}]
+advance = "45 deg"
+[mechanism.cranks.A]
+radius = "100 mm"
+[bodies.A]
+mass = "{mass}"
+along = 0
+inertia = {inertia}
+"""
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "size"),
+    [
+        # 50 kg, 500 mm in diameter.
+        ("50 kg", 50 * 0.25**2 / 2, 15625e-4),
+        # 150 lb, 34 × 2.5 in: m (L² + h²)/12 = 37.63 lb in s², weight over g.
+        ("150 lb", 150 * 0.45359237 * (34**2 + 2.5**2) * 0.0254**2 / 12, 37.63 * 4.4482216 * 0.0254),
+    ],
+)
+def test_a_table_of_a_machine_has_its_matched_ratio(mass: str, inertia: float, size: float) -> None:
+    """Disc and bar on a crank that is indexed: inertia at the driver, and √(J_L/J_M) for any law."""
+    axis = servo_axis(lw.loads(TURNTABLE.format(mass=mass, inertia=inertia)))
+    assert axis.inertia_mean == pytest.approx(size, rel=2e-4)
+    assert axis.inertia_mean == pytest.approx(inertia, rel=1e-12)
+    found = ratio_range(load_factor(axis.cycle), motor("8.17 kg cm^2"))
+    assert found.ratio_best == pytest.approx(math.sqrt(inertia / 8.17e-4), rel=1e-9)
+    acceleration = axis.cycle.torque / inertia
+    assert acceleration == pytest.approx(axis.cycle.acceleration, abs=1e-9 * float(abs(acceleration).max()))
