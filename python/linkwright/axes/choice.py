@@ -123,7 +123,9 @@ class ServoChoice(Record):
             "pairs": len(self.motors) * len(self.gearboxes),
             "passing": len(self.order),
             "refused": self.refused,
-            "chosen" if len(self.order) else "nearest": [self._pair(*pair, curves) for pair in pairs],
+            "chosen" if len(self.order) else "nearest": [
+                self._pair(motor, gearbox, curves) for motor, gearbox in pairs
+            ],
         }
 
     def _pair(self, motor: int, gearbox: int, curves: bool) -> dict[str, Any]:
@@ -195,7 +197,7 @@ def _values(
 ) -> Floats:
     """The criterion of every pair."""
     if goal == "rms":
-        return used[CHECKS.index("torque_rms")]
+        return np.asarray(used[CHECKS.index("torque_rms")])
     if goal == "inertia":
         own = np.array([servo.motor.rotor for servo in servos])
     else:
@@ -323,7 +325,7 @@ def _padded(curve: TorqueCurve | None, points: int) -> tuple[tuple[float, ...], 
     return (*curve.speed, *curve.speed[-1:] * more), (*curve.torque, *curve.torque[-1:] * more)
 
 
-def _outer(one: Floats, other: Floats) -> Floats:
+def _outer(one: Floats, other: Floats) -> np.ndarray:
     """Places of samples, the fastest first, that no faster one outdoes for any inertia between two.
 
     `one`, `other`: torques with the smallest and the largest inertia; with those between they lie between.

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -90,12 +90,11 @@ class DriverCycle:
 
         Between two samples the place is found on straight lines.
         """
-        sign, names = self.power_sign, [entry.name for entry in fields(self) if entry.name != "inertia"]
+        sign = self.power_sign
         before, behind = sign[:-1], sign[1:]
-        columns = np.array([getattr(self, name) for name in names])
+        columns = np.array([self.time, self.speed, self.acceleration, self.torque])
         at = np.flatnonzero((before * behind < 0) & (np.diff(self.time) > 0))
-        speed = columns[1]
-        turning = np.where(speed[at] * speed[at + 1] < 0, 1, 3)
+        turning = np.where(self.speed[at] * self.speed[at + 1] < 0, 1, 3)
         first, last = columns[turning, at], columns[turning, at + 1]
         share = first / (first - last)
         crossing = columns[:, at] + share * (columns[:, at + 1] - columns[:, at])
@@ -108,7 +107,8 @@ class DriverCycle:
         columns = np.insert(
             columns, places, np.hstack([np.repeat(crossing, 2, axis=1), columns[:, own]]), axis=1
         )
-        return type(self)(*columns, self.inertia)
+        time, speed, acceleration, torque = columns
+        return type(self)(time, speed, acceleration, torque, self.inertia)
 
     def geared(self, gearbox: AxisGearbox) -> tuple[Floats, Floats, Floats]:
         """Speed and acceleration at the motor, and the torque there that the driver asks for.

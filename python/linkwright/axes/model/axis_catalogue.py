@@ -163,9 +163,17 @@ def _servo_entries(rows: CatalogueFile, type: str) -> dict[str, Any]:
     for name in ("inertia", "speed_max") if "speed_peak" not in row else ("inertia",):
         if name not in row:
             raise rows.lacks(type, name)
-    entries = {name: row[name] for name in ("inertia", "brake_inertia", "speed_max") if name in row}
-    continuous, peak = _continuous(rows, type, row), _peak(rows, type, row)
-    return {"type": type, **entries, "continuous": continuous, "peak": peak}
+    entries: dict[str, Any] = {name: row[name] for name in _AS_THEY_ARE if name in row}
+    return {
+        "type": type,
+        **entries,
+        "continuous": _continuous(rows, type, row),
+        "peak": _peak(rows, type, row),
+    }
+
+
+# Columns that are entries of a motor.
+_AS_THEY_ARE = ("inertia", "brake_inertia", "speed_max")
 
 
 def _curve(rows: CatalogueFile, type: str, row: dict[str, Any], name: str) -> dict[str, Any] | None:
