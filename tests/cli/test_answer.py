@@ -44,6 +44,26 @@ right = { inertia = 1 }
 one = { between = ["left", "M"], stiffness = 1e4 }
 two = { between = ["M", "right"], stiffness = 1e4 }
 """,
+    "servo.toml": """
+format = 1
+name = "Servo"
+[master]
+cycle_time = "1 s"
+[axes.A]
+sections = [
+  { angle = "180 deg", swing = "180 deg", law = "cycloidal" },
+  { angle = "180 deg", swing = "-180 deg", law = "cycloidal" },
+]
+gearbox = { ratio = 10 }
+[axes.A.motor]
+inertia = "0.9 kg cm^2"
+continuous = { speed = "0, 3000 rpm", torque = "2.4, 2.4 N m" }
+peak = { speed = "0, 3000 rpm", torque = "7, 7 N m" }
+[mechanism.cranks.A]
+radius = "120 mm"
+[bodies]
+A = { inertia = "0.07 kg m^2" }
+""",
     "field.toml": TOPPER + FIELD,
     "poses.toml": POSES,
     "function.toml": FUNCTION,
@@ -164,6 +184,7 @@ CASES = {
     "forces": Case(
         "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
     ),
+    "axes": Case("servo.toml", "servo.toml --set axes.A.motor.peak.torque=[2.5,2.5]", "{roller_two_carts}"),
     "balance": Case(
         "{roller_two_carts} --links A1",
         "{roller_two_carts} --links A1" + _SHORT_ROD,

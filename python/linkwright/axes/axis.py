@@ -136,7 +136,7 @@ def _of_start(duty: MotorDuty | None, when: str) -> Iterator[Check]:
     """Checks of a start or stop, each saying so."""
     for check in () if duty is None else duty.checks:
         if check.name in _OF_STARTS:
-            yield replace(check, note=f"{when}; {check.note}" if check.note else when)
+            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 @public
