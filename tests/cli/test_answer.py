@@ -114,21 +114,6 @@ kind = "viscous"
 on = "A"
 damping_torsional = "0.5 N m s/rad"
 """,
-    "axis.toml": """
-format = 1
-name = "Feeder"
-[master]
-cycle_time = "1 s"
-[axes.A]
-sections = [{ swing = "180 deg", angle = "180 deg" }, { swing = "-180 deg", angle = "180 deg" }]
-[mechanism.cranks.A]
-radius = "120 mm"
-[mechanism.sliders.carriage]
-crank = "A"
-rod = "400 mm"
-[bodies]
-carriage = { mass = "12 kg" }
-""",
     "servos.csv": """
 type, inertia [kg cm^2], torque_rated [N m], speed_rated [rpm], torque_max [N m], speed_max [rpm]
 SV 750, 0.9, 2.39, 3000, 7.1, 6000
@@ -184,7 +169,6 @@ CASES = {
     "forces": Case(
         "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
     ),
-    "axes": Case("servo.toml", "servo.toml --set axes.A.motor.peak.torque=[2.5,2.5]", "{roller_two_carts}"),
     "balance": Case(
         "{roller_two_carts} --links A1",
         "{roller_two_carts} --links A1" + _SHORT_ROD,
@@ -201,9 +185,9 @@ CASES = {
         "{roller_two_carts} --unevenness 3",
     ),
     "axes": Case(
-        "{axis.toml} --catalogue {servos.csv} --gearboxes {gearboxes.csv}",
-        "{axis.toml} --set bodies.carriage.mass=1e6 --catalogue {servos.csv} --gearboxes {gearboxes.csv}",
-        "{axis.toml} --goal rms",
+        "{servo.toml} --catalogue {servos.csv} --gearboxes {gearboxes.csv}",
+        "{servo.toml} --set bodies.A.inertia=70 --catalogue {servos.csv}",
+        "{servo.toml} --goal rms",
     ),
     "motors": Case("--poles 6", NEVER, "--poles 7"),
     "check": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),
