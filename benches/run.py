@@ -32,6 +32,7 @@ CASES = (
     "cam_one",
     "cams_many",
     "topper_heads",
+    "servo_choice",
     "torsion_modes",
     "torsion_forced",
     "torsion_engine",

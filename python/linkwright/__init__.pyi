@@ -4,6 +4,13 @@ from linkwright.app.quantities import quantities as quantities
 from linkwright.app.report.company import read_heading as read_heading
 from linkwright.app.report.page import write_report as write_report
 from linkwright.app.study import study as study
+from linkwright.axes.axis import servo_axis as servo_axis
+from linkwright.axes.bus import dc_bus as dc_bus
+from linkwright.axes.choice import choose_servo as choose_servo
+from linkwright.axes.clearance import clearance as clearance
+from linkwright.axes.model.axis_catalogue import read_gearboxes as read_gearboxes
+from linkwright.axes.model.axis_catalogue import read_servo_motors as read_servo_motors
+from linkwright.axes.timing import timing as timing
 from linkwright.cam.dynamics.bearing import ArmPivot as ArmPivot
 from linkwright.cam.dynamics.bearing import StemGuide as StemGuide
 from linkwright.cam.dynamics.contact_force import contact_force as contact_force

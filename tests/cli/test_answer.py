@@ -44,6 +44,26 @@ right = { inertia = 1 }
 one = { between = ["left", "M"], stiffness = 1e4 }
 two = { between = ["M", "right"], stiffness = 1e4 }
 """,
+    "servo.toml": """
+format = 1
+name = "Servo"
+[master]
+cycle_time = "1 s"
+[axes.A]
+sections = [
+  { angle = "180 deg", swing = "180 deg", law = "cycloidal" },
+  { angle = "180 deg", swing = "-180 deg", law = "cycloidal" },
+]
+gearbox = { ratio = 10 }
+[axes.A.motor]
+inertia = "0.9 kg cm^2"
+continuous = { speed = "0, 3000 rpm", torque = "2.4, 2.4 N m" }
+peak = { speed = "0, 3000 rpm", torque = "7, 7 N m" }
+[mechanism.cranks.A]
+radius = "120 mm"
+[bodies]
+A = { inertia = "0.07 kg m^2" }
+""",
     "field.toml": TOPPER + FIELD,
     "poses.toml": POSES,
     "function.toml": FUNCTION,
@@ -93,6 +113,14 @@ radius = "80 mm"
 kind = "viscous"
 on = "A"
 damping_torsional = "0.5 N m s/rad"
+""",
+    "servos.csv": """
+type, inertia [kg cm^2], torque_rated [N m], speed_rated [rpm], torque_max [N m], speed_max [rpm]
+SV 750, 0.9, 2.39, 3000, 7.1, 6000
+""",
+    "gearboxes.csv": """
+type, ratio, efficiency [%]
+P20, 20, 93
 """,
     "coast.csv": """
 time [s], speed [rpm]
@@ -155,6 +183,11 @@ CASES = {
         "{roller_two_carts}",
         "{roller_two_carts} --set loads.rolling1.force=1e5",
         "{roller_two_carts} --unevenness 3",
+    ),
+    "axes": Case(
+        "{servo.toml} --catalogue {servos.csv} --gearboxes {gearboxes.csv}",
+        "{servo.toml} --set bodies.A.inertia=70 --catalogue {servos.csv}",
+        "{servo.toml} --goal rms",
     ),
     "motors": Case("--poles 6", NEVER, "--poles 7"),
     "check": Case("{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts}" + _NO_KEY),

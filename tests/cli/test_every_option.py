@@ -29,6 +29,7 @@ ELSEWHERE = {
     "--record",
     "--measured",
     "--catalogue",
+    "--gearboxes",
     "--study",
 }
 

@@ -1,4 +1,4 @@
-"""Drives behind laws: each has its torque, and their input shaft is named."""
+"""Drives behind laws: each has its torque, and what the sum of all is is named."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ def test_the_shaft_in_front_of_a_law() -> None:
     slope = h / np.pi * np.where(phi < np.pi, 1 - np.cos(2 * phi), -(1 - np.cos(2 * phi)))
     np.testing.assert_allclose(found.torque_drive, found.drives["A"] * slope, atol=1e-9 * 45)
     assert found.laws == ("A",)
-    assert found.shaft == "torque on the input shaft of the law of A, at constant speed"
+    assert found.shaft == "torque referred to the master shaft"
     assert abs(found.drive_max["A"]) == pytest.approx(25.99, abs=0.01)
 
 
 def test_every_output_names_it() -> None:
     """Table, JSON, run and size; each drive has its row."""
     table = shown("forces", SERVO)
-    assert "torque on the input shaft of the" in table
+    assert "torque referred to the master shaft" in table
     assert "torque of the drive A 25.9" in table
     results = json.loads(invoke("forces", SERVO, "--json").stdout)["results"]
     text = json.dumps(results)
-    assert "input shaft of the law of A, at constant speed" in text
+    assert "torque referred to the master shaft" in text
     assert '"A drive"' in text
     assert '"drive_max"' in text
     assert "The law of A acts as a cam on the crankshaft" in shown("run", SERVO)

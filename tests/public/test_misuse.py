@@ -408,6 +408,8 @@ def test_what_is_of_another_class_is_named(wrong: Any) -> None:
         (lambda: lw.sweep(_study(), "rows", chunks="0:1"), "^chunks: found '0:1'"),
         (lambda: lw.sweep(_study(), "rows", chunks=(0, 1, 2)), "^chunks: found"),
         (lambda: lw.choose_motor(_machine("roller_one_cart"), catalogue=[3]), "^catalogue: found"),
+        (lambda: lw.read_servo_motors(3), "^path: found 3"),
+        (lambda: lw.choose_servo(3, (), ()), "^cycle: found 3"),
         (lambda: lw.read_motors(3), "^path: found 3"),
         (lambda: lw.gradient(_machine("roller_one_cart"), []), "^responses: found an empty list"),
     ],

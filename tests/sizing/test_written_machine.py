@@ -13,6 +13,7 @@ import linkwright as lw
 from linkwright.sizing.checks import motion_checks
 
 FOUND = Path(__file__).parents[1] / "found" / "use"
+ONLY = "if the machine starts from its start angle only, use --by fixed-start"
 PRESS = str(FOUND / "punch_press.toml")
 
 
@@ -77,6 +78,7 @@ def test_the_headline_names_the_check_that_decides() -> None:
         head = text[: text.index("The motor in the file")]
         assert "decisive check: starting torque, worst angle; IE2 5.5 kW 4-pole frame 132S, 5.5 kW" in head
         assert "is unknown and counts as failed" in head
+        assert "its rated power is 24.3 times the power required is a start under load meant?" in head
         assert "use --by fixed-start" in head
     assert sized(PRESS)["motor"]["decided_by"] == "starting_torque_worst"
 
@@ -96,6 +98,9 @@ def test_the_headline_in_ukrainian(more: tuple[str, ...]) -> None:
     _, text = size(PRESS, *more)
     head = text[text.index("IE") : text.index("The motor in the file")]
     for line in head.split(" decisive check: ")[0].split("; "):
+        assert ukrainian(line) != line
+    for line in ("its rated power is 24.3 times the power required", "is a start under load meant? " + ONLY):
+        assert (line in text) == (not more)
         assert ukrainian(line) != line
     assert ukrainian("decisive check: starting torque, worst angle").isascii() is False
     assert "known" not in ukrainian("not decisive: starting torque, worst angle not known")

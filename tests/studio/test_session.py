@@ -245,7 +245,7 @@ A = { mass = "2 kg" }
     answer = tab.ask(ask="compute", text=text)
     (forces,) = (one for one in answer["results"] if one["name"] == "forces")
     words = {one["name"]: one["word"] for one in forces["scalars"]}
-    assert words["torque_drive_max"].startswith("torque on the input shaft of the law of A")
+    assert words["torque_drive_max"] == "torque referred to the master shaft"
     assert any(plot["title"] == "torque of the drive A" for plot in forces["plots"])
 
 

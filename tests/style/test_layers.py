@@ -61,6 +61,7 @@ SUBJECTS = (
     "pumping",
     "topping",
     "turning",
+    "axes",
     "synthesis",
     "sizing",
 )
@@ -119,6 +120,16 @@ EDGES = {
     ("pumping.model", "linkages.model"),
     ("pumping", "linkages"),
     ("pumping", "linkages.model"),
+    # An axis moves a driver of the linkage by sections of cams, through gears as a drive has them, ...
+    ("axes.model", "cam.laws"),
+    ("axes.model", "cam.model"),
+    ("axes.model", "drive.model"),
+    ("axes.model", "linkages.model"),
+    # ... with the torque that kinetostatics finds along the motion of its master, a crankshaft perhaps.
+    ("axes", "drive"),
+    ("axes", "kinetostatics"),
+    ("axes", "linkages"),
+    ("axes.commands", "drive"),
     # A knife moves by a law, or by a mechanism, and takes a force.
     ("topping", "cam.laws"),
     ("topping", "kinetostatics"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from linkwright.axes import analyses as axes
 from linkwright.cam import analyses as cam
 from linkwright.drive import analyses as drive
 from linkwright.kinetostatics import analyses as kinetostatics
@@ -18,5 +19,6 @@ ANALYSES = (
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
     *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, kinetostatics.FORCES),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
+    *(axes.AXIS, axes.BUS, axes.TIMING),
     *(torsion.TORSION, torsion.FREE, torsion.DAMPED, torsion.FORCED, torsion.STRESS),
 )

@@ -147,7 +147,7 @@ class _Scalars:
         self.cam: Cam = machine.mechanism.cams[profile.name]
         self.touching = _touching(machine, profile.name)
         self.profile, self.ties, self.scale = profile, ties, scale
-        self.design_speed: Any = None if machine.drive is None else machine.drive.speed
+        self.design_speed: Any = machine.design_speed
 
     def of(self, name: str) -> Any:
         """A scalar of the profile by its name."""

@@ -33,10 +33,10 @@ def made_sizes(known: Results, findings: Findings) -> dict[str, LeastSizes]:
 def made_forces(known: Results, findings: Findings) -> dict[str, LoadedCam]:
     """The cams that can be made under load; a follower that leaves its cam is a finding."""
     machine = known.machine
-    speed = None if machine.drive is None else machine.drive.speed
+    speed = machine.design_speed
     if not (machine.bodies or machine.loads) or (known.forces is None and speed is None):
         return {}
-    along = None if known.forces is not None else speed
+    along = None if known.steady_state is not None else speed
     loaded = [findings.of(loaded_cam, machine, cam, along) for cam in known.sound_cams]
     return {cam.name: cam for cam in loaded if cam is not None}
 
@@ -59,10 +59,8 @@ def check_cams(machine: Machine, findings: Findings) -> Iterator[str]:
 
 def _keeps_its_speed(machine: Machine) -> bool:
     """Whether the speed is known without solving: that of its motor, or the design speed without one."""
-    drive = machine.drive
-    if drive is None:
-        return False
-    return drive.speed is not None if drive.motor is None else isinstance(drive.motor, ConstantSpeedMotor)
+    motor = None if machine.drive is None else machine.drive.motor
+    return machine.design_speed is not None if motor is None else isinstance(motor, ConstantSpeedMotor)
 
 
 def _vibration(profile: CamProfile, findings: Findings) -> Iterator[tuple[str, FollowerVibration]]:

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from linkwright.machine.machine import Machine
 
 _OPTION = "--speed"
-_DESIGN = "design speed, drive.speed"
 
 
 class CrankSpeed(NamedTuple):
@@ -37,8 +36,8 @@ def crank_speed(machine: Machine, asked: float | None) -> CrankSpeed:
     if asked is not None:
         return CrankSpeed(asked, _OPTION)
     drive = machine.drive
-    if drive is not None and drive.speed is not None:
-        return CrankSpeed(drive.speed, _DESIGN)
+    if machine.design_speed is not None:
+        return CrankSpeed(machine.design_speed, _design(machine))
     if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         speed = drive.motor.speed / drive.gearbox.ratio
         return CrankSpeed(speed, "drive.motor.speed over drive.gearbox.ratio")
@@ -46,12 +45,21 @@ def crank_speed(machine: Machine, asked: float | None) -> CrankSpeed:
     return CrankSpeed(1.0, "the file has no drive.speed: rates are those for a radian per second")
 
 
+def _design(machine: Machine) -> str:
+    """Where the file gives the design speed."""
+    master = machine.master
+    is_cycle = master is not None and (master.speed is not None or master.cycle_time is not None)
+    return "master" if is_cycle else "design speed, drive.speed"
+
+
 def speeds_of(
     speeds: Floats, machine: Machine, asked: float | None, *, is_pose: bool = False
 ) -> dict[str, Any]:
     """Speeds (n,) [rad/s] along a motion, or in one pose, for JSON; `asked`: that of ``--speed``."""
     has_motor = machine.drive is not None and machine.drive.motor is not None
-    source = _OPTION if asked is not None else "steady motion" if has_motor and not is_pose else _DESIGN
+    source = (
+        _OPTION if asked is not None else "steady motion" if has_motor and not is_pose else _design(machine)
+    )
     low, high = float(speeds.min()), float(speeds.max())
     return {"speed_min": low, "speed_max": high, "speed_source": source}
 

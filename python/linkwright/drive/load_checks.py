@@ -12,6 +12,7 @@ from linkwright.linkages.closure import require_full_turn, turn_angles
 from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.linkages.whole_cycle import cycle_of, over_known_cycle
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import require_separate_axes
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 # Angles at which loads are examined; a hole narrower than half a degree is met by the solver, which says so.
@@ -51,6 +52,7 @@ def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
 
     So it does if a law with a corner moves masses. The `FindingError` names load or law, angle and remedy.
     """
+    require_separate_axes(machine)
     require_finite_accelerations(machine)
     doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
     if not doubtful:

@@ -44,7 +44,7 @@ def no_mass(machine: Machine) -> Obstacle | None:
 
 def design_speed(machine: Machine) -> float | None:
     """Speed of the crank at which forces are asked for where no motor makes a motion."""
-    return None if machine.drive is None or has_motor(machine) else machine.drive.speed
+    return None if has_motor(machine) else machine.design_speed
 
 
 def no_forces(machine: Machine) -> Obstacle | None:

@@ -52,6 +52,10 @@ _SPEEDS = 200
 def made_reduction(known: Results, findings: Findings) -> Reduction | None:
     """Reduced inertia and load; None where nothing but motion can be computed."""
     machine = known.machine
+    if machine.axes and not has_motor(machine):
+        # The crankshaft is a virtual master, on which nothing acts.
+        findings.of(require_turn, machine)
+        return None
     if not (has_mass(machine) or has_motor(machine)):
         # The travel of a screw ends, which is no fault of it.
         (findings.beside_of if is_screw(machine) else findings.of)(require_turn, machine)

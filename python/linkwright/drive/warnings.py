@@ -42,6 +42,9 @@ def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | N
         *first_revolution_words(machine),
         *unjudged_limits(machine),
     ]
+    if machine.axes and (drive is None or drive.motor is None):
+        # Nothing but axes moves it: their motors are looked at instead.
+        return tuple(sentences)
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")
     sentences += _without_run_up(drive)
@@ -318,8 +321,8 @@ def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 
 def _gear_gain(drive: Drive, steady: SteadyState) -> Iterator[str]:
-    """A reverse factor below 1 gives the motor more power than the crank returns."""
-    factor = float(reverse_factor(drive))
+    """A factor below 1 in reverse hands the motor more power than the crank gives."""
+    factor = float(reverse_factor(drive.gearbox))
     driven = np.minimum(steady.torque_drive, 0.0)
     gained = -float(np.trapezoid(driven, steady.crank_angle)) * (1 / factor - 1)
     if gained > 0.1 * _SMALL * abs(steady.energy_drive):

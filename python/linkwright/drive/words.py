@@ -113,7 +113,7 @@ def _drive(drive: Drive) -> Iterator[str]:
             "motor."
         )
         return
-    back = number(float(reverse_factor(drive)))
+    back = number(float(reverse_factor(drive.gearbox)))
     usual = ", the reciprocal of the efficiency" if gearbox.reverse is None else ", as given"
     yield (
         f"{forward}while the load drives the motor, η is replaced by "

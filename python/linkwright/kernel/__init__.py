@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `arrays` | NumPy's arrays by what they hold |
+| `check` | One check against a limit |
 | `command/` | What the commands share: options, errors as messages, the terminal, progress, output folders |
 | `core/` | What crosses the border to the compiled core |
 | `description/` | What all descriptions share: faults in the words of the file, addresses, formulas, curves |

@@ -32,7 +32,7 @@ from linkwright.kernel.units.marks import SHARE, Quantity, not_negative, positiv
 from linkwright.kinetostatics.couple import couple_of
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.body import Body
-from linkwright.kinetostatics.motion import Motion, motion_at
+from linkwright.kinetostatics.motion import Motion, has_speed, motion_at
 from linkwright.kinetostatics.places import Scene, left, unit
 from linkwright.kinetostatics.result import Forces
 from linkwright.kinetostatics.wrench import masses
@@ -273,12 +273,6 @@ def _turning(machine: Machine, speed: float | None, n: int) -> Motion:
     elif not has_speed(machine):
         speed = UNIT_SPEED
     return motion_at(machine, None, speed=speed, n=n)
-
-
-def has_speed(machine: Machine) -> bool:
-    """Whether a machine has a speed of its own: that of a steady motion, or the design speed."""
-    drive = machine.drive
-    return drive is not None and (drive.motor is not None or drive.speed is not None)
 
 
 def _free_name(link: str, bodies: Mapping[str, Body]) -> str:

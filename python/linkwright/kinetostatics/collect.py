@@ -21,6 +21,7 @@ from linkwright.kinetostatics.places import Scene, cross
 from linkwright.kinetostatics.result import Contribution, Forces, PairForce
 from linkwright.linkages.law_jumps import drivers_with_laws
 from linkwright.linkages.model.structure import FRAME
+from linkwright.machine.own_motors import axis_drivers
 
 # Share of the maximum force by which rounding may push a cable, or pull a follower.
 _SLACK = 1e-9
@@ -92,11 +93,14 @@ class Collector:
             shaking_force=frame[:, :2],
             pairs=pairs,
             drives=drives,
+            shaft_torques=self.shaft_torques(),
             contributions=LazyTable({name: partial(self._share, k) for k, name in enumerate(self.columns)}),
             motion=motion,
             load_forces=self._load_forces(),
             load_torques=self._load_torques(),
-            laws=tuple(drivers_with_laws(self.scene.machine)),
+            laws=tuple(
+                dict.fromkeys([*drivers_with_laws(self.scene.machine), *axis_drivers(self.scene.machine)])
+            ),
             findings=(
                 *_where(self.solution, motion.crank_angle),
                 *self._slack(pairs),
@@ -177,6 +181,16 @@ class Collector:
                 torques[name] = source.wrenches.on_member(on)[:, 2]
         return torques
 
+    def shaft_torques(self) -> dict[str, Floats]:
+        """Torque of each drive referred to the shaft that all follow, (n,)."""
+        spans = zip(self.models, self.spans, strict=True)
+        return {m.name: self._on_shaft(m, span, self.total) for m, span in spans if m.kind in _DRIVES}
+
+    def _on_shaft(self, model: PairModel, span: slice, x: Floats) -> Floats:
+        """The work of a drive on its member in a radian of the shaft, with what a contact loses."""
+        torque: Floats = x[:, span.start] * self.works[model.name]
+        return torque if model.push is None else torque + self._dry(span, x) * model.push.lever
+
     def _borne(self, sources: Sequence[AppliedLoad], x: Floats) -> tuple[Floats, Floats]:
         """Driving torque and wrench on the frame, (n,) and (n, 3). `x`: values (n, unknowns)."""
         torque = reduce(add, [source.resisting for source in sources])
@@ -185,10 +199,7 @@ class Collector:
             if model.acts_on(FRAME):
                 frame = frame + self._passed(model, span, x, FRAME)
             if model.kind in _DRIVES:
-                # The work of the drive on this member in a radian of the crank.
-                torque = torque + x[:, span.start] * self.works[model.name]
-                if model.push is not None:
-                    torque = torque + self._dry(span, x) * model.push.lever
+                torque = torque + self._on_shaft(model, span, x)
         return torque, frame
 
     def _share(self, k: int) -> Contribution:

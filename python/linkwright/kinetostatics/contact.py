@@ -8,6 +8,7 @@ from __future__ import annotations
 from linkwright.kernel.findings import Findings
 from linkwright.kinetostatics.collect import KEEPS, TIGHTENS
 from linkwright.kinetostatics.forces import forces
+from linkwright.kinetostatics.motion import has_speed
 from linkwright.machine.machine import Machine
 
 
@@ -20,9 +21,7 @@ def contacts(machine: Machine) -> list[tuple[str, str]]:
 
 def lost_contacts(machine: Machine) -> tuple[str, ...]:
     """Contacts that a machine loses in its steady motion or at its design speed, in sentences."""
-    drive = machine.drive
-    moves = drive is not None and (drive.motor is not None or drive.speed is not None)
-    if not moves or not contacts(machine) or not (machine.bodies or machine.loads):
+    if not has_speed(machine) or not contacts(machine) or not (machine.bodies or machine.loads):
         return ()
     collected = Findings()
     collected.of(forces, machine)

@@ -139,10 +139,8 @@ def drive_torque_along(
     """
     entries = _entries(machine, variables)
     program = entries.program
-    assert machine.drive is not None
-    motion = motion_at(machine, None, speed=machine.drive.speed, angles=angles)
-    assert entries.machine.drive is not None
-    along = _at_speed(motion, entries.machine.drive.speed, len(program.variables))
+    motion = motion_at(machine, None, speed=machine.design_speed, angles=angles)
+    along = _at_speed(motion, entries.machine.design_speed, len(program.variables))
     torque, _ = _collected(_SceneAlong(machine, along, entries)).drive_and_frame()
     return program, torque, kinks_of(machine, program)
 
@@ -265,9 +263,9 @@ def _motion_along(
             name: Tangent(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
-    assert drive is not None
-    has_given = isinstance(drive.motor, ConstantSpeedMotor)
-    speed = drive.motor.speed / drive.gearbox.ratio if has_given else drive.speed
+    speed = entries.machine.design_speed
+    if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
+        speed = drive.motor.speed / drive.gearbox.ratio
     return _at_speed(motion, speed, len(program.variables)), {}, None
 
 

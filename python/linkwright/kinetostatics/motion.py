@@ -61,6 +61,11 @@ class Motion(Record):
         return float(np.trapezoid(values[known], t) / (t[-1] - t[0]))
 
 
+def has_speed(machine: Machine) -> bool:
+    """Whether a machine has a speed of its own: that of a steady motion, or the design speed."""
+    return (machine.drive is not None and machine.drive.motor is not None) or machine.design_speed is not None
+
+
 def motion_at(
     machine: Machine,
     motion: SteadyState | Transient | Motion | None,
@@ -90,7 +95,7 @@ def motion_at(
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:
             return over_turns(steady_state(machine, n=n), force_turns(compile_machine(machine)))
-        speed = None if drive is None else drive.speed
+        speed = machine.design_speed
     if speed is None:
         raise InputError(
             "speed: found none, expected that of the crank, as there is neither a motor nor drive.speed; "

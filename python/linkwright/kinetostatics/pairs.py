@@ -185,7 +185,7 @@ def _cable(scene: Scene, pair: Pair) -> PairModel:
 
 def _drive(scene: Scene, drive: Drive) -> PairModel:
     driver = scene.mechanism.linear_drivers.get(drive.name) or scene.mechanism.cranks.get(drive.name)
-    if driver is not None and driver.follows() is not None:
+    if driver is not None and driver.pushed:
         return _cam_contact(scene, drive)
     if drive.guide is None:
         one = np.ones(scene.n)

@@ -122,11 +122,15 @@ class Forces(Result):
             shape="(n, 2)",
         ),
     ] = field(default=None)
+    shaft_torques: Annotated[
+        dict[str, Floats],
+        About("Torque of each drive referred to the master shaft, its power over the speed of that [N m]."),
+    ] = field(default_factory=dict)
     laws: Annotated[
         tuple[str, ...],
         About(
-            "Cranks and drivers that follow a law by a formula: the driving torque is that on the shaft in "
-            "front of it, as of a cam, and ``drives`` is what they need themselves."
+            "Drivers that follow a law by a formula or have an axis: the driving torque is the sum of all, "
+            "referred to the master shaft, and ``drives`` is what they need themselves."
         ),
     ] = field(default=())
     findings: Annotated[
@@ -173,10 +177,7 @@ class Forces(Result):
     @property
     def shaft(self) -> str:
         """What the driving torque is, where drives follow laws; empty where it is that of the crank."""
-        if not self.laws:
-            return ""
-        words = f"torque on the input shaft of the law of {', '.join(self.laws)}"
-        return words if np.any(self.acceleration) else f"{words}, at constant speed"
+        return "torque referred to the master shaft" if self.laws else ""
 
     @public
     def word_of(self, name: str, word: str) -> str:
@@ -211,6 +212,7 @@ class Forces(Result):
             results["reactions"] = {name: pair.force.tolist() for name, pair in self.pairs.items()}
             results["moments"] = {name: pair.moment.tolist() for name, pair in self.pairs.items()}
             results["drives"] = {name: torque.tolist() for name, torque in self.drives.items()}
+            results["shaft_torques"] = {name: torque.tolist() for name, torque in self.shaft_torques.items()}
             results["load_forces"] = {name: force.tolist() for name, force in self.load_forces.items()}
             results["load_torques"] = {name: torque.tolist() for name, torque in self.load_torques.items()}
         return results

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from linkwright.drive.steady_state import SteadyState
+from linkwright.drive.study import has_motor
 from linkwright.kernel.findings import Findings
 from linkwright.kinetostatics.collect import LEAVES
 from linkwright.kinetostatics.contact_in_time import contact_losses
@@ -22,8 +23,12 @@ _EVERY = 4
 
 def made_forces(known: Results, findings: Findings) -> Forces | None:
     """Forces along the steady motion; angles without an answer are no fault of the motion, but warnings."""
-    steady = known.steady_state
-    return findings.beside_of(_forces, known.machine, steady) if steady is not None else None
+    machine, steady = known.machine, known.steady_state
+    if steady is None:
+        # Axes need no motor at the crankshaft, which is a virtual master.
+        at_speed = bool(machine.axes) and machine.design_speed is not None and not has_motor(machine)
+        return findings.beside_of(forces, machine) if at_speed else None
+    return findings.beside_of(_forces, machine, steady)
 
 
 def _forces(machine: Machine, steady: SteadyState) -> Forces:

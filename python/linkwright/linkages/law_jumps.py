@@ -17,6 +17,7 @@ from linkwright.kernel.errors import AssemblyError, FindingError, InputError
 from linkwright.kernel.reader.numbers import degrees
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import axis_drivers
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import Channel
 
@@ -69,7 +70,8 @@ def drivers_with_laws(machine: Machine) -> dict[str, tuple[str, bool]]:
 
 def shaft_of_laws(machine: Machine) -> Iterator[str]:
     """What torques at the crank are where drivers follow laws; nothing without masses and loads."""
-    names = ", ".join(drivers_with_laws(machine))
+    own = axis_drivers(machine)
+    names = ", ".join(name for name in drivers_with_laws(machine) if name not in own)
     if names and (machine.bodies or machine.loads):
         yield (
             f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the "

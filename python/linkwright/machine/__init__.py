@@ -8,6 +8,7 @@
 | `file_argument` | The machine file of a command |
 | `machine` | `Machine`: drive, mechanism, bodies, loads, run-up |
 | `iso286` | Limit deviations of sizes by classes such as H7 |
+| `own_motors` | What axes move by motors of their own, which the crankshaft does not feel |
 | `overrides` | Overrides |
 | `program/` | From a machine's description to the program of the core |
 | `read` | Read a machine file |

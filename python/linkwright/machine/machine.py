@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 from pydantic import BaseModel, Field, ModelWrapValidatorHandler, ValidationError
 from pydantic_core import InitErrorDetails
 
-from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.drive import Drive, design_speed
 from linkwright.kernel.description.base import Description, Name, Title, fault, faults_of, raise_faults
 from linkwright.kernel.description.deferred_model import deferred_model
-from linkwright.kernel.description.place import look
+from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.description.problems import WholeDescription
 from linkwright.kernel.units.kinds import RATIO, SPEED
 from linkwright.kernel.units.marks import INSIDE_ONE, Angle, Quantity, not_negative, positive
@@ -23,6 +23,7 @@ from linkwright.machine.whole_mechanism import merged, topology_of, with_followe
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from linkwright.axes.model.axis import Axis, Master
     from linkwright.kernel.description.shown_units import ShownUnits
     from linkwright.linkages.model.drawing import DrawingPoints
     from linkwright.pumping.model.rod_rotator import RodRotator
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from linkwright.torsion.model.train import Train
     from linkwright.turning.model import TurningMoment
 else:
+    Master = deferred_model("axes.model.axis", "Master")
+    Axis = deferred_model("axes.model.axis", "Axis")
     ShownUnits = deferred_model("kernel.description.shown_units", "ShownUnits")
     DrawingPoints = deferred_model("linkages.model.drawing", "DrawingPoints")
     PumpingUnit = deferred_model("pumping.model.unit", "PumpingUnit")
@@ -83,6 +86,10 @@ class Machine(WholeDescription):
         default_factory=Mechanism,
         description="Mechanism on the crankshaft; with a pumping unit, further elements.",
     )
+    master: Master | None = Field(
+        None, description="Cycle of the machine, over whose angle cams and servo axes move."
+    )
+    axes: dict[Name, Axis] = Field(default_factory=dict, description="Servo axes by name.")
     pumping_unit: PumpingUnit | None = Field(
         None, description="Beam pumping unit, which is a mechanism by itself."
     )
@@ -111,8 +118,13 @@ class Machine(WholeDescription):
     @property
     def linkage(self) -> Mechanism:
         """The whole mechanism: elements of the file, and those that cams and a pumping unit expand into."""
-        own = with_followers(self.mechanism)
+        own = with_followers(self.mechanism, self.axes, self.master, self.drive)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
+
+    @property
+    def design_speed(self) -> Any:
+        """Speed of the crankshaft, or of the master, that the file gives [rad/s]; None without it."""
+        return design_speed(self.master, self.drive)
 
     def plot(self, *names: str, over: str | None = None) -> "Figure":
         """Curves by name as a figure, an axis for each unit.
@@ -207,6 +219,7 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     if not stands_alone and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults
+    faults += _faults_of_axes(machine)
     topology = topology_of(machine)
     faults += _faults_of_topper(machine, topology.slides)
     bodies, loads = look(machine, "bodies"), look(machine, "loads")
@@ -227,6 +240,13 @@ def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:
         from linkwright.pumping.model.expansion import expansion_faults
 
         yield from expansion_faults(machine)
+
+
+def _faults_of_axes(machine: object) -> Iterator[InitErrorDetails]:
+    if keys(look(machine, "axes")) or keys(look(look(machine, "mechanism"), "linear_drivers")):
+        from linkwright.axes.model.axis_faults import axes_faults
+
+        yield from axes_faults(machine)
 
 
 def _faults_of_topper(machine: object, slides: Sequence[str]) -> Iterator[InitErrorDetails]:

@@ -156,6 +156,10 @@ def loads_as(
         if model is Machine:
             behind = with_tolerances(tables)
         with_motor_of_file(tables, Path(path).parent, allow_outside=allow_outside)
+        if "axes" in tables:
+            from linkwright.axes.model.axis_catalogue import with_servo_motors_of_files
+
+            with_servo_motors_of_files(tables, Path(path).parent, allow_outside=allow_outside)
         with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         described = model.model_validate(tables)

@@ -3,6 +3,7 @@
 | description | makes |
 | --- | --- |
 | a cam | the driver that follows it: a linear driver or a crank of its name |
+| an axis with sections | the driver of its name, or of its `driver`, that follows them |
 | `pumping_unit`, `rod_rotator` | what `linkwright.pumping.model.expansion` says |
 """
 
@@ -20,12 +21,21 @@ from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.linkages.model.topology import TABLES, Topology
 
 if TYPE_CHECKING:
+    from linkwright.axes.model.axis import Axis, Master
+    from linkwright.drive.model.drive import Drive
     from linkwright.pumping.model.rod_rotator import RodRotator
     from linkwright.pumping.model.unit import PumpingUnit
 
 
-def with_followers(own: Mechanism) -> Mechanism:
+def with_followers(
+    own: Mechanism, axes: Mapping[str, Axis], master: Master | None, drive: Drive | None
+) -> Mechanism:
     """A mechanism with a driver for each cam, the same for the same one; `own`: elements of the file."""
+    if axes:
+        from linkwright.axes.model.follower import with_axes
+
+        parts = (own, axes, master, drive)
+        own = _kept(parts, partial(with_axes, *parts), _has_arrays(*axes.values(), master, drive))
     if not own.cams:
         return own
     return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))

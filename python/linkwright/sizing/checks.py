@@ -16,9 +16,7 @@ The torques are those of the exact steady motion, not of a mean load.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
 
 import numpy as np
 
@@ -27,9 +25,8 @@ from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionM
 from linkwright.drive.reduction import reduction_of
 from linkwright.drive.run_up import RunUp, run_up
 from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.check import Check
 from linkwright.kernel.errors import FindingError
-from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.result import Record
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
@@ -74,81 +71,6 @@ DECISIVE = {
     "fixed-start": _RATING + _START + _TORQUE[1:],
     "all": _RATING + _START + _TORQUE,
 }
-
-
-# What tables and sentences call the checks whose names are not words already.
-_WORDS = {
-    "starting_torque_worst": "starting torque, worst angle",
-    "run_up": "run-up time",
-    "torque_rms": "root mean square torque",
-    "torque_peak": "peak torque",
-}
-
-
-@dataclass(frozen=True)
-class Check(Record):
-    """One check."""
-
-    name: Annotated[str, About("Of the check.")]
-    value: Annotated[float | None, About("The value, in ``unit``.")]
-    limit: Annotated[float | None, About("The limit or requirement, in ``unit``.")]
-    unit: Annotated[str, About("Unit of both.")]
-    passed: Annotated[bool | None, About("None if it is not determined.")]
-    at_most: Annotated[bool, About("Whether the value must be at most the limit, not at least.")] = False
-    note: Annotated[str, About("Why it is not determined, what it rests on, or how it failed.")] = ""
-
-    @property
-    def utilisation(self) -> Annotated[float | None, Label("utilisation", "", "")]:
-        """Share of what is allowed that is used; above 1 the check fails."""
-        if self.value is None or self.limit is None or not self.value > 0 or not self.limit > 0:
-            return None
-        return self.value / self.limit if self.at_most else self.limit / self.value
-
-    @property
-    def title(self) -> str:
-        """What it compares."""
-        return _WORDS.get(self.name, self.name.replace("_", " "))
-
-    @property
-    def words(self) -> str:
-        """The check in one line."""
-        title = self.title
-        if self.value is None or self.limit is None:
-            return f"{title}: {self.note}"
-        wanted = "at most" if self.at_most else "at least"
-        limit = f"{wanted} {_shown(self.limit, self.unit)}"
-        text = f"{title} {_shown(self.value, self.unit)}, {limit}{self._factor()}"
-        return f"{text} ({self.note})" if self.note else text
-
-    @property
-    def brief(self) -> str:
-        """How it fails, in a few words."""
-        title = self.title
-        if self.passed is None:
-            return f"{title} not known"
-        return f"{title}{self._factor().lstrip(':')}" if self._factor() else f"{title} fails"
-
-    def _factor(self) -> str:
-        share = self.utilisation
-        if self.passed is not False or share is None:
-            return ""
-        return (
-            f": {100 * share:.3g} % of the limit"
-            if self.at_most
-            else f": {100 / share:.3g} % of the requirement"
-        )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Its entries, ready for JSON."""
-        names = ("name", "value", "limit", "unit", "passed", "utilisation", "note")
-        return {name: getattr(self, name) for name in names}
-
-
-def _shown(value: float, unit: str) -> str:
-    """A number of four digits with its unit; powers in kW, as motors are rated."""
-    value, unit = (value / 1e3, "kW") if unit == "W" else (value, unit)
-    digits = max(0, 3 - math.floor(math.log10(abs(value)))) if value else 0
-    return f"{value:.{min(digits, 3)}f} {unit}"
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from linkwright.drive.model.catalogue import CatalogueMotor
     from linkwright.kernel.page.table import Row, Table
     from linkwright.machine.machine import Machine
-    from linkwright.sizing.checks import Check
     from linkwright.sizing.flywheel import FlywheelChoice
     from linkwright.sizing.motor import Candidate, MotorChoice
     from linkwright.studies.plan import StudyPlan
@@ -99,6 +98,9 @@ _STARTS = 3
 
 # Options that say how a motor is chosen.
 _OF_A_MOTOR = ("reserve", "by", "free_ratio", "together", "inertia", "catalogue")
+
+# Rated power over required power from which a motor is said to be large: twice what any reserve asks for.
+_LARGE = 3.0
 
 # Rows of the table beyond the motor that is chosen; larger ones are larger still.
 _BEYOND = 2
@@ -358,6 +360,7 @@ def _lead(name: str, motor: MotorChoice, flywheel: FlywheelChoice | None) -> str
 def _deciding(motor: MotorChoice) -> list[str]:
     from linkwright.kernel.reader.numbers import quantity
 
+    assert motor.chosen is not None
     lines = []
     if decided := motor.decided_by:
         check, other = decided
@@ -366,20 +369,24 @@ def _deciding(motor: MotorChoice) -> list[str]:
         lines.append(
             f"decisive check: {check.title}; {other.type}, {power}, passes all others; this one {verdict}"
         )
+        times = motor.chosen.known.power_rated / motor.required.power
+        if times >= _LARGE:
+            lines.append(f"its rated power is {times:.3g} times the power required")
         if check.name == "starting_torque_worst":
-            lines.append("if the machine starts from its start angle only, use --by fixed-start")
-    assert motor.chosen is not None
+            meant = "is a start under load meant? " if times >= _LARGE else ""
+            lines.append(f"{meant}if the machine starts from its start angle only, use --by fixed-start")
     return lines + [f"not decisive: {check.brief}" for check in motor.chosen.open]
 
 
 def _tables_of_choice(motor: MotorChoice) -> list[Table]:
+    from linkwright.kernel.page.checks import check_table
     from linkwright.kernel.page.table import Table
     from linkwright.kernel.reader.numbers import measured, quantity
 
-    tables = [_checks("checks_present", "The motor in the file", motor.present)] if motor.present else []
+    tables = [check_table("checks_present", "The motor in the file", motor.present)] if motor.present else []
     if chosen := motor.chosen:
         title = f"{chosen.type} at ratio {chosen.ratio:.4g}"
-        tables.append(_checks("checks_chosen", title, chosen.checks))
+        tables.append(check_table("checks_chosen", title, chosen.checks))
     rows: list[Row] = [
         (
             candidate.type,
@@ -393,27 +400,6 @@ def _tables_of_choice(motor: MotorChoice) -> list[Table]:
     ]
     heads = ("type", "", "power", "ratio", "inertia, ~ estimated", "verdict")
     return [*tables, Table("motors_considered", "Motors considered", heads, rows)]
-
-
-def _checks(name: str, title: str, checks: Sequence[Check]) -> Table:
-    from linkwright.kernel.page.table import Table
-    from linkwright.kernel.reader.numbers import measured
-
-    words = {True: "passes", False: "fails", None: "not known"}
-    rows: list[Row] = [
-        (
-            check.title,
-            "",
-            measured(check.value, check.unit, abs(check.limit or 0.0)),
-            measured(
-                check.limit, check.unit, abs(check.value or 0.0), before="≤ " if check.at_most else "≥ "
-            ),
-            words[check.passed],
-            check.note,
-        )
-        for check in checks
-    ]
-    return Table(name, title, ("check", "", "found", "limit", "verdict", "remark"), rows)
 
 
 def _shown(motor: MotorChoice) -> list[Candidate]:

@@ -10,6 +10,7 @@ from linkwright.drive.model.catalogue import KNOWN, CatalogueMotor, motors
 from linkwright.drive.model.motor import DcMotor, InductionMotor
 from linkwright.drive.run_up import RunUp
 from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.check import Check
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, InputError, MachineError, Problem, show
 from linkwright.kernel.public import public
@@ -23,7 +24,6 @@ from linkwright.sizing.checks import (
     DECISIVE,
     LEAST_BREAKDOWN,
     LEAST_START,
-    Check,
     MotorChecks,
     motion_checks,
     rating_checks,

@@ -192,10 +192,9 @@ def _times(machine: Machine, steady: SteadyState | None, angles: Floats) -> tupl
         within = angles - cycle * turn
         time = turn * steady.period + np.interp(within, steady.crank_angle, steady.time)
         return time - time[0], np.interp(within, steady.crank_angle, steady.speed)
-    drive = machine.drive
     even = np.linspace(0.0, 1.0, len(angles))
     span = float(angles[-1] - angles[0])
-    speed = drive.speed if drive and drive.speed else span / _DURATION
+    speed = machine.design_speed or span / _DURATION
     return even * span / speed, np.full_like(angles, speed)
 
 

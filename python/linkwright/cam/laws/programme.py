@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.cam.laws.boundary import Boundary, or_none
-from linkwright.cam.laws.motion_law import MotionLaw, joined
+from linkwright.cam.laws.motion_law import MotionLaw, combined, joined
 from linkwright.cam.laws.piece import Piece
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.numerics.tangent import Tangent, primal, total
@@ -112,7 +112,7 @@ class Programme:
     Attributes
     ----------
     law : MotionLaw
-        Lift over the cam angle from 0 to exactly 2π, beginning and ending with 0.
+        Lift over the cam angle from 0 to exactly 2π, beginning with 0 and ending with what it advances.
     joints : tuple of Joint
         At the start of each section; the first is where the revolution closes.
     tasks : tuple of Boundary
@@ -124,14 +124,16 @@ class Programme:
     tasks: tuple[Boundary, ...]
 
 
-def programme(sections: Sequence[Section]) -> Programme:
+def programme(sections: Sequence[Section], advance: float = 0.0) -> Programme:
     """The programme of sections in their order, closed.
+
+    ``advance``: of the lift over a revolution [m or rad].
 
     What rounding leaves of the revolution is shared by all angles in proportion, and what it leaves of the
     lift is taken from the largest lift. Raises `InputError` if angles or lifts do not close, `LawError` if a
     law cannot meet its boundary values.
     """
-    closed = _closed(sections)
+    closed = _closed(sections, advance)
     tasks = boundaries(closed)
     ends = [total(section.angle for section in closed[:i]) for i in range(len(closed))] + [TURN]
     laws = []
@@ -141,7 +143,15 @@ def programme(sections: Sequence[Section]) -> Programme:
         laws.append(law.placed(ends[i], ends[i + 1] - ends[i]))
     law = joined(laws)
     full = MotionLaw((*law.breaks[:-1], TURN), law.pieces)
-    return Programme(full, joints(full.primal, list(map(primal, ends[:-1]))), tuple(tasks))
+    places = list(map(primal, ends[:-1]))
+    return Programme(full, joints(periodic(full.primal, primal(advance)), places), tuple(tasks))
+
+
+def periodic(law: MotionLaw, advance: float) -> MotionLaw:
+    """What is left of a law that advances in every revolution, without the even part of that."""
+    if not primal(advance):
+        return law
+    return combined((1.0, law), (-1.0, MotionLaw((law.start, law.end), (Piece((0.0, advance)),))))
 
 
 def section_law(section: Section, task: Boundary) -> MotionLaw:
@@ -192,17 +202,17 @@ def _said(own: float | None, other: float | None) -> float | None:
     return other if own is None else own
 
 
-def _closed(sections: Sequence[Section]) -> list[Section]:
+def _closed(sections: Sequence[Section], advance: float) -> list[Section]:
     """Sections among which the rounding errors of revolution and lift are distributed."""
     turn = total(section.angle for section in sections)
-    left = total(section.lift for section in sections)
+    left = total(section.lift for section in sections) - advance
     largest = max(range(len(sections)), key=lambda i: abs(sections[i].lift))
     if abs(turn - TURN) > CLOSES * TURN:
         raise InputError(
             f"the angles of a programme add to {math.degrees(primal(turn)):.10g}°, expected 360°"
         )
     if abs(left) > CLOSES * abs(sections[largest].lift):
-        raise InputError(f"the lifts of a programme add to {left:.10g}, expected 0")
+        raise InputError(f"the lifts of a programme add to {left + advance:.10g}, expected {advance:.10g}")
     closed = [replace(section, angle=section.angle * TURN / turn) for section in sections]
     if isinstance(left, Tangent):
         # Of a lift that an entry changes alone, all give way in proportion to their sizes.

@@ -70,6 +70,8 @@ class SecondFollower(Description):
 class Cam(CheckedDescription):
     """A cam on the crankshaft, and its follower."""
 
+    advance: ClassVar[float] = 0.0  # of the lift per cycle: a cam closes
+
     follower: Literal["translating", "oscillating"] = Field(
         "translating", description="Translating or oscillating follower."
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -33,6 +33,7 @@ class Sizes(NamedTuple):
 class TranslatingFollower(LinearDriver):
     """A driver that follows a cam along a line."""
 
+    pushed: ClassVar[bool] = True
     cam: Cam = Field(description="The cam.")
 
     def follows(self) -> Cam:
@@ -43,6 +44,7 @@ class TranslatingFollower(LinearDriver):
 class OscillatingFollower(Crank):
     """A driver that follows a cam about a pivot."""
 
+    pushed: ClassVar[bool] = True
     cam: Cam = Field(description="The cam.")
     turn: float = Field(description="Sense of the angle as the lift grows: -1 for an arm to the left.")
 
@@ -89,14 +91,21 @@ def follower_of(cam: Cam, points: Mapping[str, FixedPoint]) -> LinearDriver | Cr
     if not cam.is_oscillating:
         guide = Guide.model_construct(through=cam.pivot, on=None, angle=cam.direction, offset=cam.offset)
         return TranslatingFollower.model_construct(
-            guide=guide, start=start, per_turn=None, law=None, constants={}, cam=cam
+            guide=guide, start=start, per_turn=None, law=None, constants={}, advance=None, cam=cam
         )
     dx, dy = to_arm_pivot(cam, points)
     turn = -1.0 if cam.side == "left" else 1.0
     phase = np.arctan2(dy, dx) + np.pi + turn * start
     radius = size.distance if cam.arm_length is None else cam.arm_length
     return OscillatingFollower.model_construct(
-        radius=radius, phase=phase, pivot=cam.arm_pivot, law=None, constants={}, cam=cam, turn=turn
+        radius=radius,
+        phase=phase,
+        pivot=cam.arm_pivot,
+        law=None,
+        constants={},
+        advance=None,
+        cam=cam,
+        turn=turn,
     )
 
 

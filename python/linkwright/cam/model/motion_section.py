@@ -36,7 +36,7 @@ from linkwright.cam.model.motion_law import (
 from linkwright.cam.model.point_law import FormulaLaw, SplineLaw, TableLaw
 from linkwright.kernel.description.base import Description, fault, wrong
 from linkwright.kernel.errors import LawError
-from linkwright.kernel.units.kinds import ANGLE, LENGTH, LIFT_D1, LIFT_D2, RATIO, SWING_D2
+from linkwright.kernel.units.kinds import ANGLE, LENGTH, LIFT_D1, LIFT_D2, RATIO, SWING_D2, TIME
 from linkwright.kernel.units.marks import Angle, Length, Quantity, positive
 from linkwright.kernel.units.reading import to_text
 
@@ -155,16 +155,37 @@ class MotionSection(Description):
         return self.law.own_lift(self.angle, swing=family == "swing")
 
 
+class AxisSection(MotionSection):
+    """A section of the motion of a servo axis, over an angle of the master or a time."""
+
+    angle: Annotated[float, positive(ANGLE)] | None = Field(  # type: ignore[assignment]
+        None, description="Angle of the master over the section."
+    )
+    time: Annotated[float, positive(TIME)] | None = Field(
+        None, description="Duration of the section, instead of the angle; the master gives the cycle time."
+    )
+
+    def over(self, cycle_time: float | None) -> MotionSection:
+        """The section over an angle of the master. `cycle_time`: of a revolution [s]."""
+        entries = {name: getattr(self, name) for name in MotionSection.model_fields}
+        if self.time is not None:
+            assert cycle_time is not None
+            entries["angle"] = TURN * self.time / cycle_time
+        return MotionSection.model_construct(**entries)
+
+
 def key_of(name: str, family: Family) -> str:
     """The key of an entry that the two families have under different names."""
     return f"swing_{name}" if family == "swing" else name
 
 
-def programme(sections: Sequence[MotionSection], expected: Family = "lift") -> Programme:
-    """The motion that sections describe."""
+def programme(
+    sections: Sequence[MotionSection], expected: Family = "lift", advance: float = 0.0
+) -> Programme:
+    """The motion that sections describe. `advance`: of the lift or swing over a revolution."""
     from linkwright.cam.laws.programme import programme as joined
 
-    return joined([stretch(section, expected) for section in sections])
+    return joined([stretch(section, expected) for section in sections], advance)
 
 
 def stretch(section: MotionSection, family: Family) -> Section:
@@ -183,8 +204,13 @@ def stretch(section: MotionSection, family: Family) -> Section:
 _SAME = 1e-9
 
 
-def section_faults(sections: Sequence[MotionSection], expected: Family) -> Iterator[InitErrorDetails]:
-    """What is wrong with the sections of a programme."""
+def section_faults(
+    sections: Sequence[MotionSection], expected: Family, advance: tuple[str, float] | None = None
+) -> Iterator[InitErrorDetails]:
+    """What is wrong with the sections of a programme.
+
+    `advance`: key and value of what lift or swing advance by over a revolution; None if they must return.
+    """
     if not sections:
         yield fault("sections", found="an empty list", expected="at least one section")
         return
@@ -197,7 +223,7 @@ def section_faults(sections: Sequence[MotionSection], expected: Family) -> Itera
         )
     ]
     faults += _turn_faults(sections)
-    faults = faults or list(_lift_faults(sections, expected))
+    faults = faults or list(_lift_faults(sections, expected, advance))
     yield from faults or _law_faults(sections, expected)
 
 
@@ -266,9 +292,12 @@ def _turn_faults(sections: Sequence[MotionSection]) -> Iterator[InitErrorDetails
     yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 
-def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[InitErrorDetails]:
+def _lift_faults(
+    sections: Sequence[MotionSection], family: Family, advance: tuple[str, float] | None
+) -> Iterator[InitErrorDetails]:
     lifts = [section.change(family) or 0.0 for section in sections]
-    over, largest = math.fsum(lifts), max(map(abs, lifts))
+    key, wanted = advance or ("", 0.0)
+    over, largest = math.fsum(lifts) - wanted, max(map(abs, lifts))
     if abs(over) <= CLOSES * largest:
         return
     # The last section that moves by an entry of its own brings the follower home; a law by points, or by a
@@ -276,9 +305,12 @@ def _lift_faults(sections: Sequence[MotionSection], family: Family) -> Iterator[
     given = [getattr(section, family) is not None for section in sections]
     last = max(range(len(lifts)), key=lambda i: (given[i] and lifts[i] != 0.0, given[i], lifts[i] != 0.0, i))
     noun = "swings" if family == "swing" else "lifts"
+    found = f"{noun} that add to {_size(over + wanted, family)}"
+    expected = f"{noun} that add to {key}, {_size(wanted, family)}" if wanted else f"{noun} that add to 0"
     remedy = f'sections.{last}.{family} = "{_size(lifts[last] - over, family)}" brings the follower back'
-    found = f"{noun} that add to {_size(over, family)}"
-    problem = wrong(found, f"{noun} that add to 0", remedy)
+    if key:
+        remedy = f'{key} = "{_size(over + wanted, family)}" for steps that add up from cycle to cycle'
+    problem = wrong(found, expected, remedy)
     yield InitErrorDetails(type=problem, loc=("sections",), input=found)
 
 

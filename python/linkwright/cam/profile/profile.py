@@ -315,7 +315,7 @@ def cam_profile(machine: Machine, name: str | None = None, *, n: int = ANGLES) -
     if not 16 <= n <= 1_000_000:
         raise InputError(f"n = {n}: expected 16 to 1 000 000 cam angles")
     name, cam = the_cam(machine, name)
-    speed = None if machine.drive is None else machine.drive.speed
+    speed = machine.design_speed
     return profile_of(name, cam, contacts(cam, machine.mechanism.fixed_points(), name), speed, n)
 
 

@@ -15,6 +15,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.drive.model.motor import AnyMotor
 from linkwright.kernel.description.base import CheckedDescription, Description, fault, wrong
+from linkwright.kernel.description.cycle import ONE_TURN
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.errors import show
 from linkwright.kernel.units.kinds import INERTIA, RATIO, SPEED, TORQUE
@@ -42,12 +43,14 @@ def _reverse(value: object) -> object:
 _REVERSE_SCHEMA: dict[str, Any] = {"anyOf": [{"const": "same"}, {"type": "number", "minimum": 0}]}
 
 
-class Gearbox(Description):
-    """Gears between the motor and the crankshaft; a ratio of 1 stands for a direct drive."""
+class Gears(Description):
+    """Gears between a motor and a shaft that it drives; a ratio of 1 stands for a direct drive."""
 
-    ratio: Annotated[float, positive(RATIO)] = Field(1.0, description="Motor speed over crankshaft speed.")
+    ratio: Annotated[float, positive(RATIO)] = Field(
+        1.0, description="Motor speed over speed of the driven shaft."
+    )
     efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
-        1.0, description="Torque at the crankshaft over motor torque times ratio, while the motor drives."
+        1.0, description="Torque at the driven shaft over motor torque times ratio, while the motor drives."
     )
     reverse: Annotated[
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
@@ -60,6 +63,16 @@ class Gearbox(Description):
     inertia: Annotated[float, not_negative(INERTIA)] = Field(
         0.0, description="Moment of inertia, referred to the motor shaft."
     )
+
+    @property
+    def locks(self) -> bool:
+        """Whether it is self-locking: no load drives the motor through it."""
+        return is_number(self.reverse) and float(self.reverse) == 0
+
+
+class Gearbox(Gears):
+    """Gears between the motor and the crankshaft."""
+
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
         0.0,
         description="Moment of inertia of the last wheel or pulley, about the crankshaft, if "
@@ -70,11 +83,6 @@ class Gearbox(Description):
         description="Stiffness of teeth or belt, referred to the motor shaft: torque per angle. Default: "
         "rigid.",
     )
-
-    @property
-    def locks(self) -> bool:
-        """Whether it is self-locking: no load drives the motor through it."""
-        return is_number(self.reverse) and float(self.reverse) == 0
 
 
 class Coupling(Description):
@@ -146,3 +154,12 @@ class Drive(Description):
     def twists(self) -> bool:
         """Whether a shaft, or the gears, are elastic."""
         return not (self.motor_shaft is None and self.crankshaft is None and self.gearbox.stiffness is None)
+
+
+def design_speed(master: Any, drive: Drive | None) -> Any:
+    """Speed of the crankshaft [rad/s]: that of its master, else the drive's; None without either."""
+    if master is not None and master.speed is not None:
+        return master.speed
+    if master is not None and master.cycle_time is not None:
+        return ONE_TURN / master.cycle_time
+    return None if drive is None else drive.speed

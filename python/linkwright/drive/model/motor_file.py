@@ -8,7 +8,6 @@ torque. Lines that begin with ``#`` are comments.
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -17,18 +16,17 @@ from typing import Any
 from linkwright.drive.model.catalogue import CatalogueMotor
 from linkwright.drive.model.motor import with_rated_point
 from linkwright.kernel.description.base import suggestion
-from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
+from linkwright.kernel.errors import MachineFileError, show
+from linkwright.kernel.files.catalogue_file import CatalogueFile, Columns
 from linkwright.kernel.files.named_file import named_file
-from linkwright.kernel.files.points import lines_of
 from linkwright.kernel.public import public
-from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
-from linkwright.kernel.units.marks import Quantity, not_negative, positive
-from linkwright.kernel.units.reading import parse
+from linkwright.kernel.units.kinds import COUNT, INERTIA, POWER, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.marks import Quantity, QuantityList, not_negative, positive
 
 _KEY = "drive.motor.file"
 
 # Columns that are entries of a motor, and what is in them.
-_ENTRIES: dict[str, Quantity] = {
+ENTRIES: dict[str, Quantity] = {
     "power_rated": positive(POWER),
     "speed_rated": positive(SPEED),
     "torque_rated": positive(TORQUE),
@@ -54,12 +52,28 @@ KINDS = ("induction", "dc", "servo")
 # Over the rated torque.
 _RATIOS = {"torque_breakdown_ratio": "torque_breakdown", "torque_start_ratio": "torque_start"}
 
-# Columns for people.
-_WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
+# Columns that describe a servo motor of an axis besides; a drive has no use for them.
+SERVO: dict[str, Quantity | QuantityList] = {
+    "brake_inertia": not_negative(INERTIA),
+    "torque_speed_max": not_negative(TORQUE),
+    "speed_torque_max": positive(SPEED),
+    "torque_max_speed_max": not_negative(TORQUE),
+    "speed_continuous": QuantityList(SPEED),
+    "torque_continuous": QuantityList(TORQUE),
+    "speed_peak": QuantityList(SPEED),
+    "torque_peak": QuantityList(TORQUE),
+    "cost": not_negative(COUNT),
+}
 
-# A number with a unit behind it, no power of ten.
-_WITH_UNIT = re.compile(r"[-+.,\d]*+(?<=\d)\s*+(?![eE][-+\d])[A-Za-z%°].*")
-_HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
+# Columns for people.
+WORDS = ("kind", "series", "frame", "poles", "efficiency", "mass", "current_rated", "remark")
+
+_COLUMNS = Columns(
+    noun="motors",
+    numbers={**ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))},
+    words=(*WORDS, *SERVO),
+    example="type, power_rated [kW], speed_rated [rpm]",
+)
 
 
 def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
@@ -73,8 +87,8 @@ def with_motor_of_file(tables: dict[str, Any], folder: Path, *, allow_outside: b
     if not isinstance(motor, dict) or not isinstance(motor.get("file"), str):
         return
     name, wanted = motor.pop("file"), motor.pop("catalogue", None)
-    rows = _Rows(named_file(name, folder, _KEY, allow_outside=allow_outside))
-    row = rows.entries(rows.known(wanted))
+    rows = _MotorRows(named_file(name, folder, _KEY, allow_outside=allow_outside))
+    row = rows.numbers(rows.known(wanted))
     kind = rows.kind(str(wanted), row)
     for key, value in row.items():
         if key not in _SIZING or (kind == "dc" and key == "torque_max"):
@@ -105,7 +119,7 @@ def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
         line.
     """
     try:
-        rows = _Rows(Path(path))
+        rows = _MotorRows(Path(path))
         return tuple(rows.motor(type) for type in rows.types)
     except MachineFileError as error:
         # No machine file names this one.
@@ -115,63 +129,46 @@ def read_motors(path: str | os.PathLike[str]) -> tuple[CatalogueMotor, ...]:
         raise MachineFileError(problems) from None
 
 
-class _Rows:
-    """The rows of a file by type, with their lines."""
+class _MotorRows(CatalogueFile):
+    """The motors of a file."""
 
     def __init__(self, path: Path) -> None:
-        self.path = path
-        lines = lines_of(path, _KEY)
-        if not lines:
-            raise _wrong(
-                path, 1, "an empty file", 'a header such as "type, power_rated [kW], speed_rated [rpm]"'
-            )
-        self.heads = _heads(path, *lines[0])
-        self.types: dict[str, tuple[int, dict[str, str]]] = {}
-        for line, row in lines[1:]:
-            if len(row) != len(self.heads):
-                expected = f"{len(self.heads)} values, one for each column"
-                raise _wrong(path, line, show(",".join(row)), expected)
-            cells = {head[0]: cell.strip() for head, cell in zip(self.heads, row, strict=True)}
-            if cells["type"] in self.types:
-                raise _wrong(path, line, show(cells["type"]), "each type once")
-            self.types[cells["type"]] = (line, cells)
+        super().__init__(path, _KEY, _COLUMNS)
 
-    def known(self, wanted: object) -> str:
-        if isinstance(wanted, str) and wanted in self.types:
-            return wanted
-        remedy = suggestion(wanted if isinstance(wanted, str) else "", self.types)
-        found = None if wanted is None else show(wanted)
-        problem = Problem("drive.motor.catalogue", found or "nothing", f"a type of {self.path.name}", remedy)
-        raise MachineFileError([problem])
-
-    def entries(self, type: str) -> dict[str, float]:
-        line, cells = self.types[type]
-        return _entries(self.path, line, self.heads, cells)
+    def numbers(self, type: str) -> dict[str, Any]:
+        """The entries of a type in SI, ratios as torques."""
+        entries = super().numbers(type)
+        rated = with_rated_point(entries).get("torque_rated")
+        for ratio, entry in _RATIOS.items():
+            if ratio in entries:
+                if rated is None:
+                    line, expected = self.types[type][0], "the rated torque, or power and speed, beside it"
+                    raise self.wrong(line, ratio, expected)
+                entries.setdefault(entry, entries[ratio] * rated)
+                del entries[ratio]
+        return entries
 
     def kind(self, type: str, row: Mapping[str, float]) -> str:
-        line, cells = self.types[type]
-        given = cells.get("kind", "")
+        given = self.word(type, "kind")
         if given and given not in KINDS:
-            raise _wrong(
-                self.path, line, show(given), f"a kind of motor: {', '.join(KINDS)}", suggestion(given, KINDS)
-            )
+            expected = f"a kind of motor: {', '.join(KINDS)}"
+            raise self.wrong(self.types[type][0], show(given), expected, suggestion(given, KINDS))
         return given or ("dc" if "speed_no_load" in row else "servo" if "torque_max" in row else "induction")
 
     def motor(self, type: str) -> CatalogueMotor:
-        line, cells = self.types[type]
-        row = with_rated_point(self.entries(type))
+        """A type with all that sizing needs of its kind."""
+        row = with_rated_point(self.numbers(type))
         kind = self.kind(type, row)
         lacking = [name for name in (*_RATED, *_NEEDED[kind]) if name not in row]
         if lacking:
-            remedy = f'sizing a motor of the kind "{kind}" needs it'
-            raise _wrong(self.path, line, f"{type} without {lacking[0]}", f"a column {lacking[0]}", remedy)
-        poles = cells.get("poles", "")
+            raise self.lacks(type, lacking[0], f'sizing a motor of the kind "{kind}" needs it')
+        poles = self.word(type, "poles")
         if poles and not poles.isdecimal():
-            raise _wrong(self.path, line, show(poles), "a number of poles")
+            raise self.wrong(self.types[type][0], show(poles), "a number of poles")
         known = {name: row[name] for name in row if name in CatalogueMotor.__slots__}
         known.setdefault("speed_synchronous", None)
         words: dict[str, Any] = {
-            "series": cells.get("series") or self.path.name,
+            "series": self.word(type, "series") or self.path.name,
             "poles": int(poles or 0),
             "kind": kind,
         }
@@ -185,60 +182,3 @@ _NEEDED = {
     "dc": ("speed_no_load",),
     "servo": ("torque_max",),
 }
-
-
-def _heads(path: Path, line: int, row: list[str]) -> list[tuple[str, str]]:
-    matches = [_HEAD.fullmatch(cell) for cell in row]
-    heads = [(match[1], match[2] or "") for match in matches if match is not None]
-    names = [name for name, _ in heads]
-    known = ("type", *_ENTRIES, *_RATIOS, *_WORDS)
-    if len(heads) < len(row) or "type" not in names:
-        expected = 'a header such as "type, power_rated [kW], speed_rated [rpm]"'
-        raise _wrong(path, line, show(",".join(row)), expected)
-    for name in names:
-        if name not in known:
-            raise _wrong(path, line, show(name), "a column of motors", suggestion(name, known))
-        if names.count(name) > 1:
-            raise _wrong(path, line, show(name), "each column once")
-    return heads
-
-
-def _entries(path: Path, line: int, heads: list[tuple[str, str]], cells: dict[str, str]) -> dict[str, float]:
-    quantities = {**_ENTRIES, **dict.fromkeys(_RATIOS, positive(RATIO))}
-    entries: dict[str, float] = {}
-    for name, unit in heads:
-        if name not in quantities or not cells[name]:
-            continue
-        if _WITH_UNIT.fullmatch(cells[name]):
-            remedy = (
-                f"the unit belongs in the header, [{unit}]"
-                if unit
-                else "give the unit in the header, in brackets"
-            )
-            raise _wrong(path, line, show(cells[name]), f"a number in the column {name}", remedy)
-        try:
-            number = f"{cells[name]} {unit}".strip() if unit else float(cells[name])
-            entries[name] = parse(number, quantities[name].kind)
-        except ValueError:
-            raise _wrong(path, line, show(cells[name]), f"a number in the column {name}") from None
-        except UnitError as error:
-            problem = replace(error.problem, key=f"{_KEY}, column {name}", path=str(path), line=line)
-            raise MachineFileError([problem]) from None
-        quantity = quantities[name]
-        if not quantity.holds(entries[name]):
-            expected = f"in the column {name} {quantity.expected}"
-            raise _wrong(path, line, show(cells[name]), expected, quantity.remedy(entries[name]))
-    rated = entries.get("torque_rated")
-    if rated is None and "power_rated" in entries and "speed_rated" in entries:
-        rated = entries["power_rated"] / entries["speed_rated"]
-    for ratio, entry in _RATIOS.items():
-        if ratio in entries:
-            if rated is None:
-                raise _wrong(path, line, ratio, "the rated torque, or power and speed, beside it")
-            entries.setdefault(entry, entries[ratio] * rated)
-            del entries[ratio]
-    return entries
-
-
-def _wrong(path: Path, line: int, found: str, expected: str, remedy: str = "") -> MachineFileError:
-    return MachineFileError([Problem(_KEY, found, expected, remedy, str(path), line)])

@@ -89,6 +89,23 @@ def names(node: Node) -> dict[str, int]:
     return places
 
 
+def restarted(node: Node, angle: str, advance: str) -> Node:
+    """The formula of an angle, which starts anew in every revolution and advances by a named number in each.
+
+    f(u) + h (φ − u)/2π, where u = π − atan2(sin φ, −cos φ) goes from 0 to 2π in every revolution.
+    """
+    turn = parse(f"pi - atan2(sin({angle}), -cos({angle}))")
+    done = Node("/", (Node("-", (Node("name", (), angle), turn)), parse("2*pi")))
+    return Node("+", (_with(node, angle, turn), Node("*", (Node("name", (), advance), done))))
+
+
+def _with(node: Node, name: str, other: Node) -> Node:
+    """A formula with another formula in place of a name."""
+    if node.op == "name":
+        return other if node.value == name else node
+    return node._replace(args=tuple(_with(arg, name, other) for arg in node.args))
+
+
 # What jumps, where its first part passes zero or, of two, one of them passes the other.
 _JUMPS = frozenset({*_COMPARISONS, "step", "sign", "atan2"})
 

@@ -20,6 +20,7 @@ from linkwright.kernel.system import away_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 P = ParamSpec("P")
@@ -194,8 +195,19 @@ def level(axes: Axes, value: float, text: str, colour: str = SOFT) -> None:
 def log_height(axes: Axes) -> None:
     """A logarithmic scale upwards, with powers of ten at its marks."""
     axes.set_yscale("log")
-    axes.yaxis.set_major_formatter(lambda value, _: _power_of_ten(value))
-    axes.yaxis.set_minor_formatter(lambda value, _: "")
+    _powers_of_ten(axes.yaxis)
+
+
+def log_width(axes: Axes) -> None:
+    """The same along x."""
+    axes.set_xscale("log")
+    _powers_of_ten(axes.xaxis)
+
+
+def _powers_of_ten(axis: Axis) -> None:
+    """Powers of ten at the marks of an axis."""
+    axis.set_major_formatter(lambda value, _: _power_of_ten(value))
+    axis.set_minor_formatter(lambda value, _: "")
 
 
 def _power_of_ten(value: float) -> str:

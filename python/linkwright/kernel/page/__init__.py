@@ -2,6 +2,8 @@
 
 | module | |
 | --- | --- |
+| `angle_zero` | Crank angles as they are shown, from the file's zero or a dead centre |
+| `checks` | Checks against limits as a table |
 | `content` | What a report says, before it is a page or a PDF |
 | `formulas` | Formulas of the measures, with their sources |
 | `glossary` | The field's words: terms, definitions, sources, and the words that they replace |

@@ -317,12 +317,16 @@ def _texts(name: str, value: Any) -> Any:
     return texts
 
 
-def _motors(name: str, value: Any) -> Any:
-    expected = "a list of motors, such as motors() or read_motors() gives"
-    listed = _several(name, value, expected)
-    if not all(type(motor).__name__ == "CatalogueMotor" for motor in listed):
-        raise _wrong(name, value, expected)
-    return listed
+def _parts(kind: str, expected: str) -> Check:
+    """Checks that something is several parts of a catalogue."""
+
+    def check(name: str, value: Any) -> Any:
+        listed = _several(name, value, expected)
+        if not all(type(part).__name__ == kind for part in listed):
+            raise _wrong(name, value, expected)
+        return listed
+
+    return check
 
 
 def _numbers_or_texts(name: str, value: Any) -> Any:
@@ -360,6 +364,7 @@ _KINDS = {
     "CamProfile": "a cam profile, such as cam_profile() gives",
     "CamCourse": "a cam's course, such as cam_course() gives",
     "Push": "a push, such as pushes() gives",
+    "DriverCycle": "the cycle of a driver, such as that of servo_axis()",
     "FollowerLoad": "a FollowerLoad",
     "OneMass": "a OneMass",
     "Material": "a Material",
@@ -403,7 +408,15 @@ _CHECKS: dict[str, Check] = {
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
     "Iterable[str]": _texts,
-    "Sequence[CatalogueMotor]": _motors,
+    "Sequence[CatalogueMotor]": _parts(
+        "CatalogueMotor", "a list of motors, such as motors() or read_motors() gives"
+    ),
+    "Sequence[CatalogueServo]": _parts(
+        "CatalogueServo", "a list of servo motors, such as read_servo_motors() gives"
+    ),
+    "Sequence[CatalogueGearbox]": _parts(
+        "CatalogueGearbox", "a list of gearboxes, such as read_gearboxes() gives"
+    ),
     "ArrayLike": _one_or_more,
     "tuple[ArrayLike, ArrayLike, ArrayLike]": _three,
     "tuple[float, float]": _two,

@@ -20,16 +20,23 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
+from linkwright.kernel.description.formula import NUMBERS, parse
 from linkwright.kernel.description.formula_faults import constant_faults, text_faults
-from linkwright.kernel.units.kinds import COUNT, LENGTH
+from linkwright.kernel.numerics.formula_value import value as formula_value
+from linkwright.kernel.units.kinds import ANGLE, COUNT, LENGTH, Kind
 from linkwright.kernel.units.marks import Angle, AnyQuantity, Length, positive
+from linkwright.kernel.units.reading import worded
 
 PositiveLength = Annotated[float, positive(LENGTH)]
 PositiveNumber = Annotated[float, positive(COUNT)]
+
+# One revolution of the crankshaft.
+TURN = 2 * math.pi
 
 # Sine of the angle between two directions below which they are parallel.
 _PARALLEL = 1e-9
@@ -63,12 +70,33 @@ class Guide(Description):
 Constants = dict[str, Annotated[float, AnyQuantity()]]
 
 
-def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
+# Share of the peak absolute value of a law by which its advance may differ from `advance`.
+_CLOSES = 1e-6
+
+
+def _law_faults(
+    law: str | None, constants: Constants, advance: float | None, kind: Kind
+) -> Iterator[InitErrorDetails]:
     yield from constant_faults(constants, law or "")
-    if law is None and constants:
-        yield fault("law", expected="a law that asks for the constants")
-    if law is not None:
-        yield from text_faults("law", law, constants, ("phi",))
+    if law is None:
+        if constants:
+            yield fault("law", expected="a law that asks for the constants")
+        if advance is not None:
+            yield fault("advance", found=advance, expected="a law that advances, or nothing")
+        return
+    wrong = list(text_faults("law", law, constants, ("phi",)))
+    yield from wrong
+    if advance is not None and not wrong:
+        names = {**NUMBERS, **constants, "phi": np.array([0.0, TURN])}
+        with np.errstate(all="ignore"):
+            ends = np.asarray(formula_value(parse(law), names) * np.ones(2), dtype=float)
+        advances = float(ends[1] - ends[0])
+        rounding = _CLOSES * max(1e-3, *np.abs(ends))
+        advances = 0.0 if abs(advances) <= rounding else advances
+        if not abs(advances - advance) <= rounding:
+            said, done = worded(advance, kind), worded(advances, kind)
+            remedy = f'advance = "{done}", or a law that ends {said} above its start'
+            yield fault("advance", found=said, expected=f"{done}, from phi = 0 to 2*pi", remedy=remedy)
 
 
 class Crank(CheckedDescription):
@@ -86,13 +114,19 @@ class Crank(CheckedDescription):
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
     )
+    advance: Angle | None = Field(
+        None,
+        description="By how much the law advances per cycle: it then restarts in every revolution, and the "
+        "steps add up; 0 for a law that repeats. Default: phi continues beyond 2*pi.",
+    )
+    pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
 
     def follows(self) -> Any:
-        """The cam that it follows; None where it is moved otherwise."""
+        """Cam or axis whose `lift`, `phase` and `advance` it follows; None where it is moved otherwise."""
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        return _law_faults(self.law, self.constants)
+        return _law_faults(self.law, self.constants, self.advance, ANGLE)
 
 
 class LinearDriver(CheckedDescription):
@@ -105,16 +139,19 @@ class LinearDriver(CheckedDescription):
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
     )
+    advance: Length | None = Field(
+        None, description="By how much the law advances per cycle, as that of a crank."
+    )
+    pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
 
     def follows(self) -> Any:
-        """The cam that it follows; None where it is moved otherwise."""
+        """Cam or axis whose `lift`, `phase` and `advance` it follows; None where it is moved otherwise."""
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from _law_faults(self.law, self.constants)
-        if (self.law is None) == (self.per_turn is None):
-            found = "neither" if self.law is None else "both"
-            yield fault(found=found, expected="either per_turn or law")
+        yield from _law_faults(self.law, self.constants, self.advance, LENGTH)
+        if self.law is not None and self.per_turn is not None:
+            yield fault(found="both", expected="either per_turn or law")
 
 
 class Slider(Description):

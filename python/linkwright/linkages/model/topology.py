@@ -303,6 +303,11 @@ class Topology:
                 needs[joint] += [end for end in needs[bar.name] if end != joint]
         return needs
 
+    def drivers_of(self, name: str) -> list[str]:
+        """Drivers that a point, a link or a slide hangs on."""
+        slides = {slide: e.name for e in self.elements for slide in e.made(e.kind.slides)}
+        return self._drivers((slides | self.links).get(name, name))
+
     def _drivers(self, name: str) -> list[str]:
         needs, drivers, open_ = self._needs(), {name}, [name]
         while open_:

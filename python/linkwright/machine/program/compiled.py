@@ -19,6 +19,7 @@ from linkwright.kinetostatics.model.loads.force import FormulaLoad
 from linkwright.kinetostatics.model.loads.table import TorqueSpeed
 from linkwright.machine.address import addresses
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import on_crankshaft
 from linkwright.machine.program.core import Element, require
 from linkwright.machine.program.drive_line import drive_of
 from linkwright.machine.program.initial_assembly import InitialAssembly
@@ -41,8 +42,9 @@ class Translation:
     def __init__(self, machine: Machine, *, motor: bool, brake: bool) -> None:
         self.program = MechanismProgram(machine.linkage)
         self.program.build()
-        self.bodies = bodies_of(machine, self.program)
-        self.loads = Loads(machine, self.program).all(brake=brake)
+        felt = on_crankshaft(machine)
+        self.bodies = bodies_of(felt, self.program)
+        self.loads = Loads(felt, self.program).all(brake=brake)
         self.drive = drive_of(machine, self.program, motor=motor)
         self.machine = machine
 

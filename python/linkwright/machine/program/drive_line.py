@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from linkwright import _core
-from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.drive import Drive, Gears
 from linkwright.drive.model.motor import (
     ConstantSpeedMotor,
     ConstantTorqueMotor,
@@ -40,7 +40,7 @@ def drive_of(machine: Machine, program: MechanismProgram, *, motor: bool) -> _co
         motor=turned_on,
         ratio=program.slot(drive.gearbox.ratio),
         forward=program.slot(drive.gearbox.efficiency),
-        reverse=program.slot(reverse_factor(drive)),
+        reverse=program.slot(reverse_factor(drive.gearbox)),
         inertia=program.slot(drive_inertia(drive)),
         speed_start=program.slot(speed_guess(drive)),
     )
@@ -105,9 +105,8 @@ def _spans(program: MechanismProgram, motor: Any) -> list[_core.Span]:
     ]
 
 
-def reverse_factor(drive: Drive) -> Any:
+def reverse_factor(gearbox: Gears) -> Any:
     """Factor on motor torque times ratio while the load drives the motor."""
-    gearbox = drive.gearbox
     if gearbox.reverse is None:
         return 1.0 / gearbox.efficiency
     if isinstance(gearbox.reverse, str):

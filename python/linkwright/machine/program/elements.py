@@ -9,7 +9,9 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.description import formula
+from linkwright.kernel.units.reading import is_number
 from linkwright.linkages.model.element import (
+    TURN,
     Cable,
     Crank,
     Crossing,
@@ -24,7 +26,8 @@ from linkwright.linkages.model.element import (
 )
 from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
 
-_RADIAN = 2 * np.pi
+# Name of what a law advances by among its constants; no constant of a file has a colon.
+_ADVANCE = ":advance"
 
 
 class Elements(Places):
@@ -57,13 +60,14 @@ class Elements(Places):
 
     def _crank(self, name: str, crank: Crank) -> None:
         pivot = self._fixed_or_origin(crank.pivot)
-        cam = crank.follows()
-        if cam is not None:
-            self._turn(name, crank.phase, [(self._programme(name, cam), crank.turn)])  # type: ignore[attr-defined]
+        programme = crank.follows()
+        if programme is not None:
+            start, terms = self._followed(name, programme, crank.turn)  # type: ignore[attr-defined]
+            self._turn(name, crank.phase + start, terms)
             self._point_on_link(name, self.links[name], pivot, crank.radius, 0.0)
             return
         if crank.law is not None:
-            self._turn(name, crank.phase, [(self._law(name, crank.law, crank.constants), 1.0)])
+            self._turn(name, crank.phase, [(self._law(name, crank), 1.0)])
             self._point_on_link(name, self.links[name], pivot, crank.radius, 0.0)
             return
         self.elements.append(
@@ -78,32 +82,42 @@ class Elements(Places):
         )
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        cam = driver.follows()
+        programme = driver.follows()
+        start: Any = 0.0
         terms: list[tuple[int | None, Any]]
-        if cam is not None:
-            terms = [(self._programme(name, cam), 1.0)]
+        if programme is not None:
+            start, terms = self._followed(name, programme, 1.0)
         elif driver.law is not None:
-            terms = [(self._law(name, driver.law, driver.constants), 1.0)]
+            terms = [(self._law(name, driver), 1.0)]
         else:
             assert driver.per_turn is not None
-            terms = [(None, driver.per_turn / _RADIAN)]
-        self._runner(name, self._guide(driver.guide), driver.start, terms)
+            terms = [(None, driver.per_turn / TURN)]
+        self._runner(name, self._guide(driver.guide), driver.start + start, terms)
 
-    def _law(self, name: str, law: str, constants: dict[str, Any]) -> int:
+    def _law(self, name: str, driver: Crank | LinearDriver) -> int:
         """A coordinate that is a formula of the crank angle."""
+        assert driver.law is not None
         slide = self._slide(f"{name}.law")
-        known = {key: self.slot(value) for key, value in constants.items()}
-        followed = self.formula(formula.parse(law), known)
+        known = {key: self.slot(value) for key, value in driver.constants.items()}
+        law = formula.parse(driver.law)
+        if driver.advance is not None:
+            known[_ADVANCE] = self.slot(driver.advance)
+            law = formula.restarted(law, "phi", _ADVANCE)
+        followed = self.formula(law, known)
         self.elements.append(_core.Element.Law(slide=slide, formula=followed))
         return slide
 
-    def _programme(self, name: str, cam: Any) -> int:
-        """A coordinate that follows the lift of a cam."""
+    def _followed(self, name: str, programme: Any, sense: float) -> tuple[Any, list[tuple[int | None, Any]]]:
+        """Constant and terms of a place that follows a lift and advances in every cycle."""
         slide = self._slide(f"{name}.lift")
-        phase = self.slot(cam.phase)
-        law = self.motion_law(cam.lift)
+        phase = self.slot(programme.phase)
+        law = self.motion_law(programme.lift)
         self.elements.append(_core.Element.Programme(slide=slide, phase=phase, law=law))
-        return slide
+        terms: list[tuple[int | None, Any]] = [(slide, sense)]
+        if is_number(programme.advance) and programme.advance == 0:
+            return 0.0, terms
+        rate = programme.advance / TURN
+        return -rate * programme.phase, [*terms, (None, rate)]
 
     # -- dyads -------------------------------------------------------------------------------------------
 
