@@ -1,4 +1,4 @@
-"""Laws as cam tables of motion controllers: written, read back, interpolated as the controller does, compared.
+"""Laws as cam tables of motion controllers: written, read back, interpolated, compared.
 
 | module | |
 | --- | --- |

@@ -1,7 +1,7 @@
-"""The export of a law: the text of a cam table, and how far a controller that reads it deviates from the law.
+"""The export of a law: the text of a cam table, and how far its controller deviates from the law.
 
-The text is read back, interpolated as the controller does, and compared with the law. Of the ways to place the
-points, the one with the least deviation of the position is taken.
+The text is read back, interpolated as the controller does, and compared with the law. Of the ways to place
+the points, the one with the least deviation of the position is taken.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from linkwright.axes.export.cam_data import CamData, CamTitle
 from linkwright.axes.export.formats import CamFormat
 from linkwright.axes.export.interpolation import DEGREES, deviation, interpolated
 from linkwright.axes.export.placement import as_polynomials, placed, sampled
-from linkwright.axes.export.plain_text import TAB_STEP
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import ExchangeError, InputError, require_within, show
+from linkwright.kernel.files.cam_tables import TAB_STEP
 from linkwright.kernel.limits import LAW_POINTS
 from linkwright.kernel.page.out_units import OutUnits, reader
 from linkwright.kernel.quantities import About, Label
@@ -175,8 +175,8 @@ def _permitted(form: CamFormat, points: int | None) -> int:
         raise InputError(f"--points: found {points}, expected at least 2")
     if form.most is not None and points > form.most:
         raise InputError(
-            f"--points: found {points}, expected at most {form.most} in the format {form.name} of {form.maker}; "
-            "take fewer, or another format"
+            f"--points: found {points}, expected at most {form.most} in the format {form.name} of "
+            f"{form.maker}; take fewer, or another format"
         )
     require_within(LAW_POINTS, points, "--points", "take fewer")
     return points

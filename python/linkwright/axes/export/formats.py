@@ -1,4 +1,4 @@
-"""Formats of cam tables: what a maker permits, how its controller interpolates, who writes and reads the text."""
+"""Formats of cam tables: what a maker permits, how its controller interpolates, what is written."""
 
 from __future__ import annotations
 

@@ -8,8 +8,8 @@ r"""What a controller makes of a cam table: a law between its points.
 | `cubic` | cubic with continuous velocity, that of the parabola through a point and its neighbours |
 | `linear` | a straight line |
 
-A spline ends with the slopes of the table where the maker takes them; else it is periodic where the velocity of
-the law is, and natural (without acceleration at its ends) where it is not.
+A spline ends with the slopes of the table where the maker takes them; else it is periodic where the velocity
+of the law is, and natural (without acceleration at its ends) where it is not.
 
 Source: de Boor, *A Practical Guide to Splines* (2001), chapter IV.
 """
@@ -104,16 +104,25 @@ _MAKERS: dict[Interpolation, Callable[[CamData, bool], MotionLaw]] = {
 def deviation(wanted: MotionLaw, found: MotionLaw, order: int) -> tuple[float, float]:
     """Largest difference of a derivative of two laws over the same stretch, and where it is.
 
-    Looked at between all ends of the pieces of both, densely and at both sides of each.
+    Looked at between all ends of the pieces of both, at both sides of each, and closer around the largest
+    difference in each interval.
     """
-    x = _dense(wanted, found)
-    apart = np.abs(found.at(x, order) - wanted.at(x, order))
-    most = int(apart.argmax())
-    return float(apart[most]), float(x[most])
+    low, high = _stretches(wanted, found)
+    row = np.arange(len(low))
+    for _ in range(_ROUNDS):
+        x = low[:, None] + (high - low)[:, None] * _BETWEEN
+        apart = np.abs(found.at(x, order) - wanted.at(x, order))
+        most = apart.argmax(axis=1)
+        low, high = x[row, np.maximum(most - 1, 0)], x[row, np.minimum(most + 1, _BETWEEN.size - 1)]
+    place = int(apart.max(axis=1).argmax())
+    return float(apart[place, most[place]]), float(x[place, most[place]])
 
 
 # Places between two ends of pieces, dense towards both as the extremes of polynomials are.
-_BETWEEN = 0.5 - 0.5 * np.cos(np.pi * np.arange(25) / 24)
+_BETWEEN = 0.5 - 0.5 * np.cos(np.pi * np.arange(17) / 16)
+
+# Rounds of looking, each closer than the one before.
+_ROUNDS = 4
 
 # Share of a whole law below which an interval is rounding, and by which its ends are moved inwards, so that
 # they count to the piece on this side.
@@ -121,11 +130,9 @@ _NOTHING = 1e-10
 _INSIDE = 2e-15
 
 
-def _dense(wanted: MotionLaw, found: MotionLaw) -> Floats:
-    """Places inside all intervals between the ends of the pieces of both laws."""
+def _stretches(wanted: MotionLaw, found: MotionLaw) -> tuple[Floats, Floats]:
+    """Ends of the intervals, moved inside, between the ends of the pieces of both laws."""
     ends = np.unique(np.clip([*wanted.breaks, *found.breaks], wanted.start, wanted.end))
     low, high = ends[:-1], ends[1:]
     kept = high - low > _NOTHING * wanted.length
-    low, high = low[kept] + _INSIDE * wanted.length, high[kept] - _INSIDE * wanted.length
-    x: Floats = (low[:, None] + (high - low)[:, None] * _BETWEEN).ravel()
-    return x
+    return low[kept] + _INSIDE * wanted.length, high[kept] - _INSIDE * wanted.length

@@ -7,9 +7,9 @@ p = k + 1. It is the same over all intervals if each has the same share of
 
 Points stand at the segment boundaries where a derivative up to the degree jumps, and between them by equal
 shares. Splines pass an error on to their neighbours, the more the longer these are: a part of the points is
-therefore placed at equal distances, the part with which the deviation that is measured is least. Where velocity
-or acceleration jumps, a table with derivatives has two points close together, and changes from one to the
-other between them.
+therefore placed at equal distances, the part with which the deviation that is measured is least. Where
+velocity or acceleration jumps, a table with derivatives has two points close together, and changes from one
+to the other between them.
 
 Source: de Boor, *A Practical Guide to Splines* (2001), chapter XII.
 """
@@ -125,13 +125,13 @@ def _boundaries(law: MotionLaw, degree: int, n: int, ramps: bool) -> list[float]
         if len(ends) <= n:
             return ends
     raise ExchangeError(
-        f"the segment boundaries of the law need {len(ends)} points, and {n} are permitted; take more points, "
-        "or another format"
+        f"the segment boundaries of the law need {len(ends)} points, and {n} are permitted; take more "
+        "points, or another format"
     )
 
 
 def _jumps(law: MotionLaw, most: int) -> list[tuple[float, float, float, int]]:
-    """Inner breaks where a derivative up to an order jumps: the one before, itself, the one after, the order."""
+    """Inner breaks where a derivative up to an order jumps: before it, itself, after it, and its order."""
     first = np.full(len(law.breaks) - 2, most + 1)
     u = np.linspace(0.0, 1.0, 9)
     for order in range(most, -1, -1):
@@ -162,7 +162,7 @@ def _tidy(values: Floats) -> Floats:
 
 
 def as_polynomials(law: MotionLaw, n: int) -> CamData:
-    """The law in polynomials of degree 7 or less: its own pieces, and others that meet it with three derivatives.
+    """The law in polynomials of degree 7 or less: its own pieces, others with three equal derivatives.
 
     `n`: ends of the pieces, at most. Pieces of the law with harmonics, or of a higher degree, are divided.
     Raises `ExchangeError` if the law has more pieces.

@@ -11,16 +11,8 @@ import numpy as np
 
 from linkwright.axes.export.cam_data import CamData, CamTitle
 from linkwright.axes.export.structured_text import identifier, plain
-from linkwright.kernel.files.cam_tables import TableRow, pair_rows, tab_rows
+from linkwright.kernel.files.cam_tables import TAB_STEP, TableRow, law_heads, pair_rows, tab_rows
 from linkwright.kernel.page.table import csv_text
-
-
-def csv_heads(unit: str, *, is_angle: bool) -> list[str]:
-    """Heads of the columns, as a law of a machine file reads them."""
-    family, prefix = ("swing", "swing_") if is_angle else ("lift", "")
-    per = ["", "/deg", "/deg^2", "/deg^3"]
-    names = [family, *(f"{prefix}{name}" for name in ("velocity", "acceleration", "jerk"))]
-    return ["angle [deg]", *(f"{name} [{unit}{by}]" for name, by in zip(names, per, strict=True))]
 
 
 def write_csv(data: CamData, title: CamTitle) -> str:
@@ -29,7 +21,7 @@ def write_csv(data: CamData, title: CamTitle) -> str:
     assert data.a is not None
     assert data.j is not None
     rows = zip(*(column.tolist() for column in (data.x, data.y, data.v, data.a, data.j)), strict=True)
-    return csv_text(csv_heads(title.unit, is_angle=title.is_angle), rows)
+    return csv_text(law_heads(title.unit, is_angle=title.is_angle), rows)
 
 
 def read_csv(text: str) -> CamData:
@@ -37,9 +29,6 @@ def read_csv(text: str) -> CamData:
     rows = list(csv.reader(text.splitlines()))[1:]
     return CamData(*np.array([[float(cell) for cell in row] for row in rows]).T)
 
-
-# The CNC counts in steps of 0.0001 deg and 0.0001 mm.
-TAB_STEP = 1e-4
 
 # Type of a table of two columns of whole numbers; linear interpolation.
 _TWO_COLUMNS, _LINEAR = 7, 1
@@ -49,7 +38,8 @@ def write_tab(data: CamData, title: CamTitle) -> str:
     """The table of a CNC: whole numbers, and not the last point, which is the first of the next cycle."""
     pairs = (np.round(np.column_stack([data.x, data.y]) / TAB_STEP)).astype(int)[:-1]
     head = [
-        f"# {plain(title.machine)}: law of {plain(title.name)}; in steps of 0.0001 deg and 0.0001 {title.unit}",
+        f"# {plain(title.machine)}: law of {plain(title.name)}",
+        f"# in steps of 0.0001 deg and 0.0001 {title.unit}",
         f"Tablename = {identifier(title.name)}",
         "Table-ID = 1",
         f"Tabletype = {_TWO_COLUMNS}  # two columns of whole numbers",

@@ -59,7 +59,7 @@ def _columns(text: str, *names: str) -> list[Floats]:
     return [np.array([float(row.entries[name]) for row in rows]) for name in names]
 
 
-# -- CODESYS ---------------------------------------------------------------------------------------------------
+# -- CODESYS ---------------------------------------------------------------------------------------------
 
 
 def write_cam_builder(data: CamData, title: CamTitle) -> str:
@@ -127,7 +127,7 @@ def read_xyva(text: str) -> CamData:
     return CamData(*_columns(text, "dX", "dY", "dV", "dA"))
 
 
-# -- Beckhoff --------------------------------------------------------------------------------------------------
+# -- Beckhoff --------------------------------------------------------------------------------------------
 
 
 def write_motion_function(data: CamData, title: CamTitle) -> str:
@@ -165,7 +165,8 @@ def _beckhoff_cam(name: str, array: str, kind: str, rows: int, columns: int) -> 
     return [
         f"{name} : MC_CAM_REF := (TableType := {kind}, NoOfRows := {rows}, NoOfColumns := {columns});",
         "END_VAR",
-        f"(* in a program: {name}.pArray := ADR({name}_{array}); {name}.ArraySize := SIZEOF({name}_{array}); *)",
+        f"(* in a program: {name}.pArray := ADR({name}_{array});",
+        f"   {name}.ArraySize := SIZEOF({name}_{array}); *)",
     ]
 
 
@@ -200,7 +201,7 @@ def read_beckhoff_table(text: str) -> CamData:
     return CamData(values[:, 0], values[:, 1])
 
 
-# -- Siemens ---------------------------------------------------------------------------------------------------
+# -- Siemens ---------------------------------------------------------------------------------------------
 
 
 def _data_block(title: CamTitle, about: str, kind: str, rows: Sequence[Sequence[tuple[str, str]]]) -> str:
@@ -255,7 +256,7 @@ def read_siemens_table(text: str) -> CamData:
     return CamData(*_columns(text, "x", "y"))
 
 
-# -- Rockwell --------------------------------------------------------------------------------------------------
+# -- Rockwell --------------------------------------------------------------------------------------------
 
 
 def write_rockwell(data: CamData, title: CamTitle) -> str:

@@ -73,16 +73,20 @@ _ACCURACY = 1e-9
 _PIECES = (8, 16, 32, 64, 128)
 
 
-def hermite(places: Floats, derivatives: Floats) -> MotionLaw:
+def hermite(places: Sequence[float] | Floats, derivatives: Sequence[Sequence[Any]] | Floats) -> MotionLaw:
     """Polynomials that meet value and derivatives at both ends of every piece.
 
     `places`: (n,), increasing; `derivatives`: value, first derivative, … at each place, (k, n), which gives
-    the degree 2k − 1: straight lines by values alone, quintics by velocity and acceleration too.
+    the degree 2k − 1: straight lines by values alone, quintics by velocity and acceleration too. With
+    derivatives by entries where they have some.
     """
-    orders, length = np.arange(len(derivatives))[:, None], np.diff(places)
-    given = np.concatenate([derivatives[:, :-1] * length**orders, derivatives[:, 1:] * length**orders])
-    powers = (_powers(len(derivatives)) @ given).T
-    return MotionLaw(tuple(places.tolist()), tuple(Piece(tuple(row)) for row in powers.tolist()))
+    x = np.asarray(places, dtype=float)
+    # Numbers with derivatives are objects, of which NumPy makes the same sums.
+    rows = np.array(derivatives)
+    orders, length = np.arange(len(rows))[:, None], np.diff(x)
+    given = np.concatenate([rows[:, :-1] * length**orders, rows[:, 1:] * length**orders])
+    powers = (_powers(len(rows)) @ given).T
+    return MotionLaw(tuple(x.tolist()), tuple(Piece(tuple(row)) for row in powers.tolist()))
 
 
 @cache
