@@ -418,7 +418,7 @@ def file(tmp_path: Path) -> Path:
 
 
 def test_the_command_compares_all_formats(file: Path) -> None:
-    """Without --to all formats are compared, and what REAL and whole numbers lose is told."""
+    """Without --to all formats are compared, and a warning states what REAL and whole numbers lose."""
     done = invoke("law", str(file), "mechanism.cams.cycloid", "--json")
     answer = json.loads(done.stdout)
     assert list(answer["results"]["law"]["formats"]) == list(FORMATS)
@@ -448,7 +448,7 @@ def test_the_command_writes_a_file(file: Path, tmp_path: Path) -> None:
         ("quintic --to csv --points 100000", "expected at most 3 000 points"),
     ],
 )
-def test_wrong_input_is_told(file: Path, words: str, message: str) -> None:
+def test_wrong_input_is_refused(file: Path, words: str, message: str) -> None:
     """Formats, names and numbers that make no sense end with exit code 2 and what to do."""
     done = invoke("law", str(file), *words.split())
     assert (done.exit_code, message in done.stderr) == (2, True), done.output

@@ -133,8 +133,8 @@ def test_noise_is_refused(tmp_path: Path) -> None:
         ("Begintable\nEndTable\n", "", "law.txt:1: .*no rows below the header"),
     ],
 )
-def test_wrong_files_are_told_with_their_lines(text: str, more: str, words: str, tmp_path: Path) -> None:
-    """What is wrong in a file of a controller is told with the file, its line and what belongs there."""
+def test_errors_in_files_have_their_lines(text: str, more: str, words: str, tmp_path: Path) -> None:
+    """Errors in a file of a controller have the file, its line and what belongs there."""
     with pytest.raises(MachineFileError) as error:
         read(tmp_path, text, more)
     assert re.search(words, str(error.value), re.DOTALL), str(error.value)

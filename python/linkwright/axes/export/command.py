@@ -50,12 +50,14 @@ def law(file: File, name: Name = None, to_format: Format = None, points: Points 
     wanted = law_of(machine, name)
     with progress("computing"), as_wanted(machine.units):
         exports, refused = _exports(wanted, forms, points)
-    sentences = [f"{name}: {why}." for name, why in refused.items()]
+    sentences = [*(f"{name}: {why}." for name, why in refused.items()), *_coarse(exports)]
     answer = Answer(
         machine=machine,
         results={"law": {"name": wanted.name, "formats": {each.format: each.to_dict() for each in exports}}},
-        findings=[] if exports else sentences,
-        warnings=[*(sentences if exports else []), *_warnings(exports)],
+        # Of several formats, those that serve are an answer.
+        findings=sentences if to_format is not None else [],
+        warnings=[*(sentences if to_format is None else []), *_warnings(exports)],
+        names={name for e in exports for name in (e.format, e.maker, e.numbers)} | set(refused),
         tables=later("axes.export.tables:export_tables", exports, refused, wanted.unit),
         machine_file=(lambda: exports[0].text) if exports else None,
     )
@@ -77,6 +79,20 @@ def _exports(
         except ExchangeError as error:
             refused[form.name] = str(error)
     return exports, refused
+
+
+# Share of the travel from which on a deviation is another motion.
+_COARSE = 0.01
+
+
+def _coarse(exports: list[LawExport]) -> list[str]:
+    """Formats in which the law has become another one."""
+    return [
+        f"{e.format}: the position deviates by {100 * e.position_deviation / e.position_peak:.3g} % of the "
+        "travel; take more points, or another format."
+        for e in exports
+        if e.position_deviation > _COARSE * e.position_peak
+    ]
 
 
 def _warnings(exports: list[LawExport]) -> list[str]:

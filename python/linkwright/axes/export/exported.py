@@ -1,7 +1,7 @@
 """The export of a law: the text of a cam table, and how far its controller deviates from the law.
 
 The text is read back, interpolated as the controller does, and compared with the law. Of the ways to place
-the points, the one with the least deviation of the position is taken.
+the points, the one with the minimum position deviation is taken.
 """
 
 from __future__ import annotations
@@ -83,12 +83,18 @@ class LawExport(Result):
     numbers: Annotated[str, About("Type of the numbers, or their step.")]
     digits: Annotated[int, About("Significant decimal digits that the numbers keep, of 15.")]
     n_points: Annotated[int, Label("points", "", "")]
-    position_deviation: Annotated[float, Label("deviation of the position", "", "m or rad")]
-    position_deviation_angle: Annotated[float, Label("master angle of that deviation", "", "rad")]
-    velocity_deviation: Annotated[float, Label("deviation of the velocity", "", "m/rad or –")]
-    velocity_deviation_angle: Annotated[float, Label("master angle of that deviation", "", "rad")]
-    acceleration_deviation: Annotated[float, Label("deviation of the acceleration", "", "m/rad² or 1/rad")]
-    acceleration_deviation_angle: Annotated[float, Label("master angle of that deviation", "", "rad")]
+    position_deviation: Annotated[float, Label("maximum position deviation", "", "m or rad")]
+    position_deviation_angle: Annotated[
+        float, Label("master angle of the maximum position deviation", "", "rad")
+    ]
+    velocity_deviation: Annotated[float, Label("maximum velocity deviation", "", "m/rad or –")]
+    velocity_deviation_angle: Annotated[
+        float, Label("master angle of the maximum velocity deviation", "", "rad")
+    ]
+    acceleration_deviation: Annotated[float, Label("maximum acceleration deviation", "", "m/rad² or 1/rad")]
+    acceleration_deviation_angle: Annotated[
+        float, Label("master angle of the maximum acceleration deviation", "", "rad")
+    ]
     velocity_jump: Annotated[
         float, Label("velocity jump", "", "m/rad or –", "Largest one at a point; 0 where there is none.")
     ]

@@ -26,9 +26,9 @@ class CamFormat:
     write: Callable[[CamData, CamTitle], str]
     read: Callable[[str], CamData]  # what the controller has of the text
     usual: int  # points that are taken where nobody asks for a number
-    most: int | None = None  # points at most, as the maker says
+    most: int | None = None  # points at most, as the maker permits
     numbers: Numbers = "LREAL"  # type, or step, of the numbers
-    apart: float = 0.0  # least distance of two points [deg]
+    apart: float = 0.0  # minimum distance of two points [deg]
     advances: bool = True  # whether the position may advance per cycle
     is_clamped: bool = False  # whether a spline has the slopes of the law at its ends
     is_even: bool = False  # whether points are at equal distances

@@ -1,4 +1,4 @@
-r"""Where the points of a cam table stand, so that the position deviates least.
+r"""Where the points of a cam table stand, for a minimum deviation of the position.
 
 The error of an interpolation of degree k over an interval h is proportional to :math:`h^p |s^{(p)}|`,
 p = k + 1. It is the same over all intervals if each has the same share of
@@ -7,7 +7,7 @@ p = k + 1. It is the same over all intervals if each has the same share of
 
 Points stand at the segment boundaries where a derivative up to the degree jumps, and between them by equal
 shares. Splines pass an error on to their neighbours, the more the longer these are: a part of the points is
-therefore placed at equal distances, the part with which the deviation that is measured is least. Where
+therefore placed at equal distances, the part with the minimum measured deviation. Where
 velocity or acceleration jumps, a table with derivatives has two points close together, and changes from one
 to the other between them.
 

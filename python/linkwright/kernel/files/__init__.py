@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `cam_tables` | Tables of motion controllers as text |
 | `dxf` | ezdxf as it is installed |
 | `library` | Machine files that come with the package: the library, the examples, templates |
 | `lines` | Where each key stands |
