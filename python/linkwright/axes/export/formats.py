@@ -43,6 +43,11 @@ _CODESYS = "CODESYS"
 _BECKHOFF = "Beckhoff"
 _SIEMENS = "Siemens"
 _SEW = "SEW-Eurodrive"
+_SEW_TABLES: tuple[tuple[str, str, Interpolation, int], ...] = (
+    ("sew-linear", "linear", "linear", 1024),
+    ("sew-cubic", "polynomials of degree 3", "cubic", 1024),
+    ("sew-spline", "spline (eSplineMode periodic or natural)", "spline", 64),
+)
 
 _ALL = (
     CamFormat(
@@ -136,11 +141,7 @@ _ALL = (
             most,
             most,
         )
-        for name, words, interpolation, most in (
-            ("sew-linear", "linear", "linear", 1024),
-            ("sew-cubic", "polynomials of degree 3", "cubic", 1024),
-            ("sew-spline", "spline (eSplineMode periodic or natural)", "spline", 64),
-        )
+        for name, words, interpolation, most in _SEW_TABLES
     ),
     CamFormat(
         "rockwell",

@@ -17,7 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.files.cam_tables import structured_rows, without_comments
 
 
-def real(number: float) -> str:
+def real(number: float | np.float32) -> str:
     """A number as a literal of IEC 61131-3 that reads back exactly, such as ``1.5E-7``."""
     # That a single-precision number is shown by fewer digits is a matter of its type.
     text = str(number if isinstance(number, np.float32) else float(number) + 0.0)
@@ -124,7 +124,8 @@ def write_xyva(data: CamData, title: CamTitle) -> str:
 
 def read_xyva(text: str) -> CamData:
     """The points of such an array."""
-    return CamData(*_columns(text, "dX", "dY", "dV", "dA"))
+    x, y, v, a = _columns(text, "dX", "dY", "dV", "dA")
+    return CamData(x, y, v, a)
 
 
 # -- Beckhoff --------------------------------------------------------------------------------------------
@@ -172,7 +173,8 @@ def _beckhoff_cam(name: str, array: str, kind: str, rows: int, columns: int) -> 
 
 def read_motion_function(text: str) -> CamData:
     """The points of a motion function."""
-    return CamData(*_columns(text, "MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc"))
+    x, y, v, a = _columns(text, "MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc")
+    return CamData(x, y, v, a)
 
 
 def write_beckhoff_table(data: CamData, title: CamTitle) -> str:
@@ -241,7 +243,8 @@ def write_siemens(data: CamData, title: CamTitle) -> str:
 
 def read_siemens(text: str) -> CamData:
     """The points of such a data block."""
-    return CamData(*_columns(text, *_BASIC))
+    x, y, v, a = _columns(text, *_BASIC)
+    return CamData(x, y, v, a)
 
 
 def write_siemens_table(data: CamData, title: CamTitle) -> str:
@@ -253,7 +256,8 @@ def write_siemens_table(data: CamData, title: CamTitle) -> str:
 
 def read_siemens_table(text: str) -> CamData:
     """The pairs of such a data block."""
-    return CamData(*_columns(text, "x", "y"))
+    x, y = _columns(text, "x", "y")
+    return CamData(x, y)
 
 
 # -- Rockwell --------------------------------------------------------------------------------------------
