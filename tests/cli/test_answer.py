@@ -212,6 +212,7 @@ CASES = {
     "synthesise line": Case(
         "--kind hoeken", "--kind hoeken --proportion arm=0.1", "--kind hoeken --proportion arm"
     ),
+    "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),
     "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
     "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),
     "cam search": Case(

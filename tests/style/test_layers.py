@@ -64,6 +64,7 @@ SUBJECTS = (
     "axes",
     "synthesis",
     "sizing",
+    "axes",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -145,6 +146,8 @@ EDGES = {
     ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
     ("sizing.commands", "drive.model"),
+    # A law that goes to a controller is a motion law.
+    ("axes.export", "cam.laws"),
 }
 
 # Folders of the room of trains, each of which uses those before it.

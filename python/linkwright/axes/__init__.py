@@ -10,6 +10,7 @@
 | `commands` | `linkwright axes` |
 | `cycle` | Forces along the motion of the master, piece by piece |
 | `duty` | What an axis asks of its motor over the cycle, and whether the motor stands it |
+| `export/` | Laws as cam tables of motion controllers, read back and compared |
 | `feasibility` | Accelerating factor and load factor: which ratios are feasible for a motor |
 | `figures` | Timing diagram, torque over speed, power of the bus |
 | `inertia` | Inertia at each driver, all others held |

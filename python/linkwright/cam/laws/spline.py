@@ -19,6 +19,7 @@ Davis, *Interpolation and Approximation* (1963), section 3.5.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -70,15 +71,35 @@ _ACCURACY = 1e-9
 
 _PIECES = (8, 16, 32, 64, 128)
 
-# Powers 0 to 7 from value, first, second, third derivative at 0 and at 1.
-_AT = np.array(
-    [
-        [np.prod(np.arange(k, k - order, -1.0)) * (u ** (k - order) if k >= order else 0.0) for k in range(8)]
+
+def hermite(places: Sequence[float] | Floats, derivatives: Sequence[Sequence[Any]] | Floats) -> MotionLaw:
+    """Polynomials that meet value and derivatives at both ends of every piece.
+
+    `places`: (n,), increasing; `derivatives`: value, first derivative, … at each place, (k, n), which gives
+    the degree 2k − 1: straight lines by values alone, quintics by velocity and acceleration too. With
+    derivatives by entries where they have some.
+    """
+    x = np.asarray(places, dtype=float)
+    # Numbers with derivatives are objects, of which NumPy makes the same sums.
+    rows = np.array(derivatives)
+    orders, length = np.arange(len(rows))[:, None], np.diff(x)
+    given = np.concatenate([rows[:, :-1] * length**orders, rows[:, 1:] * length**orders])
+    powers = (_powers(len(rows)) @ given).T
+    return MotionLaw(tuple(x.tolist()), tuple(Piece(tuple(row)) for row in powers.tolist()))
+
+
+@cache
+def _powers(k: int) -> Floats:
+    """Powers 0 to 2k − 1 from value and derivatives at 0 and at 1."""
+    rows = [
+        [
+            np.prod(np.arange(n, n - order, -1.0)) * (u ** (n - order) if n >= order else 0.0)
+            for n in range(2 * k)
+        ]
         for u in (0.0, 1.0)
-        for order in range(4)
+        for order in range(k)
     ]
-)
-_POWERS = np.linalg.inv(_AT)
+    return np.asarray(np.linalg.inv(np.array(rows)))
 
 
 def osculating(function: Callable[[Floats], Floats], text: str) -> MotionLaw:
@@ -103,11 +124,9 @@ def _with_pieces(function: Callable[[Floats], Floats], n: int, text: str) -> tup
     if not np.isfinite(ends).all():
         at = float(z[int(np.argmin(np.isfinite(ends).all(axis=0)))])
         raise LawError(Problem("", text, f"a formula with value and derivatives, also at z = {at:.6g}"))
-    own = ends / (float(n) ** np.arange(4))[:, None]
+    own = np.array(ends)
     own[0] -= own[0, 0]
-    given = np.concatenate([own[:, :-1], own[:, 1:]])
-    powers = (_POWERS @ given).T
-    law = MotionLaw(tuple(z.tolist()), tuple(Piece(tuple(row)) for row in powers.tolist()))
+    law = hermite(z, own)
     between = (z[:-1, None] + np.array([0.21, 0.5, 0.83]) / n).ravel()
     exact = function(between)[2]
     size = max(

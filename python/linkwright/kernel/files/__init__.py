@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `catalogue_file` | Catalogues of one's own: a row for each type |
+| `cam_tables` | Tables of motion controllers as text |
 | `dxf` | ezdxf as it is installed |
 | `library` | Machine files that come with the package: the library, the examples, templates |
 | `lines` | Where each key stands |

@@ -24,6 +24,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.place import join
 from linkwright.kernel.errors import MachineFileError, Problem, UnitError, show
+from linkwright.kernel.files.cam_tables import controller_table
 from linkwright.kernel.files.named_file import named_file
 from linkwright.kernel.files.text_file import TextError, text_of
 from linkwright.kernel.limits import POINT_BYTES, ROWS
@@ -39,6 +40,15 @@ _EXAMPLES = {
     "record": "time [s], speed [rpm]",
 }
 
+# Those that are laws: they may be written by a motion controller.
+_LAWS = ("spline", "table")
+
+# Columns that laws do without: a jerk may jump at a point, where it is then no one number.
+_UNUSED = ("jerk", "swing_jerk")
+
+
+# Number and cells of each line of a file.
+Lines = list[tuple[int, list[str]]]
 
 _HEAD = re.compile(r"\s*+(\w++)\s*+(?:\[([^\]]*+)\])?\s*+")
 
@@ -70,7 +80,11 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
         if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
             name, key = table.pop("file"), join((*place, "file"))
             path = named_file(name, folder, key, allow_outside=allow_outside)
-            lists, lines = columns_of(path, key, table["kind"])
+            heads = table.pop("columns", None) if table["kind"] in _LAWS else None
+            own = _law_lines(path, key, heads) if table["kind"] in _LAWS else None
+            lists, lines = columns_of(path, key, table["kind"], lines=own)
+            for name in _UNUSED if table["kind"] in _LAWS else ():
+                lists.pop(name, None)
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]
     return columns
@@ -85,16 +99,21 @@ def _tables(node: Any, place: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...]
 
 
 def columns_of(
-    path: Path, key: str, kind: str = "table", numbers: Collection[str] | None = None
+    path: Path,
+    key: str,
+    kind: str = "table",
+    numbers: Collection[str] | None = None,
+    lines: Lines | None = None,
 ) -> tuple[dict[str, list[Any]], list[int]]:
     """Columns of a file of comma-separated values by name, entries with their units, and the number of each
     line.
 
     The line of the head is first. `key`, `kind`: entry and table that name it, for messages; `numbers`: names
-    of columns that hold numbers, all without it, and others keep their texts. Raises
+    of columns that hold numbers, all without it, and others keep their texts; `lines`: those of the file,
+    where they are known. Raises
     `MachineFileError` for what cannot be read, has no head or a row that does not fit it.
     """
-    lines = lines_of(path, key)
+    lines = lines_of(path, key) if lines is None else lines
     heads = [_HEAD.fullmatch(cell) for cell in lines[0][1]] if lines else []
     if len(lines) == 1 and all(heads):
         found, expected = "no rows below the header", "at least one row, its numbers separated by commas"
@@ -126,18 +145,37 @@ def columns_of(
     return columns, [line for line, _ in lines]
 
 
-def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
+def _law_lines(path: Path, key: str, heads: object) -> Lines:
+    """Lines of a file of a law, perhaps that of a motion controller; `heads`: the entry ``columns``."""
+    table = controller_table(_text(path, key))
+    if table is None:
+        lines = lines_of(path, key)
+        return lines if heads is None else [(lines[0][0] if lines else 1, _heads(heads, key)), *lines]
+    if table.announced is not None and table.announced != table.present:
+        found, expected = f"{table.present} points", f"{table.announced}, as its head says"
+        remedy = "the file may be cut off; else correct the number"
+        raise MachineFileError([Problem(key, found, expected, remedy, str(path), 1)])
+    own = table.heads if heads is None else _heads(heads, key)
+    if own is None:
+        found = f"a table of a motion controller without units, {len(table.rows)} points"
+        remedy = 'beside file, say what its columns are: columns = "angle [deg], lift [mm]"'
+        raise MachineFileError([Problem(key, found, "units of its columns", remedy, str(path), 1)])
+    return [(1, own), *table.rows]
+
+
+def _heads(entry: object, key: str) -> list[str]:
+    """The heads that the entry ``columns`` names."""
+    if not isinstance(entry, str) or not entry.strip():
+        place = key.removesuffix("file") + "columns"
+        raise MachineFileError([Problem(place, show(entry), f'names of columns: "{_EXAMPLES["table"]}"')])
+    return entry.split(",")
+
+
+def lines_of(path: Path, key: str) -> Lines:
     """Number and cells of each line that is neither empty nor a comment."""
-    try:
-        text = text_of(path, POINT_BYTES)
-    except TextError as error:
-        expected = error.expected or "a file of comma-separated values"
-        # Without an entry that names the file, the file itself is the place.
-        found, place = (f"{path}, {error.found}", "") if key else (error.found, str(path))
-        raise MachineFileError([Problem(key, found, expected, error.remedy, place)]) from None
-    lines = StringIO(text, newline="")
+    lines = StringIO(_text(path, key), newline="")
     reader = csv.reader("\n" if line.lstrip().startswith("#") else line for line in lines)
-    rows: list[tuple[int, list[str]]] = []
+    rows: Lines = []
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
@@ -150,6 +188,17 @@ def lines_of(path: Path, key: str) -> list[tuple[int, list[str]]]:
         remedy = 'close the quotation mark (")'
         raise MachineFileError([Problem(key, found, expected, remedy, str(path), reader.line_num)]) from None
     return rows
+
+
+def _text(path: Path, key: str) -> str:
+    """The text of a file of points."""
+    try:
+        return text_of(path, POINT_BYTES)
+    except TextError as error:
+        expected = error.expected or "a file of comma-separated values"
+        # Without an entry that names the file, the file itself is the place.
+        found, place = (f"{path}, {error.found}", "") if key else (error.found, str(path))
+        raise MachineFileError([Problem(key, found, expected, error.remedy, place)]) from None
 
 
 def _row_problems(key: str, names: list[str], row: list[str], numbers: Collection[str]) -> Iterator[Problem]:
