@@ -6,7 +6,7 @@ from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 27
+FORMAT = 28
 
 
 def check_format(core: object) -> None:
