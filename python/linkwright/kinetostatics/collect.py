@@ -164,7 +164,7 @@ class Collector:
     def _load_forces(self) -> dict[str, Floats]:
         """Force of each load on a slide, along its guide."""
         forces = {}
-        for name, load in self.scene.machine.loads.items():
+        for name, load in self.scene.machine.all_loads.items():
             pair = self.scene.structure.pairs.get(f"{getattr(load, 'on', None)}.guide")
             if pair is not None and pair.guide is not None:
                 force = self.sources[f"loads.{name}"].wrenches.on_member(pair.second)[:, :2]
@@ -174,7 +174,7 @@ class Collector:
     def _load_torques(self) -> dict[str, Floats]:
         """Torque of each load on a link or on the crankshaft."""
         torques = {}
-        for name, load in self.scene.machine.loads.items():
+        for name, load in self.scene.machine.all_loads.items():
             source, on = self.sources[f"loads.{name}"], getattr(load, "on", None)
             if on is None and isinstance(load, TorqueAngle | TorqueSpeed):
                 torques[name] = -source.resisting

@@ -157,7 +157,7 @@ def forces(
 
 def _nothing_to_carry(machine: Machine) -> list[str]:
     """Why all forces are zero, if nothing makes any."""
-    if machine.bodies or machine.loads:
+    if machine.bodies or machine.all_loads:
         return []
     words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."
     if machine.pumping_unit is not None and machine.pumping_unit.load is not None:

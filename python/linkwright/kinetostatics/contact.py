@@ -22,7 +22,7 @@ def lost_contacts(machine: Machine) -> tuple[str, ...]:
     """Contacts that a machine loses in its steady motion or at its design speed, in sentences."""
     drive = machine.drive
     moves = drive is not None and (drive.motor is not None or drive.speed is not None)
-    if not moves or not contacts(machine) or not (machine.bodies or machine.loads):
+    if not moves or not contacts(machine) or not (machine.bodies or machine.all_loads):
         return ()
     collected = Findings()
     collected.of(forces, machine)

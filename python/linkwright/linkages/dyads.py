@@ -59,7 +59,9 @@ class Dyad:
 
 def dyads_of(compiled: CompiledMachine) -> list[Dyad]:
     """The dyads and groups of a machine in build order."""
-    return [_dyad(compiled, element) for element in compiled.elements if isinstance(element, Closing)]
+    closing = (element for element in compiled.elements if isinstance(element, Closing))
+    # The rod of a cylinder closes with its barrel.
+    return [_dyad(compiled, part) for part in closing if not compiled.dyads[part.dyad].endswith(".rod")]
 
 
 def _dyad(compiled: CompiledMachine, element: Closing) -> Dyad:

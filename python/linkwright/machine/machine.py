@@ -114,6 +114,16 @@ class Machine(WholeDescription):
         own = with_followers(self.mechanism)
         return own if self.pumping_unit is None else merged(own, self.pumping_unit, self.rod_rotator)
 
+    @property
+    def all_loads(self) -> dict[str, Any]:
+        """Loads of the file by name, and those that cylinders stand for."""
+        if not self.mechanism.cylinders:
+            return self.loads
+        from linkwright.kinetostatics.model.cylinder_loads import cylinder_loads
+
+        parts = (cylinder_loads(name, cylinder) for name, cylinder in self.mechanism.cylinders.items())
+        return self.loads | {name: load for part in parts for name, load in part.items()}
+
     def plot(self, *names: str, over: str | None = None) -> "Figure":
         """Curves by name as a figure, an axis for each unit.
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from linkwright.kernel.description.place import join, keys, look
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.linkages.model.topology import DRIVERS, ORIGIN, Topology
+from linkwright.linkages.model.topology import ORIGIN, Topology
 from linkwright.machine.read import loads
 from linkwright.studio.document import changed, tables_of
 
@@ -501,7 +501,7 @@ class _Drawing:
         self.names: list[str] = []
         self.places: dict[tuple[float, float], str] = {}  # of what is new
         self.held: dict[str, int] = {}  # new joint → links that hold it
-        self.is_driven = bool(site.topology.names(*DRIVERS))
+        self.is_driven = bool(site.topology.drivers)
 
     def link(self, start: End, end: End) -> None:
         """A crank or a bar."""

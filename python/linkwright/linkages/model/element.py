@@ -14,6 +14,8 @@
 | `gears` | gears, planets, pulleys | – |
 | `racks`, `cables` | what a turning link moves along a guide | – |
 | `joints`, `bars` | joints held by bars and guides, in any group | dyads, or solved together |
+
+Cylinders are in `linkages/model/cylinder.py`.
 """
 
 import math
@@ -63,7 +65,7 @@ class Guide(Description):
 Constants = dict[str, Annotated[float, AnyQuantity()]]
 
 
-def _law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
+def law_faults(law: str | None, constants: Constants) -> Iterator[InitErrorDetails]:
     """A law that is no formula of the crank angle."""
     yield from constant_faults(constants, law or "")
     if law is None and constants:
@@ -93,7 +95,7 @@ class Crank(CheckedDescription):
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        return _law_faults(self.law, self.constants)
+        return law_faults(self.law, self.constants)
 
 
 class LinearDriver(CheckedDescription):
@@ -112,7 +114,7 @@ class LinearDriver(CheckedDescription):
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from _law_faults(self.law, self.constants)
+        yield from law_faults(self.law, self.constants)
         if (self.law is None) == (self.per_turn is None):
             found = "neither" if self.law is None else "both"
             yield fault(found=found, expected="either per_turn or law")

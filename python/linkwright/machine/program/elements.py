@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.kernel.description import formula
+from linkwright.linkages.model.cylinder import Cylinder
 from linkwright.linkages.model.element import (
     Cable,
     Crank,
@@ -22,7 +23,7 @@ from linkwright.linkages.model.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
+from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name, length_name
 
 _RADIAN = 2 * np.pi
 
@@ -46,6 +47,7 @@ class Elements(Places):
             "racks": self._rack,
             "cables": self._cable,
             "bars": self._bar,
+            "cylinders": self._cylinder,
         }
         for table, make in makers.items():
             element = getattr(mechanism, table).get(name)
@@ -78,16 +80,41 @@ class Elements(Places):
         )
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        cam = driver.follows()
-        terms: list[tuple[int | None, Any]]
-        if cam is not None:
-            terms = [(self._programme(name, cam), 1.0)]
-        elif driver.law is not None:
-            terms = [(self._law(name, driver.law, driver.constants), 1.0)]
-        else:
-            assert driver.per_turn is not None
+        terms: list[tuple[int | None, Any]] = []
+        if driver.per_turn is not None:
             terms = [(None, driver.per_turn / _RADIAN)]
+        terms += self._travel(name, driver)
         self._runner(name, self._guide(driver.guide), driver.start, terms)
+
+    def _travel(self, name: str, driver: LinearDriver | Cylinder) -> list[tuple[int | None, Any]]:
+        """What a driver follows: a lift, or a formula."""
+        lift = driver.follows()
+        if lift is not None:
+            return [(self._programme(name, lift), 1.0)]
+        return [] if driver.law is None else [(self._law(name, driver.law, driver.constants), 1.0)]
+
+    def _cylinder_length(self, name: str, cylinder: Cylinder) -> int:
+        """The length of a driver as a coordinate, which a group of joints hangs on."""
+        hidden = length_name(name)
+        axis = GuideLine(self.origin, None, 0.0, 0.0)
+        self._runner(hidden, axis, cylinder.start_length, self._travel(name, cylinder))
+        return self.slides[hidden]
+
+    def _cylinder(self, name: str, cylinder: Cylinder) -> None:
+        """Barrel and rod between points that are placed: directions, and the distance as a coordinate."""
+        ends = self.points[cylinder.start], self.points[cylinder.end]
+        rod = f"{name}.rod"
+        for link, slide, (pivot, pin) in ((name, name, ends), (rod, length_name(rod), ends[::-1])):
+            lever = _core.Element.SlottedLever(
+                link=self._link(link),
+                slide=self._slide(slide),
+                dyad=self._dyad(link),
+                pin=pin,
+                pivot=pivot,
+                offset=self.slot(0.0),
+                sign=self.slot(1.0),
+            )
+            self.elements.append(lever)
 
     def _law(self, name: str, law: str, constants: dict[str, Any]) -> int:
         """A coordinate that is a formula of the crank angle."""

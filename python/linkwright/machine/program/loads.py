@@ -72,7 +72,7 @@ class Loads:
     def all(self, *, brake: bool) -> list[_core.Load]:
         """Forces and torques; a brake resists on the crankshaft."""
         parts: list[_core.Load] = []
-        for load in self.machine.loads.values():
+        for load in self.machine.all_loads.values():
             if isinstance(load, loads.FormulaLoad):
                 parts += self._formula_load(load)
             elif isinstance(load, loads.TorqueSwing):
