@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkwright.drive.gradient import gradient_along, solved_along
+from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
@@ -115,20 +116,33 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     return Derivatives(program.variables, extremes, ties, missing, program.refused, lost, words, units)
 
 
-def drive_forces_along(
-    machine: Machine, variables: Sequence[str], angles: Floats
-) -> tuple[Directions, dict[str, Any], dict[str, float], Kinks]:
-    """Forces of drives and cams at crank angles with their derivatives by some entries, by name, (n,) each.
+class DrivesAlong(NamedTuple):
+    """Drives of a machine at crank angles, with their derivatives by some entries."""
 
-    Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
-    """
+    program: Directions  # the entries that have some
+    scene: Scene  # machine and motion
+    forces: dict[str, Any]  # of drives and cams by name, (n,) each
+    lost: dict[str, float]  # entries by which the motion is lost
+    kinks: Kinks
+
+
+def drives_along(machine: Machine, variables: Sequence[str], angles: Floats) -> DrivesAlong:
+    """Drives of a machine at crank angles along its motion; at rest where nothing says how fast it is."""
     entries = _entries(machine, variables)
     program = entries.program
     solution = _solution(machine, program)
-    motion = motion_at(machine, None, angles=angles) if solution is None else _read(machine, solution, angles)
+    if solution is None:
+        speed = 0.0 if machine.drive is None or not _has_speed(machine.drive) else None
+        motion = motion_at(machine, None, speed=speed, angles=angles)
+    else:
+        motion = _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
-    drives = _collected(_SceneAlong(machine, along, entries)).drives()
-    return program, drives, lost, kinks_of(machine, program)
+    scene = _SceneAlong(machine, along, entries)
+    return DrivesAlong(program, scene, _collected(scene).drives(), lost, kinks_of(machine, program))
+
+
+def _has_speed(drive: Drive) -> bool:
+    return drive.speed is not None or drive.motor is not None
 
 
 def drive_torque_along(
@@ -272,9 +286,8 @@ def _motion_along(
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
     drive = entries.machine.drive
-    assert drive is not None
-    given: Any = drive.speed
-    if isinstance(drive.motor, ConstantSpeedMotor):
+    given: Any = 0.0 if drive is None or drive.speed is None else drive.speed
+    if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         given = drive.motor.speed / drive.gearbox.ratio
     speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)
     acceleration: Any = lifted(motion.acceleration, n)

@@ -67,7 +67,8 @@ def drivers_with_laws(machine: Machine) -> dict[str, tuple[str, bool]]:
 
 def shaft_of_laws(machine: Machine) -> Iterator[str]:
     """What torques at the crank are where drivers follow laws; nothing without masses and loads."""
-    names = ", ".join(drivers_with_laws(machine))
+    # Of a cylinder the force is given by itself.
+    names = ", ".join(name for name in drivers_with_laws(machine) if name not in machine.linkage.cylinders)
     if names and (machine.bodies or machine.all_loads):
         yield (
             f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the "
