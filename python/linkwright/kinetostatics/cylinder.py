@@ -28,6 +28,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.cylinder_loads import push_of
+from linkwright.kinetostatics.motion import design_speed
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import closure, turn_angles
 from linkwright.linkages.kinematics import kinematics_of
@@ -159,12 +160,8 @@ def cylinder_force(machine: Machine, name: str | None = None, motion: Forces | N
 
 def forces_of_cylinders(machine: Machine) -> Forces:
     """Forces along the motion of a machine: of its drive, or its flow; else at rest at every angle."""
-    drive = machine.drive
-    if drive is not None and (drive.motor is not None or drive.speed is not None):
-        return forces(machine)
-    flowing = (cylinder for cylinder in machine.mechanism.cylinders.values() if cylinder.flow is not None)
-    cycle = next((cylinder.cycle for cylinder in flowing), None)
-    return forces(machine, speed=0.0 if cycle is None else 2 * np.pi / cycle)
+    has_motor = machine.drive is not None and machine.drive.motor is not None
+    return forces(machine, speed=None if has_motor or design_speed(machine) is not None else 0.0)
 
 
 def _duty(machine: Machine, name: str, known: Forces) -> CylinderForce:

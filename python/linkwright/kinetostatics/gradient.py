@@ -18,7 +18,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkwright.drive.gradient import gradient_along, solved_along
-from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.steady_state import solved_state
 from linkwright.kernel.arrays import Bools, Floats
@@ -29,7 +28,7 @@ from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.forces import acting, solved
-from linkwright.kinetostatics.motion import Motion, motion_at, over_turns
+from linkwright.kinetostatics.motion import Motion, design_speed, motion_at, over_turns
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.closure import closure_of
@@ -132,17 +131,14 @@ def drives_along(machine: Machine, variables: Sequence[str], angles: Floats) -> 
     program = entries.program
     solution = _solution(machine, program)
     if solution is None:
-        speed = 0.0 if machine.drive is None or not _has_speed(machine.drive) else None
+        has_motor = machine.drive is not None and machine.drive.motor is not None
+        speed = None if has_motor or design_speed(machine) is not None else 0.0
         motion = motion_at(machine, None, speed=speed, angles=angles)
     else:
         motion = _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
     scene = _SceneAlong(machine, along, entries)
     return DrivesAlong(program, scene, _collected(scene).drives(), lost, kinks_of(machine, program))
-
-
-def _has_speed(drive: Drive) -> bool:
-    return drive.speed is not None or drive.motor is not None
 
 
 def drive_torque_along(
@@ -286,7 +282,7 @@ def _motion_along(
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
     drive = entries.machine.drive
-    given: Any = 0.0 if drive is None or drive.speed is None else drive.speed
+    given: Any = design_speed(entries.machine) or 0.0
     if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         given = drive.motor.speed / drive.gearbox.ratio
     speed: Any = lifted(given * lifted(np.ones(len(phi)), n), n)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -90,7 +90,7 @@ def motion_at(
         drive = machine.drive
         if drive is not None and drive.motor is not None and angles is None:
             return over_turns(steady_state(machine, n=n), force_turns(compile_machine(machine)))
-        speed = None if drive is None else drive.speed
+        speed = design_speed(machine)
     if speed is None:
         raise InputError(
             "speed: found none, expected that of the crank, as there is neither a motor nor drive.speed; "
@@ -100,6 +100,14 @@ def motion_at(
     if angles is None:
         angles = turn_angles(n, force_turns(compile_machine(machine)))
     return _at_speed(speed, acceleration, angles)
+
+
+def design_speed(machine: Machine) -> Any:
+    """Design speed of the drive, or that of the cycle of a cylinder's flow; None where neither is given."""
+    if machine.drive is not None and machine.drive.speed is not None:
+        return machine.drive.speed
+    flowing = (cylinder for cylinder in machine.mechanism.cylinders.values() if cylinder.flow is not None)
+    return next((2 * np.pi / cylinder.cycle for cylinder in flowing), None)
 
 
 def over_turns(steady: SteadyState, turns: int) -> Motion:
