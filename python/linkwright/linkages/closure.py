@@ -336,7 +336,7 @@ def _endless(compiled: CompiledMachine) -> Closure:
         gaps = _gaps(compiled, angles)
         closes = _closing(compiled, gaps)
         sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
-        worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
+        worst = np.nan_to_num(_shares(compiled, gaps, np.maximum(sizes, 1e-300)), nan=-1.0).min(axis=1)
         element = _parts(compiled)[int(np.argmin(worst))]
         if not closes[_ANGLES]:
             return Closure((), element, turns=None)

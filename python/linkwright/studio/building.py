@@ -130,6 +130,11 @@ def _slots(site: Site) -> Iterator[Entries]:
         yield from ({"pin": pin, "pivot": pivot} for pivot in site.fixed)
 
 
+def _cylinders(site: Site) -> Iterator[Entries]:
+    ends = ((fixed, moving) for moving in site.moving for fixed in site.fixed)
+    return ({"start": start, "end": end, "damping": "1000 N s/m"} for start, end in ends)
+
+
 def _rockers(site: Site) -> Iterator[Entries]:
     for crank in site.moving:
         for pivot in site.fixed:
@@ -241,6 +246,7 @@ KINDS: dict[str, Kind] = {
     ),
     "rockers": Kind("Coupler and rocker", "Mechanism", _BOTH, _one("rockers", "R", _rockers)),
     "slotted_levers": Kind("Slotted lever", "Mechanism", _BOTH, _one("slotted_levers", "L", _slots)),
+    "cylinders": Kind("Passive cylinder", "Mechanism", _BOTH, _one("cylinders", "Z", _cylinders)),
     "crossings": Kind("Pin in two guides", "Mechanism", _LINK, _one("crossings", "X", _crossings)),
     "yokes": Kind(
         "Yoke", "Mechanism", _MOVING, _one("yokes", "Y", lambda site: ({"pin": n} for n in site.moving))

@@ -141,6 +141,7 @@ TABLES = tuple(dict.fromkeys(kind.table for kind in KINDS))
 
 # Tables of the elements that the drive moves; a cylinder with a length at the start is one of them too.
 _DRIVERS = ("cranks", "linear_drivers", "cams")
+_MOVED_BY = ("start_length", "law", "flow")
 
 
 @dataclass(frozen=True, slots=True)
@@ -433,7 +434,7 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
             # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
             names["guide"] = ORIGIN
         is_driver = kind.table in _DRIVERS or (
-            kind.table == "cylinders" and look(element, "start_length") is not None
+            kind.table == "cylinders" and any(look(element, key) is not None for key in _MOVED_BY)
         )
         yield Element(kind, name, names, look(element, "redundant") is True, is_driver)
 
