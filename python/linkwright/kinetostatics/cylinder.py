@@ -1,14 +1,10 @@
 r"""A cylinder over the cycle: force, pressure in each chamber, flow and power.
 
 The force F on the rod, positive outwards, is an unknown of the equilibrium of all members
-(`linkwright.kinetostatics.forces`); at speed zero it is what holds each position. With the areas A₁ of the bore
-side and A₂ of the rod side, the chamber that the load does not press on is open to the tank at p_b:
+(`linkwright.kinetostatics.forces`); at speed zero it is what holds each position. With the areas A₁ of the
+bore side and A₂ of the rod side, the chamber that the load does not press on is open to the tank at p_b:
 
 .. math:: F = p_1 A_1 - p_2 A_2, \qquad \min(p_1, p_2) = p_b, \qquad Q_i = A_i \dot L, \qquad P = F \dot L
-
-References
-----------
-.. [1] Findeisen, Ölhydraulik, chapter on cylinders; ISO 4413.
 """
 
 from __future__ import annotations
@@ -52,7 +48,9 @@ class CylinderForce(Result):
     time: Annotated[Floats, Label("time", "t", "s")]
     length: Annotated[Floats, Label("length", "L", "m", "From trunnion to rod eye.")]
     velocity: Annotated[Floats, Label("velocity of the rod", "v", "m/s", "Positive outwards.")]
-    force: Annotated[Floats, Label("force on the rod", "F", "N", "Positive outwards; seal friction included.")]
+    force: Annotated[
+        Floats, Label("force on the rod", "F", "N", "Positive outwards; seal friction included.")
+    ]
     power: Annotated[Floats, Label("power of the cylinder", "P", "W", "Negative where the load drives it.")]
     name: Annotated[str, About("The cylinder's.")]
     pressure_bore: Annotated[
@@ -116,7 +114,7 @@ class CylinderForce(Result):
 
 
 def _peak(values: Floats) -> float:
-    """The value of the largest size."""
+    """The value of the peak, with its sign."""
     return float(values[np.nanargmax(np.abs(values))])
 
 
@@ -175,7 +173,9 @@ def _duty(machine: Machine, name: str, known: Forces) -> CylinderForce:
     found = dict[str, Any](findings=tuple(_beyond(name, cylinder, duty.crank_angle, duty.length)))
     if cylinder.areas is not None:
         found |= dict(zip(("pressure_bore", "pressure_rod"), pressures_of(cylinder, force), strict=True))
-        found |= {f"flow_{side}": A * velocity for side, A in zip(("bore", "rod"), cylinder.areas, strict=True)}
+        found |= {
+            f"flow_{side}": A * velocity for side, A in zip(("bore", "rod"), cylinder.areas, strict=True)
+        }
     return CylinderForce(**{**{key: getattr(duty, key) for key in _CURVES}, "name": name, **found})
 
 
@@ -216,8 +216,8 @@ def _beyond(name: str, cylinder: Cylinder, angles: Floats, length: Floats) -> li
         if excess[at] > _ROUNDING * limit:
             key = "length_max" if sign > 0 else "length_min"
             found.append(
-                f"the cylinder {name} is {1e3 * excess[at]:.4g} mm {word} {key}, {quantity(limit, 'm')}, at a "
-                f"crank angle of {degrees(float(angles[at]))}: choose one with a longer stroke, or "
+                f"the cylinder {name} is {1e3 * excess[at]:.4g} mm {word} {key}, {quantity(limit, 'm')}, at "
+                f"a crank angle of {degrees(float(angles[at]))}: choose one with a longer stroke, or "
                 "other points"
             )
     return found
@@ -258,8 +258,8 @@ def cylinder_warnings(machine: Machine) -> list[str]:
         turn = 2 * np.pi / speed
         if abs(cylinder.cycle / turn - 1) > _SAME_TIME:
             found.append(
-                f"The flow of the cylinder {name} is given for a cycle of {quantity(cylinder.cycle, 's')}, and "
-                f"a revolution of the drive takes {quantity(turn, 's')}: the flow is larger or smaller in "
-                "this ratio"
+                f"The flow of the cylinder {name} is given for a cycle of {quantity(cylinder.cycle, 's')}, "
+                f"and a revolution of the drive takes {quantity(turn, 's')}: the flow is larger or smaller "
+                "in this ratio"
             )
     return found

@@ -52,7 +52,10 @@ def cylinder_tangents(machine: Machine, name: str, variables: Sequence[str]) -> 
             slope = lifted(followed[quantity], len(program.variables)).d[row]
         moving = kinks.moved_at(angle, _NEAR)
         tangents[key] = Tangent(float(getattr(known, key)), np.where(moving, np.nan, slope))
-        words = [tied(curves[key], place, known.crank_angle), kinks.words(angle, moving) if moving.any() else ""]
+        words = [
+            tied(curves[key], place, known.crank_angle),
+            kinks.words(angle, moving) if moving.any() else "",
+        ]
         if any(words):
             ties[key] = "; ".join(filter(None, words))
     if {"length_min", "length_max"} <= set(tangents):

@@ -188,7 +188,7 @@ def _levers(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) ->
         yield {"kind": "slot", "name": name, "at": name, "link": on, "span": span, "bar": bar, **look}
 
 
-# Length of a barrel over the least distance of trunnion and eye, where it is not given.
+# Length of a barrel over the minimum distance of trunnion and eye, where it is not given.
 _BARREL = 0.85
 
 

@@ -3,6 +3,7 @@
 | description | makes |
 | --- | --- |
 | a cam | the driver that follows it: a linear driver or a crank of its name |
+| a cylinder with a flow | one that follows its volume |
 | `pumping_unit`, `rod_rotator` | what `linkwright.pumping.model.expansion` says |
 """
 
@@ -25,16 +26,19 @@ if TYPE_CHECKING:
 
 
 def with_followers(own: Mechanism) -> Mechanism:
-    """A mechanism with a driver in place of each cam; the same mechanism gives the same.
+    """A mechanism with a driver for each cam and each flow; the same mechanism gives the same.
 
     `own`: what the file builds of elements.
     """
-    if not own.cams:
+    flowing = [cylinder for cylinder in own.cylinders.values() if cylinder.flow is not None]
+    if not (own.cams or flowing):
         return own
-    return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))
+    parts = (*own.cams.values(), *own.points.values(), *flowing)
+    return _kept((own,), partial(_driven, own), _has_arrays(*parts))
 
 
 def _driven(own: Mechanism) -> Mechanism:
+    from linkwright.cam.model.flow_law import flow_driven
     from linkwright.cam.model.follower import follower_of
 
     points = own.fixed_points()
@@ -46,6 +50,10 @@ def _driven(own: Mechanism) -> Mechanism:
             "cams": {},
             "cranks": {**own.cranks, **cranks},
             "linear_drivers": {**own.linear_drivers, **drivers},
+            "cylinders": {
+                name: cylinder if cylinder.flow is None else flow_driven(cylinder)
+                for name, cylinder in own.cylinders.items()
+            },
         }
     )
 

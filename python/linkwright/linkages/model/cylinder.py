@@ -5,7 +5,8 @@ a `start_length` is a driver: its length L(φ) follows a formula, or the oil tha
 
 .. math:: \\dot L = Q/A, \\qquad A = \\pi D^2/4 \\ (Q > 0), \\quad A = \\pi (D^2 - d^2)/4 \\ (Q < 0)
 
-with the bore D and the rod's diameter d. Any other acts with a force (`kinetostatics/model/cylinder_loads.py`).
+with the bore D and the rod's diameter d (the law of the flow: `cam/model/flow_law.py`). Any other acts with a force
+(`kinetostatics/model/cylinder_loads.py`).
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
@@ -24,21 +25,11 @@ from linkwright.kernel.units.kinds import DAMPING, FORCE, LENGTH, PRESSURE, STIF
 from linkwright.kernel.units.marks import Angles, Flows, Force, Times, not_negative, positive
 from linkwright.linkages.model.element import Constants, PositiveLength, law_faults
 
-if TYPE_CHECKING:
-    from linkwright.cam.laws.motion_law import MotionLaw
-
 # Share of the volume moved by which a cycle of flow may stay open: what the digits of a file leave.
 _CLOSES = 1e-6
 
 # Entries that say how a driver moves; how a cylinder without start_length acts.
 _MOVES, _ACTS = ("law", "flow"), ("pressure", "pressure_rod", "stiffness", "damping")
-
-
-class Lift(NamedTuple):
-    """What the travel of a driver follows over the cycle, as a follower does its cam."""
-
-    lift: MotionLaw
-    phase: float = 0.0  # crank angle at which it begins [rad]
 
 
 class Cylinder(CheckedDescription):
@@ -122,18 +113,11 @@ class Cylinder(CheckedDescription):
         """Time of one revolution by the flow [s]; None where nothing says it."""
         return self.flow_time[-1] if self.flow_time is not None else self.cycle_time
 
-    def follows(self) -> Lift | None:
-        """What its extension follows, if it is not a formula: the oil that flows in."""
-        return None if self.flow is None else Lift(self._extension(self._volumes()))
+    def follows(self) -> Any:
+        """What its extension follows over the cycle, if it is not a formula."""
+        return None
 
-    def _shares(self) -> tuple[Any, ...]:
-        """Place of each flow in the cycle, from 0 to 1."""
-        if self.flow_time is not None:
-            return tuple(time / self.flow_time[-1] for time in self.flow_time)
-        assert self.flow_angle is not None
-        return tuple(angle / self.flow_angle[-1] for angle in self.flow_angle)
-
-    def _stretches(self) -> Iterator[tuple[Any, Any, Any]]:
+    def stretches(self) -> Iterator[tuple[Any, Any, Any]]:
         """Length as a share of the cycle, and both flows, of each stretch without a change of direction."""
         assert self.flow is not None
         for (low, high), (q, r) in zip(pairwise(self._shares()), pairwise(self.flow), strict=True):
@@ -144,28 +128,18 @@ class Cylinder(CheckedDescription):
             else:
                 yield high - low, q, r
 
-    def _volumes(self) -> tuple[Any, Any]:
+    def _shares(self) -> tuple[Any, ...]:
+        """Place of each flow in the cycle, from 0 to 1."""
+        places = self.flow_angle if self.flow_time is None else self.flow_time
+        assert places is not None
+        return tuple(place / places[-1] for place in places)
+
+    def travels(self) -> tuple[Any, Any]:
         """Extension by all flow into the bore side, and retraction by all into the rod side [m]."""
         assert self.areas is not None
-        moved = [0.5 * (q + r) * length * self.cycle for length, q, r in self._stretches()]
+        moved = [0.5 * (q + r) * length * self.cycle for length, q, r in self.stretches()]
         out, back = ([m for m in moved if (primal(m) > 0) == is_out] for is_out in (True, False))
         return total(out) / self.areas[0], -total(back) / self.areas[1]
-
-    def _extension(self, travel: tuple[Any, Any]) -> MotionLaw:
-        """The extension over the cycle, exactly: squares where the flow is straight."""
-        from linkwright.cam.laws.motion_law import MotionLaw
-        from linkwright.cam.laws.piece import Piece
-
-        assert self.areas is not None
-        out, back = travel
-        # The digits of the file may leave the cycle open; the way back then takes the difference.
-        factors = self.cycle / self.areas[0], self.cycle / self.areas[1] * (out / back)
-        at, stretches = 0.0 * out, list[tuple[Any, Piece]]()
-        for length, q, r in self._stretches():
-            factor = length * factors[0 if primal(q) + primal(r) > 0 else 1]
-            stretches.append((2 * math.pi * length, Piece((at, factor * q, 0.5 * factor * (r - q)))))
-            at = at + 0.5 * factor * (q + r)
-        return MotionLaw.of(0.0, *stretches)
 
     # -- what is wrong -----------------------------------------------------------------------------------
 
@@ -229,7 +203,7 @@ class Cylinder(CheckedDescription):
 
     def _open_faults(self) -> Iterator[InitErrorDetails]:
         """A cycle of flow that leaves the rod elsewhere."""
-        out, back = self._volumes()
+        out, back = self.travels()
         if abs(out - back) > _CLOSES * max(out, back) or not out:
             assert self.areas is not None
             side, area = ("rod", self.areas[1]) if out > back else ("bore", self.areas[0])

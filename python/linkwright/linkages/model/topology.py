@@ -146,7 +146,7 @@ _MOVED_BY = ("start_length", "law", "flow")
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One element: its kind, its name, the names that it refers to by key, whether it is redundant or driven."""
+    """One element: its kind, its name, the names that it refers to by key, and what else tells it apart."""
 
     kind: ElementKind
     name: str

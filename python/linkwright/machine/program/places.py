@@ -178,5 +178,5 @@ def angle_name(link: str) -> str:
 
 
 def length_name(name: str) -> str:
-    """Name of the slide that holds the given length of a cylinder, or that of its rod; no element can have it."""
+    """Name of the slide that holds the given length of a cylinder; no element can have it."""
     return f"{name}.length"
