@@ -23,8 +23,8 @@ _SIZES = (
     ("peak velocity", "velocity_max"),
     ("maximum force", "force_max"),
     ("minimum force", "force_min"),
-    ("maximum pressure in {bar}", "pressure_max"),
-    ("peak flow in {l/min}", "flow_max"),
+    ("maximum pressure [{bar}]", "pressure_max"),
+    ("peak flow [{l/min}]", "flow_max"),
     ("peak power", "power_max"),
 )
 
