@@ -131,7 +131,7 @@ def test_pressures_make_the_force_and_none_is_below_the_back_pressure() -> None:
 
 
 def test_pressure_pushes_the_points_apart() -> None:
-    """50 bar on the bore, 5 bar on the annulus; over a cycle friction takes twice its force times the stroke."""
+    """50 bar on the bore, 5 bar on the annulus; friction takes its force times the speed of the rod."""
     entries = 'pressure = "50 bar"\npressure_rod = "5 bar"\nfriction = "100 N"'
     machine = lw.loads(ROCKER.replace("ENTRIES", entries))
     cylinder, forces = lw.cylinder_force(machine), lw.forces(machine)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,8 @@ import linkwright as lw
 from linkwright.app.report.scene import moving_scene
 from linkwright.kernel.errors import MachineError
 from linkwright.linkages.model.mobility import mobility
+
+FOUND = Path(__file__).parents[1] / "found"
 
 BOOM = """
 format = 1
@@ -122,6 +125,33 @@ pull = { kind = "force", on = "J", force = "100 N", direction = "-90 deg" }
     e = [joint / np.hypot(*joint.T)[:, None], (joint - [1, 0]) / np.hypot(*(joint - [1, 0]).T)[:, None]]
     total = held.drives["Y"][:, None] * e[0] + held.drives["Z"][:, None] * e[1]
     assert total == pytest.approx(np.tile([0.0, 100.0], (37, 1)), abs=1e-9)
+
+
+def test_a_boom_by_a_cylinder_is_the_crank_by_its_law() -> None:
+    """The length grows with φ without end: the crank's law says acos, the cylinder 5 + φ."""
+    crank = lw.loads((FOUND / "boom_by_law.toml").read_text())
+    cylinder = lw.loads("""
+format = 1
+name = "boom by a cylinder"
+[mechanism.points]
+G = { x = 3 }
+[mechanism.cylinders.cyl]
+start = "G"
+end = "C"
+start_length = 5
+law = "phi"
+[mechanism.joints.C]
+x = 0.1
+y = 4
+[mechanism.bars.boom]
+start = "O"
+end = "C"
+length = 4
+""")
+    phi = np.linspace(0.0, 1.9, 20)
+    by_law, by_length = lw.kinematics(crank, phi).links["C"], lw.kinematics(cylinder, phi).links["boom"]
+    for name in ("angle", "d1", "d2"):
+        assert getattr(by_length, name) == pytest.approx(getattr(by_law, name), rel=1e-9), name
 
 
 def test_a_cylinder_is_two_links_and_no_freedom() -> None:

@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple
 class Part(NamedTuple):
     """One element as the assembly sees it."""
 
-    # `"element"`, `"joint"`, `"bar"`, `"cylinder"` (a bar of varying length) or `"carried"` (a point of a link).
+    # `"element"`, `"joint"`, `"bar"`, `"cylinder"` (of varying length) or `"carried"` (a point of a link).
     role: Literal["element", "joint", "bar", "cylinder", "carried"]
     # Points and links that must be placed before: the ends of a bar, what the guide of a joint hangs on.
     needs: tuple[str, ...]

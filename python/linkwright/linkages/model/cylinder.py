@@ -1,12 +1,12 @@
-"""Hydraulic cylinders between two points of any links: drivers by length or flow, or what pushes them apart.
+"""Hydraulic cylinders between two points of any links: drivers by length or flow, or forces.
 
-A cylinder has a barrel, which turns about the trunnion `start`, and a rod, which ends in the eye `end`. One with
-a `start_length` is a driver: its length L(φ) follows a formula, or the oil that flows into its chambers,
+A cylinder has a barrel, which turns about the trunnion `start`, and a rod, which ends in the eye `end`. One
+with a `start_length` is a driver: its length L(φ) follows a formula, or the oil that flows into its chambers,
 
 .. math:: \\dot L = Q/A, \\qquad A = \\pi D^2/4 \\ (Q > 0), \\quad A = \\pi (D^2 - d^2)/4 \\ (Q < 0)
 
-with the bore D and the rod's diameter d (the law of the flow: `cam/model/flow_law.py`). Any other acts with a force
-(`kinetostatics/model/cylinder_loads.py`).
+with the bore D and the rod's diameter d (the law of the flow: `cam/model/flow_law.py`). Any other acts with a
+force (`kinetostatics/model/cylinder_loads.py`).
 """
 
 from __future__ import annotations
