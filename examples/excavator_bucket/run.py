@@ -16,9 +16,8 @@ def potential(machine: lw.Machine) -> np.ndarray:
     energy = np.zeros(len(ANGLES))
     for name, start in {"stick": "S", "bucket": "G", "bucket_cylinder": "T", "rod": "P"}.items():
         body, angle = machine.bodies[name], motion.links[machine.bodies[name].on or name].angle
-        height = (
-            motion.points[start].position[:, 1] + body.along * np.sin(angle) + body.across * np.cos(angle)
-        )
+        height = motion.points[start].position[:, 1] + body.along * np.sin(angle)
+        height = height + body.across * np.cos(angle)
         energy += body.mass * machine.loads["weight"].acceleration * height
     soil = machine.loads["soil"]
     along = np.array([np.cos(soil.direction), np.sin(soil.direction)])
@@ -27,8 +26,7 @@ def potential(machine: lw.Machine) -> np.ndarray:
 
 def study(machine: lw.Machine) -> dict[str, float]:
     """Deviation of both holding forces from virtual work, F = dU/dL; largest pressures in motion."""
-    held = lw.forces(machine, speed=0.0, angles=ANGLES)
-    deviation = 0.0
+    held, deviation = lw.forces(machine, speed=0.0, angles=ANGLES), 0.0
     for name, cylinder in machine.mechanism.cylinders.items():
         address = f"mechanism.cylinders.{name}.start_length"
         at = [lw.replace(machine, {address: cylinder.start_length + step}) for step in (-STEP, STEP)]

@@ -43,7 +43,7 @@ _ORIGIN = FixedPoint(x=0.0, y=0.0)
 class Link(NamedTuple):
     """A link of a mechanism: the rigid body between two of its points."""
 
-    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke", "barrel"]
+    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke", "barrel", "piston rod"]
     element: str  # name of the element that makes it
     # Names of the points that it runs between; the same for a gear or a yoke, which has one point.
     start: str
@@ -137,12 +137,13 @@ class Mechanism(Description):
         for name, cylinder in self.cylinders.items():
             ends = cylinder.start, cylinder.end
             links[name] = Link("barrel", name, *ends, cylinder.barrel_length or 0.0)
-            links[f"{name}.rod"] = Link("rod", name, *ends[::-1], cylinder.rod_length or 0.0)
+            links[f"{name}.rod"] = Link("piston rod", name, *ends[::-1], cylinder.rod_length or 0.0)
         return links
 
     def laws(self) -> dict[str, Crank | LinearDriver | Cylinder]:
         """Drivers that follow a formula, by name."""
-        drivers = {**self.cranks, **self.linear_drivers, **self.cylinders}
+        drivers: dict[str, Crank | LinearDriver | Cylinder] = {**self.cranks, **self.linear_drivers}
+        drivers |= self.cylinders
         return {name: driver for name, driver in drivers.items() if driver.law is not None}
 
     def steps(self) -> list[Step]:
