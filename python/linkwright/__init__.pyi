@@ -71,6 +71,7 @@ from linkwright.kernel.reader.out_units import shown_in as shown_in
 from linkwright.kinetostatics.balancing import balance as balance
 from linkwright.kinetostatics.balancing import partial_balance as partial_balance
 from linkwright.kinetostatics.contact_in_time import contact_losses as contact_losses
+from linkwright.kinetostatics.cylinder import cylinder_force as cylinder_force
 from linkwright.kinetostatics.envelope import envelope as envelope
 from linkwright.kinetostatics.envelope import harmonics as harmonics
 from linkwright.kinetostatics.envelope import load_cases as load_cases

@@ -228,6 +228,17 @@ class Condition:
         length: Final[int]
 
     @final
+    class Length(Condition):
+        """Two points at a distance that is a slide."""
+
+        __match_args__: Final = ("start", "end", "slide")
+
+        def __new__(cls, *, start: int, end: int, slide: int) -> Condition.Length: ...
+        start: Final[int]
+        end: Final[int]
+        slide: Final[int]
+
+    @final
     class OnLine(Condition):
         """A point on a guide of a link that is placed before."""
 

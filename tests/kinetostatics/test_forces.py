@@ -122,14 +122,14 @@ def _external(machine: lw.Machine, scene: Scene) -> dict[str, np.ndarray]:
     from linkwright.kinetostatics.applied import applied
 
     found = {name: np.zeros((scene.n, 2)) for name in scene.structure.members}
-    for load in machine.loads.values():
+    for load in machine.all_loads.values():
         acts = applied(scene, load).wrenches
         for name in found:
             found[name] += acts.on_member(name)[:, :2]
     result = forces(machine, speed=SPEED, acceleration=ACCELERATION)
     for drive in scene.structure.drives:
-        driver = scene.mechanism.linear_drivers.get(drive.name) or scene.mechanism.cranks[drive.name]
-        if driver.follows() is not None:
+        driver = scene.mechanism.linear_drivers.get(drive.name) or scene.mechanism.cranks.get(drive.name)
+        if driver is not None and driver.follows() is not None:
             follower = follower_at(scene, drive.name)
             found[drive.member] += _pressed(scene, follower, drive.name, result.drives[drive.name])
         elif drive.guide is not None:
@@ -156,7 +156,7 @@ def test_force_on_the_frame_is_the_change_of_momentum(found: tuple[lw.Machine, F
     from linkwright.kinetostatics.applied import applied
 
     outside, moment = np.zeros((scene.n, 2)), np.zeros(scene.n)
-    for load in machine.loads.values():
+    for load in machine.all_loads.values():
         values = applied(scene, load).wrenches.values
         outside += values[:, :, :2].sum(axis=1)
         for name, i in scene.index.items():
@@ -191,7 +191,7 @@ def test_contributions_add_up(found: tuple[lw.Machine, Forces]) -> None:
 def test_shares_of_loads_are_parts_of_the_result() -> None:
     machine = lw.read("press_with_flywheel")
     result = forces(machine, speed=5.0)
-    assert list(result.contributions) == ["inertia", *(f"loads.{name}" for name in machine.loads)]
+    assert list(result.contributions) == ["inertia", *(f"loads.{name}" for name in machine.all_loads)]
     copy = pickle.loads(pickle.dumps(result))
     assert copy == result
     with pytest.raises(ValueError, match="read-only"):

@@ -59,6 +59,49 @@ rub = { kind = "dry", on = "K", force = 7 }
 motor = { kind = "torque", on = "R.rocker", torque = 3 }
 pump = { kind = "torque_swing", on = "R.rocker", angle = [0, 2, 4], forward = [2, 6, 3], return = [1, 1, 2] }
 """,
+    "cylinders that drive and push": """
+[mechanism.points]
+T = { y = 0.35 }
+F = { x = 1.9 }
+G = { x = 2.3, y = -0.05 }
+[mechanism.cylinders.Z]
+start = "T"
+end = "P"
+start_length = 1.75
+law = "0.1*(1 - cos(phi)) + 0.01*sin(2*phi)"
+bore = 0.09
+rod = 0.06
+friction = 300
+[mechanism.cylinders.Y]
+start = "G"
+end = "P"
+bore = 0.05
+pressure = 2e5
+pressure_rod = 1e5
+damping = 40
+friction = 20
+[mechanism.cylinders.X]
+start = "F"
+end = "Q"
+stiffness = 900
+free_length = 0.5
+[mechanism.joints]
+P = { x = 1.75, y = 0.45 }
+Q = { x = 2.45, y = 0.35 }
+[mechanism.bars]
+lever = { start = "F", end = "P", length = 0.48 }
+link = { start = "P", end = "Q", length = 0.55 }
+bucket = { start = "G", end = "Q", length = 0.42 }
+[bodies]
+Z = { mass = 30, inertia = 4, along = 0.5, across = 0.01 }
+"Z.rod" = { mass = 12, inertia = 1, along = 0.4, across = -0.01 }
+lever = { mass = 8, inertia = 0.3 }
+bucket = { mass = 120, inertia = 3, along = 0.3, across = -0.2 }
+Y = { mass = 3, inertia = 0.1, along = 0.2 }
+"Y.rod" = { mass = 2 }
+[loads]
+gravity = { kind = "gravity" }
+""",
     "two cranks, one pin with two rods": _CRANK
     + """
 B = { mass = 1, inertia = 0.01, along = 0.02, across = 0 }

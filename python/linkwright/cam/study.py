@@ -34,7 +34,7 @@ def made_forces(known: Results, findings: Findings) -> dict[str, LoadedCam]:
     """The cams that can be made under load; a follower that leaves its cam is a finding."""
     machine = known.machine
     speed = machine.design_speed
-    if not (machine.bodies or machine.loads) or (known.forces is None and speed is None):
+    if not (machine.bodies or machine.all_loads) or (known.forces is None and speed is None):
         return {}
     along = None if known.steady_state is not None else speed
     loaded = [findings.of(loaded_cam, machine, cam, along) for cam in known.sound_cams]
@@ -51,7 +51,7 @@ def check_cams(machine: Machine, findings: Findings) -> Iterator[str]:
     known = Results(machine)
     made_cams(known, findings)
     yield "cams: undercut, self-intersection, pressure angle of 90°, concave parts, second followers"
-    if known.sound_cams and _keeps_its_speed(machine) and (machine.bodies or machine.loads):
+    if known.sound_cams and _keeps_its_speed(machine) and (machine.bodies or machine.all_loads):
         for cam in known.sound_cams:
             findings.of(loaded_cam, machine, cam)
         yield "cams at constant speed: loss of contact"

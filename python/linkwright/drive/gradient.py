@@ -202,7 +202,7 @@ def _solved(machine: Machine) -> tuple[SteadyState, SteadySolution]:
     """Steady motion and its solution, once for all analyses of a machine."""
     kept = compile_machine(machine).kept
     if "fine steady motion" not in kept:
-        has_formulas = any(load.kind == "formula" for load in machine.loads.values())
+        has_formulas = any(load.kind == "formula" for load in machine.all_loads.values())
         accuracy = _ACCURACY_WITH_FORMULAS if has_formulas else _ACCURACY
         kept["fine steady motion"] = solved_state(machine, accuracy, _LOOK)
     known: tuple[SteadyState, SteadySolution] = kept["fine steady motion"]

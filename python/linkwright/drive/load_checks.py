@@ -39,7 +39,7 @@ def require_turn(machine: Machine) -> CompiledMachine:
 
 def require_same_turns(machine: Machine) -> None:
     """Raise `SteadyStateError`, which names the load, if one changes with time itself."""
-    for name, load in machine.loads.items():
+    for name, load in machine.all_loads.items():
         if isinstance(load, FormulaLoad) and load.knows_time:
             raise SteadyStateError(
                 f'no steady motion: the formula of {name}, "{load.text}", depends on time t: no revolution '
@@ -54,7 +54,7 @@ def require_sound_loads(compiled: CompiledMachine, machine: Machine) -> None:
     """
     require_separate_axes(machine)
     require_finite_accelerations(machine)
-    doubtful = {name: load for name, load in machine.loads.items() if isinstance(load, _DOUBTFUL)}
+    doubtful = {name: load for name, load in machine.all_loads.items() if isinstance(load, _DOUBTFUL)}
     if not doubtful:
         return
     phi = turn_angles(_ANGLES, compiled.turns)
@@ -76,7 +76,7 @@ def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
     """
     where = f"at {speed:.6g} rad/s (φ = {np.degrees(angle % cycle_of(machine)):.4g}°)"
     what = f"a load jumps {where}"
-    for name, load in machine.loads.items():
+    for name, load in machine.all_loads.items():
         if not isinstance(load, FormulaLoad):
             continue
         alone = compile_machine(machine.with_entries({"loads": {name: load}}))
@@ -100,7 +100,7 @@ def sliding(machine: Machine, angle: float, speed: float) -> SteadyStateError:
 
 def require_half_turns(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise if a torsional spring is turned beyond half a revolution from its free angle."""
-    for name, load in machine.loads.items():
+    for name, load in machine.all_loads.items():
         if isinstance(load, TorsionalSpring):
             _require_half_turns(name, load, compiled, turn_angles(_ANGLES, compiled.turns))
 

@@ -68,7 +68,7 @@ def made_reduction(known: Results, findings: Findings) -> Reduction | None:
 def has_mass(machine: Machine) -> bool:
     """Whether there are masses or loads, a drive with inertia among them."""
     inertia = 0.0 if machine.drive is None else drive_inertia(machine.drive)
-    return bool(machine.bodies or machine.loads or inertia)
+    return bool(machine.bodies or machine.all_loads or inertia)
 
 
 def made_constant_energy(known: Results, findings: Findings) -> ConstantEnergy | None:
@@ -138,12 +138,12 @@ def _motion(known: Results) -> CycleMotion:
 def check_drive(machine: Machine, findings: Findings) -> Iterator[str]:
     """Whether the mechanism closes, its loads have values, and the motor drives it from its start."""
     # The travel of a screw ends; without masses and loads nothing asks for a whole revolution.
-    ends = is_screw(machine) and not (machine.bodies or machine.loads or machine.drive)
+    ends = is_screw(machine) and not (machine.bodies or machine.all_loads or machine.drive)
     compiled = (findings.beside_of if ends else findings.of)(require_turn, machine)
     if compiled is not None:
         findings.add(idle_parts(machine))
         findings.warn(law_warnings(machine))
-    loads = "; loads are defined everywhere" if machine.loads else ""
+    loads = "; loads are defined everywhere" if machine.all_loads else ""
     closes = "closure" if compiled is None else "closes"
     yield f"mechanism: {closes} over the {'travel' if is_screw(machine) else 'full revolution'}{loads}"
     if has_motor(machine):

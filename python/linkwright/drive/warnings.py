@@ -116,7 +116,7 @@ def _least_start(drive: Drive) -> Iterator[str]:
 
 
 def _unloaded(machine: Machine) -> Iterator[str]:
-    if not machine.loads:
+    if not machine.all_loads:
         yield "The machine has no loads: only its inertia resists."
 
 

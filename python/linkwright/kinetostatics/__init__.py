@@ -8,6 +8,9 @@
 | `cam_contact` | The force with which a cam drives its follower |
 | `collect` | From the unknowns to the result |
 | `commands` | ``linkwright forces`` and ``linkwright balance`` |
+| `cylinder` | Force, pressures, flow and power of a hydraulic cylinder |
+| `cylinder_gradient` | Their derivatives by entries of the machine |
+| `cylinder_report` | Tables and figures of cylinders |
 | `envelope` | Peaks, root mean squares, means and harmonics of forces; load cases side by side |
 | `contact` | Contacts that can be lost, and whether they are in steady motion |
 | `contact_in_time` | Where does a motion in time lose the contact of a follower, the tension of a cable? |

@@ -5,6 +5,7 @@ from __future__ import annotations
 from operator import attrgetter
 
 from linkwright.machine.analysis import Analysis, of
+from linkwright.machine.machine import Machine
 
 FORCES = Analysis(
     name="forces",
@@ -20,6 +21,31 @@ FORCES = Analysis(
     figures=of("kinetostatics.figures:captioned_forces", "forces"),
     headline=of("kinetostatics.tables:forces_headline", "forces"),
     assumptions=of("kinetostatics.words:load_assumptions", "machine"),
+)
+
+
+def _cylinders(machine: Machine) -> tuple[str, ...]:
+    return tuple(machine.mechanism.cylinders)
+
+
+def _has_cylinders(machine: Machine) -> bool:
+    return bool(machine.mechanism.cylinders)
+
+
+CYLINDER = Analysis(
+    name="cylinder",
+    words="Cylinders",
+    function=of("kinetostatics.cylinder:cylinder_force"),
+    applies=_has_cylinders,
+    parts=_cylinders,
+    part="cylinder",
+    make=of("kinetostatics.cylinder:made_cylinders"),
+    warnings=of("kinetostatics.cylinder:cylinder_warnings", "machine"),
+    tangents=of("kinetostatics.cylinder_gradient:cylinder_tangents"),
+    check=of("kinetostatics.cylinder:check_cylinders"),
+    tables=of("kinetostatics.cylinder_report:cylinder_tables", "*cylinder"),
+    figures=of("kinetostatics.cylinder_report:cylinder_figures", "*cylinder"),
+    headline=("force_max", "force_min", "pressure_max", "power_max"),
 )
 
 CONTACT_LOSSES = Analysis(

@@ -164,7 +164,7 @@ class Collector:
 
     def _load_forces(self) -> dict[str, Floats]:
         forces = {}
-        for name, load in self.scene.machine.loads.items():
+        for name, load in self.scene.machine.all_loads.items():
             pair = self.scene.structure.pairs.get(f"{getattr(load, 'on', None)}.guide")
             if pair is not None and pair.guide is not None:
                 force = self.sources[f"loads.{name}"].wrenches.on_member(pair.second)[:, :2]
@@ -173,7 +173,7 @@ class Collector:
 
     def _load_torques(self) -> dict[str, Floats]:
         torques = {}
-        for name, load in self.scene.machine.loads.items():
+        for name, load in self.scene.machine.all_loads.items():
             source, on = self.sources[f"loads.{name}"], getattr(load, "on", None)
             if on is None and isinstance(load, TorqueAngle | TorqueSpeed):
                 torques[name] = -source.resisting

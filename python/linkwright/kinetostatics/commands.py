@@ -145,7 +145,7 @@ def forces(
             *unjudged_limits(machine),
         ],
         head=partial(_head, speeds),
-        tables=partial(_tables, cases, orders),
+        tables=partial(_tables, machine, cases, orders),
         files={
             f"forces{end}.csv": later("kernel.page.table:curves_csv", result)
             for end, result in _numbered(cases)
@@ -156,7 +156,7 @@ def forces(
 
 
 def _nothing_to_carry(machine: Machine) -> list[str]:
-    if machine.bodies or machine.loads:
+    if machine.bodies or machine.all_loads:
         return []
     words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."
     if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
@@ -190,7 +190,9 @@ def _orders(machine: Machine, cases: dict[str, Forces]) -> ShakingOrders | None:
     return shaking_orders(machine, speed=turn / float(motion.time[-1] - motion.time[0]))
 
 
-def _tables(cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Table]:
+def _tables(machine: Machine, cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Table]:
+    from linkwright.kinetostatics.cylinder import cylinder_force
+    from linkwright.kinetostatics.cylinder_report import cylinder_tables
     from linkwright.kinetostatics.tables import (
         cases_table,
         contribution_table,
@@ -205,7 +207,8 @@ def _tables(cases: dict[str, Forces], orders: ShakingOrders | None) -> list[Tabl
         return [cases_table(cases)]
     (only,) = cases.values()
     by_order = [] if orders is None else [orders_table(orders)]
-    return [envelope_table(only), *by_order, contribution_table(only)]
+    cylinders = [cylinder_force(machine, name, only) for name in machine.mechanism.cylinders]
+    return [envelope_table(only), *cylinder_tables(cylinders), *by_order, contribution_table(only)]
 
 
 def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:

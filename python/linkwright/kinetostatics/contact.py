@@ -21,7 +21,7 @@ def contacts(machine: Machine) -> list[tuple[str, str]]:
 
 def lost_contacts(machine: Machine) -> tuple[str, ...]:
     """Contacts that a machine loses in its steady motion or at its design speed, in sentences."""
-    if not has_speed(machine) or not contacts(machine) or not (machine.bodies or machine.loads):
+    if not has_speed(machine) or not contacts(machine) or not (machine.bodies or machine.all_loads):
         return ()
     collected = Findings()
     collected.of(forces, machine)

@@ -162,4 +162,4 @@ def _sources(scene: Scene, models: list[PairModel]) -> dict[str, AppliedLoad]:
             if model.extra is not None:
                 slow.add(model.extra, model.viscous)
         sources["friction"] = AppliedLoad(slow, np.zeros(scene.n))
-    return sources | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.loads.items()}
+    return sources | {f"loads.{name}": applied(scene, load) for name, load in scene.machine.all_loads.items()}

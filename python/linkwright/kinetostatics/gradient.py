@@ -114,20 +114,30 @@ def force_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     return Derivatives(program.variables, extremes, ties, missing, program.refused, lost, words, units)
 
 
-def drive_forces_along(
-    machine: Machine, variables: Sequence[str], angles: Floats
-) -> tuple[Directions, dict[str, Any], dict[str, float], Kinks]:
-    """Forces of drives and cams at crank angles with their derivatives by some entries, by name, (n,) each.
+class DrivesAlong(NamedTuple):
+    """Drives of a machine at crank angles, with their derivatives by some entries."""
 
-    Beside the entries that have some: entries by which the motion is lost, and the kinks of the machine.
-    """
+    program: Directions  # the entries that have some
+    scene: Scene  # machine and motion
+    forces: dict[str, Any]  # of drives and cams by name, (n,) each
+    lost: dict[str, float]  # entries by which the motion is lost
+    kinks: Kinks
+
+
+def drives_along(machine: Machine, variables: Sequence[str], angles: Floats) -> DrivesAlong:
+    """Drives of a machine at crank angles along its motion; at rest where nothing says how fast it is."""
     entries = _entries(machine, variables)
     program = entries.program
     solution = _solution(machine, program)
-    motion = motion_at(machine, None, angles=angles) if solution is None else _read(machine, solution, angles)
+    if solution is None:
+        has_motor = machine.drive is not None and machine.drive.motor is not None
+        speed = None if has_motor or machine.design_speed is not None else 0.0
+        motion = motion_at(machine, None, speed=speed, angles=angles)
+    else:
+        motion = _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
-    drives = _collected(_SceneAlong(machine, along, entries)).drives()
-    return program, drives, lost, kinks_of(machine, program)
+    scene = _SceneAlong(machine, along, entries)
+    return DrivesAlong(program, scene, _collected(scene).drives(), lost, kinks_of(machine, program))
 
 
 def drive_torque_along(
@@ -263,7 +273,7 @@ def _motion_along(
             name: Tangent(getattr(motion, name), getattr(curves, name)) for name in _MOTION[1:]
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
-    speed = entries.machine.design_speed
+    speed: Any = entries.machine.design_speed or 0.0
     if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         speed = drive.motor.speed / drive.gearbox.ratio
     return _at_speed(motion, speed, len(program.variables)), {}, None

@@ -193,7 +193,7 @@ def _drive(scene: Scene, drive: Drive) -> PairModel:
         without_friction = _without_friction(scene, drive.name, "torque", drive.member, torque)
         without_friction.moments = (True,)
         return without_friction
-    pair = scene.structure.pairs[f"{drive.member}.guide"]
+    pair = scene.structure.pairs[f"{drive.name}.guide"]
     push = Wrenches(scene).on_guide(pair, scene.direction(drive.guide))
     return _without_friction(scene, drive.name, "force", drive.member, push)
 

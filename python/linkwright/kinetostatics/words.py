@@ -65,11 +65,11 @@ def _is_slender(body: Body) -> bool:
 
 
 def _loads(machine: Machine) -> Iterator[str]:
-    kinds = {type(load) for load in machine.loads.values()}
+    kinds = {type(load) for load in machine.all_loads.values()}
     yield from (text for kind, text in _LOADS.items() if kind in kinds)
-    for load in machine.loads.values():
+    for load in machine.all_loads.values():
         if isinstance(load, Gravity):
             way = degrees(load.direction)
             yield f"Gravity acts on all bodies, {quantity(load.acceleration, 'm/s²')} in the direction {way}."
-    if not any(isinstance(load, Gravity) for load in machine.loads.values()):
+    if not any(isinstance(load, Gravity) for load in machine.all_loads.values()):
         yield "Weight is neglected: the machine has no load of kind gravity."

@@ -25,7 +25,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Record
 from linkwright.kernel.units.kinds import ANGLE
 from linkwright.linkages.dyads import dyads_of
-from linkwright.linkages.obstacle import change_point, describe
+from linkwright.linkages.obstacle import change_point, describe, missing_length
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -332,7 +332,7 @@ def _endless(compiled: CompiledMachine) -> Closure:
         gaps = _gaps(compiled, angles)
         closes = _closing(compiled, gaps)
         sizes = np.nan_to_num(np.abs(gaps)).max(axis=1, keepdims=True)
-        worst = np.nan_to_num(gaps / np.maximum(sizes, 1e-300), nan=-1.0).min(axis=1)
+        worst = np.nan_to_num(_shares(compiled, gaps, np.maximum(sizes, 1e-300)), nan=-1.0).min(axis=1)
         element = _parts(compiled)[int(np.argmin(worst))]
         if not closes[_ANGLES]:
             return Closure((), element, turns=None)
@@ -473,6 +473,10 @@ def _sentence(closed: Closure, machine: Machine) -> str:
         where = f"a change point at crank angle {_deg(closed.change_point)}°"
         return f"{closed.element} reaches {where}: {what}; {remedy}"
     what, remedy = describe(closed.element, machine)
+    if closed.ranges and closed.turns is not None:
+        short = missing_length(closed.element, machine, closed.ranges, closed.turns)
+        if short:
+            what, remedy = f"{what}; {short}", "shorten the stroke, or move the points of the cylinder"
     if not closed.ranges:
         return f"the mechanism does not close at any crank angle: {what}; {remedy}"
     where = " and ".join(_range(low, high, closed.turns) for low, high in closed.ranges)

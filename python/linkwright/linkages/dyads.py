@@ -59,7 +59,11 @@ class Dyad:
 
 def dyads_of(compiled: CompiledMachine) -> list[Dyad]:
     """The dyads and groups of a machine in build order."""
-    return [_dyad(compiled, element) for element in compiled.elements if isinstance(element, Closing)]
+    # Barrel and rod of a cylinder are in line, however they lie.
+    rods = [name for name in compiled.dyads if name.endswith(".rod")]
+    in_line = {*rods, *(name.removesuffix(".rod") for name in rods)}
+    closing = (element for element in compiled.elements if isinstance(element, Closing))
+    return [_dyad(compiled, part) for part in closing if compiled.dyads[part.dyad] not in in_line]
 
 
 def _dyad(compiled: CompiledMachine, element: Closing) -> Dyad:

@@ -205,7 +205,7 @@ def kinematics_of(
 def everything(compiled: CompiledMachine) -> list[tuple[str, str]]:
     """Pairs of part and name of all that has a name in the machine: not what the core keeps for itself."""
     names = {"points": compiled.points, "links": compiled.links, "slides": compiled.slides}
-    hidden = (".angle", ".law", " reversed")
+    hidden = (".angle", ".law", ".length", " reversed")
     return [(part, name) for part, known in names.items() for name in known if not name.endswith(hidden)]
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import AssemblyError, FindingError, InputError
 from linkwright.kernel.reader.numbers import degrees
+from linkwright.linkages.model.element import Crank
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import axis_drivers
@@ -60,19 +61,17 @@ class LawJump:
 
 
 def drivers_with_laws(machine: Machine) -> dict[str, tuple[str, bool]]:
-    """Cranks and linear drivers with a formula: name → the formula, and whether it is an angle."""
-    mechanism = machine.linkage
-    laws = {name: (crank.law, True) for name, crank in mechanism.cranks.items() if crank.law}
-    return laws | {
-        name: (driver.law, False) for name, driver in mechanism.linear_drivers.items() if driver.law
-    }
+    """Drivers with a formula: name → the formula, and whether it is an angle."""
+    laws = machine.linkage.laws()
+    return {name: (driver.law or "", isinstance(driver, Crank)) for name, driver in laws.items()}
 
 
 def shaft_of_laws(machine: Machine) -> Iterator[str]:
     """What torques at the crank are where drivers follow laws; nothing without masses and loads."""
-    own = axis_drivers(machine)
+    # Of a cylinder the force is given by itself.
+    own = {*axis_drivers(machine), *machine.linkage.cylinders}
     names = ", ".join(name for name in drivers_with_laws(machine) if name not in own)
-    if names and (machine.bodies or machine.loads):
+    if names and (machine.bodies or machine.all_loads):
         yield (
             f"The law of {names} acts as a cam on the crankshaft: torques at the crank are those on the "
             "input shaft of the law; a servo motor that generates the motion needs the torque of the "
@@ -150,14 +149,13 @@ def _jumps(compiled: CompiledMachine, slide: int, order: int) -> list[tuple[floa
 def _bodies_moved(machine: Machine, corner: LawJump) -> list[str]:
     if not machine.bodies:
         return []
-    address = f"mechanism.cranks.{corner.name}.phase"
-    if not corner.is_angle:
-        address = f"mechanism.linear_drivers.{corner.name}.start"
-    part = address.split(".")[1]
-    own = getattr(machine.mechanism, part).get(corner.name)
-    if own is None:
+    starts = {"cranks": "phase", "linear_drivers": "start", "cylinders": "start_length"}
+    tables = (table for table in starts if corner.name in getattr(machine.mechanism, table))
+    part = next(tables, None)
+    if part is None:
         return list(machine.bodies)
-    value = own.phase if corner.is_angle else own.start
+    value = getattr(getattr(machine.mechanism, part)[corner.name], starts[part])
+    address = f"mechanism.{part}.{corner.name}.{starts[part]}"
     try:
         there, moved = _places(machine), _places(replace(machine, {address: float(value) + _MOVED}))
     except (AssemblyError, InputError):

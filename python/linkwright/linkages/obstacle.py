@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.core import Channel
+from linkwright.machine.program.places import length_name
 
 # What is wrong, and the remedy.
 Words = tuple[str, str]
@@ -28,6 +35,32 @@ def describe(element: str, machine: Machine) -> Words:
         if element in getattr(mechanism, table):
             return make(element, mechanism)
     return _group(element, mechanism)
+
+
+# Crank angles in each range, and over the cycle, at which lengths of cylinders are compared.
+_LOOKS = 721
+
+
+def missing_length(element: str, machine: Machine, ranges: Sequence[tuple[float, float]], turns: int) -> str:
+    """How far a cylinder that moves a group would go beyond what it reaches, and where; empty without one.
+
+    `element`: the joints of the group; `ranges`: crank angles in which it closes [rad].
+    """
+    compiled, worst = compile_machine(machine), (0.0, "")
+    for name in _cylinders_at(tuple(element.split(" and ")), machine.linkage):
+        length = Channel.Slide(compiled.slides[length_name(name)])
+        phi = np.linspace(0.0, 2 * np.pi * turns, _LOOKS * turns)
+        reached = np.concatenate([np.linspace(low, high, _LOOKS) for low, high in ranges])
+        wanted, known = (compiled.motion([length], angles)[0][0] for angles in (phi, reached))
+        beyond = np.maximum(wanted - known.max(), known.min() - wanted)
+        at = int(beyond.argmax())
+        end = known.max() if wanted[at] > known.max() else known.min()
+        text = (
+            f"the cylinder {name} reaches {end:.4g} m of {wanted[at]:.4g} m at a crank angle of "
+            f"{np.degrees(phi[at]):.4g}°: {1e3 * beyond[at]:.4g} mm are missing"
+        )
+        worst = max(worst, (float(beyond[at]), text))
+    return worst[1]
 
 
 def change_point(element: str, machine: Machine) -> Words:
@@ -89,7 +122,20 @@ def _bars_at(joints: tuple[str, ...], mechanism: Mechanism) -> str:
         for name, bar in mechanism.bars.items()
         if {bar.start, bar.end} & ends and not bar.redundant
     ]
+    bars += _cylinders_at(joints, mechanism)
     return " and ".join(filter(None, [", ".join(bars[:-1]), *bars[-1:]]))
+
+
+def _cylinders_at(joints: tuple[str, ...], mechanism: Mechanism) -> Iterator[str]:
+    """Cylinders that drive joints, or points on bars that end in them."""
+    for name, cylinder in mechanism.cylinders.items():
+        for end in (cylinder.start, cylinder.end):
+            part = mechanism.rigid_points.get(end)
+            if cylinder.drives and (
+                end in joints or (part is not None and _hangs_on(part.link, joints, mechanism))
+            ):
+                yield name
+                break
 
 
 def _hangs_on(link: str, joints: tuple[str, ...], mechanism: Mechanism) -> bool:

@@ -38,6 +38,7 @@ def parts(machine: Machine, motion: Kinematics) -> Iterator[Scene]:
         yield from cam_parts(machine, series)
     yield from _links(mechanism, series)
     yield from _levers(mechanism, motion, series)
+    yield from _barrels(mechanism, motion, series)
     yield from _cables(mechanism, motion, series)
     yield from _plates(mechanism, series)
     yield from _springs(machine)
@@ -68,7 +69,7 @@ def _series(mechanism: Mechanism) -> dict[str, int]:
     topology = Topology.of(mechanism)
     makers = {name: name for name in topology.moving_points} | topology.links
     references = {element.name: element.references.values() for element in topology.elements}
-    number = {name: n for n, name in enumerate([*mechanism.cranks, *mechanism.linear_drivers])}
+    number = {name: n for n, name in enumerate(topology.drivers)}
     for name in mechanism.build_order():
         movers = [makers[reference] for reference in references[name] if makers.get(reference) in number]
         number.setdefault(name, number[movers[0]] if movers else 0)
@@ -146,7 +147,7 @@ def _block(point: str, link: str | None, angle: float, *, heavy: bool, series: i
 def _links(mechanism: Mechanism, series: dict[str, int]) -> Iterator[Scene]:
     links = mechanism.links()
     for name, link in links.items():
-        if link.start != link.end and link.role != "lever":
+        if link.start != link.end and link.role not in ("lever", "barrel"):
             yield _line(name, link.role, series[link.element], link.start, link.end)
     for name, part in mechanism.rigid_points.items():
         link = links[part.link]
@@ -184,6 +185,19 @@ def _levers(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) ->
         yield {"kind": "slot", "name": name, "at": name, "link": on, "span": span, "bar": bar, **look}
 
 
+# Length of a barrel over the minimum distance of trunnion and eye, where it is not given.
+_BARREL = 0.85
+
+
+def _barrels(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
+    """Barrels of cylinders, hollow, in front of their rods."""
+    for name, cylinder in mechanism.cylinders.items():
+        length = float(cylinder.barrel_length or _BARREL * motion.slides[name].position.min())
+        look = {"at": cylinder.start, "link": name, "angle": 0.0, "offset": 0.0, "series": series[name]}
+        hollow = [0.04 * length, 0.96 * length]
+        yield {"kind": "slot", "name": name, "span": hollow, "bar": [0.0, length], **look}
+
+
 def _cables(mechanism: Mechanism, motion: Kinematics, series: dict[str, int]) -> Iterator[Scene]:
     links = mechanism.links()
     for name, cable in mechanism.cables.items():
@@ -206,7 +220,7 @@ def _plates(mechanism: Mechanism, series: dict[str, int]) -> Iterator[Scene]:
     links = mechanism.links()
     for name, part in mechanism.rigid_points.items():
         link = links[part.link]
-        if link.start != link.end and link.role != "lever":
+        if link.start != link.end and link.role not in ("lever", "barrel"):
             corners = [link.start, link.end, name]
             yield {"kind": "plate", "name": name, "corners": corners, "series": series[name]}
 
@@ -220,7 +234,8 @@ def _grounds(machine: Machine) -> Iterator[Scene]:
     pivots += [cam.pivot or ORIGIN for cam in machine.mechanism.cams.values()]
     for table in ("rockers", "slotted_levers", "gears"):
         pivots += [element.pivot for element in getattr(mechanism, table).values()]
-    pivots += [end for bar in mechanism.bars.values() for end in (bar.start, bar.end)]
+    joining = (*mechanism.bars.values(), *mechanism.cylinders.values())
+    pivots += [end for part in joining for end in (part.start, part.end)]
     fixed = mechanism.fixed_points()
     joined = [load for load in machine.loads.values() if isinstance(load, BetweenPoints)]
     sprung = [end for load in joined for end in load.between]

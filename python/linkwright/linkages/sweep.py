@@ -17,6 +17,7 @@ from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import Channel, Element
 from linkwright.machine.program.motion import LinkRows, PointRows, Rows
+from linkwright.machine.program.places import length_name
 
 # Intervals of a revolution between which at most one extreme of a kind is expected: a degree.
 _INTERVALS = 360
@@ -297,6 +298,10 @@ class _Names:
         self.links = {index: name for name, index in compiled.links.items()}
         self.slides = {index: name for name, index in compiled.slides.items()}
         self.grounds = {fixed.point for fixed in compiled.ground}
+        cylinders = mechanism.cylinders
+        # Of a cylinder the barrel counts; its rod swings and moves with it.
+        self.rods = {f"{name}.rod" for name in cylinders}
+        self.driven = {*mechanism.linear_drivers, *map(length_name, cylinders)}
 
     def of(self, element: Element) -> Iterator[Output]:
         dyads = self.compiled.dyads
@@ -305,12 +310,12 @@ class _Names:
                 yield self._stroke(dyads[element.dyad], element.slide)
             case Element.Rocker():
                 yield self._swing(dyads[element.dyad], self._hung(element))
-            case Element.SlottedLever():
+            case Element.SlottedLever() if dyads[element.dyad] not in self.rods:
                 yield self._swing(dyads[element.dyad], element.link)
                 yield self._stroke(dyads[element.dyad], element.slide)
             case Element.Crossing():
                 yield from (self._stroke(dyads[element.dyad], slide) for slide in element.slides)
-            case Element.Runner(slide=slide) if self.slides[slide] not in self.mechanism.linear_drivers:
+            case Element.Runner(slide=slide) if self.slides[slide] not in self.driven:
                 yield self._stroke(self.slides[slide], slide)
             case Element.Turn(link=link) if self.links[link] in self.mechanism.gears:
                 yield self._swing(self.links[link], link)

@@ -1,5 +1,6 @@
 """The machine: drive, mechanism, bodies, loads, and how it is run up."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
@@ -123,8 +124,20 @@ class Machine(WholeDescription):
 
     @property
     def design_speed(self) -> Any:
-        """Speed of the crankshaft, or of the master, that the file gives [rad/s]; None without it."""
-        return design_speed(self.master, self.drive)
+        """Speed of the crankshaft, of the master or of the cycle of a flow [rad/s]; None without it."""
+        flowing = (part.cycle for part in self.mechanism.cylinders.values() if part.flow is not None)
+        given = design_speed(self.master, self.drive)
+        return next((2 * math.pi / cycle for cycle in flowing), None) if given is None else given
+
+    @property
+    def all_loads(self) -> dict[str, Any]:
+        """Loads of the file by name, and those that cylinders stand for."""
+        if not self.mechanism.cylinders:
+            return self.loads
+        from linkwright.kinetostatics.model.cylinder_loads import cylinder_loads
+
+        parts = (cylinder_loads(name, cylinder) for name, cylinder in self.mechanism.cylinders.items())
+        return self.loads | {name: load for part in parts for name, load in part.items()}
 
     def plot(self, *names: str, over: str | None = None) -> "Figure":
         """Curves by name as a figure, an axis for each unit.

@@ -4,6 +4,7 @@
 | --- | --- |
 | a cam | the driver that follows it: a linear driver or a crank of its name |
 | an axis with sections | the driver of its name, or of its `driver`, that follows them |
+| a cylinder with a flow | one that follows its volume |
 | `pumping_unit`, `rod_rotator` | what `linkwright.pumping.model.expansion` says |
 """
 
@@ -30,18 +31,24 @@ if TYPE_CHECKING:
 def with_followers(
     own: Mechanism, axes: Mapping[str, Axis], master: Master | None, drive: Drive | None
 ) -> Mechanism:
-    """A mechanism with a driver for each cam, the same for the same one; `own`: elements of the file."""
+    """A mechanism with a driver for each cam and flow, and drivers that follow their axes.
+
+    `own`: elements of the file. The same parts give the same mechanism.
+    """
     if axes:
         from linkwright.axes.model.follower import with_axes
 
         parts = (own, axes, master, drive)
         own = _kept(parts, partial(with_axes, *parts), _has_arrays(*axes.values(), master, drive))
-    if not own.cams:
+    flowing = [cylinder for cylinder in own.cylinders.values() if cylinder.flow is not None]
+    if not (own.cams or flowing):
         return own
-    return _kept((own,), partial(_driven, own), _has_arrays(*own.cams.values(), *own.points.values()))
+    parts = (*own.cams.values(), *own.points.values(), *flowing)
+    return _kept((own,), partial(_driven, own), _has_arrays(*parts))
 
 
 def _driven(own: Mechanism) -> Mechanism:
+    from linkwright.cam.model.flow_law import flow_driven
     from linkwright.cam.model.follower import follower_of
 
     points = own.fixed_points()
@@ -53,6 +60,10 @@ def _driven(own: Mechanism) -> Mechanism:
             "cams": {},
             "cranks": {**own.cranks, **cranks},
             "linear_drivers": {**own.linear_drivers, **drivers},
+            "cylinders": {
+                name: cylinder if cylinder.flow is None else flow_driven(cylinder)
+                for name, cylinder in own.cylinders.items()
+            },
         }
     )
 

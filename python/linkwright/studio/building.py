@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from linkwright.kernel.description.place import join, keys, look
 from linkwright.kernel.errors import InputError, LinkwrightError
-from linkwright.linkages.model.topology import DRIVERS, ORIGIN, Topology
+from linkwright.linkages.model.topology import ORIGIN, Topology
 from linkwright.machine.read import loads
 from linkwright.studio.document import changed, tables_of
 
@@ -124,6 +124,11 @@ def _between(**entries: Any) -> Callable[[Site], Iterator[Entries]]:
 def _slots(site: Site) -> Iterator[Entries]:
     for pin in site.moving:
         yield from ({"pin": pin, "pivot": pivot} for pivot in site.fixed)
+
+
+def _cylinders(site: Site) -> Iterator[Entries]:
+    ends = ((fixed, moving) for moving in site.moving for fixed in site.fixed)
+    return ({"start": start, "end": end, "damping": "1000 N s/m"} for start, end in ends)
 
 
 def _rockers(site: Site) -> Iterator[Entries]:
@@ -236,6 +241,7 @@ KINDS: dict[str, Kind] = {
     ),
     "rockers": Kind("Coupler and rocker", "Mechanism", _BOTH, _one("rockers", "R", _rockers)),
     "slotted_levers": Kind("Slotted lever", "Mechanism", _BOTH, _one("slotted_levers", "L", _slots)),
+    "cylinders": Kind("Passive cylinder", "Mechanism", _BOTH, _one("cylinders", "Z", _cylinders)),
     "crossings": Kind("Pin in two guides", "Mechanism", _LINK, _one("crossings", "X", _crossings)),
     "yokes": Kind(
         "Yoke", "Mechanism", _MOVING, _one("yokes", "Y", lambda site: ({"pin": n} for n in site.moving))
@@ -498,7 +504,7 @@ class _Drawing:
         self.names: list[str] = []
         self.places: dict[tuple[float, float], str] = {}  # of what is new
         self.held: dict[str, int] = {}  # new joint → links that hold it
-        self.is_driven = bool(site.topology.names(*DRIVERS))
+        self.is_driven = bool(site.topology.drivers)
 
     def link(self, start: End, end: End) -> None:
         first = start.point or self.places.get((start.x, start.y)) or self._fixed(start)

@@ -135,6 +135,9 @@ pub(crate) enum Condition {
     /// Two points at a distance.
     #[pyo3(constructor = (*, start, end, length))]
     Distance { start: usize, end: usize, length: usize },
+    /// Two points at a distance that is a slide.
+    #[pyo3(constructor = (*, start, end, slide))]
+    Length { start: usize, end: usize, slide: usize },
     /// A point on a guide.
     #[pyo3(constructor = (*, point, line, slide))]
     OnLine { point: usize, line: Line, slide: usize },
@@ -149,6 +152,7 @@ impl Condition {
             Condition::Distance { start: from, end: to, length } => {
                 CoreCondition::Distance { from, to, length }
             }
+            Condition::Length { start: from, end: to, slide } => CoreCondition::Length { from, to, slide },
             Condition::OnLine { point, line, slide } => {
                 CoreCondition::OnLine { point, line: line.core(), slide }
             }

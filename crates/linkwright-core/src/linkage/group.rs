@@ -2,14 +2,16 @@
 //!
 //! Unknown are the coordinates of n joints. Points fixed to bars of the group are combinations of their ends,
 //! `K = A + (α + iβ)(B − A)` in the complex plane, so every point is linear in the unknowns. Each condition
-//! has the form **a·b = c**: a bar u·u = l², a guide n·(P − G) = offset. One Jacobian serves the position and
-//! all derivatives:
+//! has the form **a·b = c**: a bar u·u = l², a guide n·(P − G) = offset, a cylinder u·u = L(φ)². One Jacobian serves
+//! the position and all derivatives:
 //!
 //! ```text
 //! F = a·b − c        J Δx = −F
-//! F′ = a′·b + a·b′ = J x′ + (what moves without x)         J x′ = −F′ at x′ = 0
-//! F″ = a″·b + 2a′·b′ + a·b″                               J x″ = −F″ at x″ = 0
+//! F′ = a′·b + a·b′ − c′ = J x′ + (what moves without x)    J x′ = −F′ at x′ = 0
+//! F″ = a″·b + 2a′·b′ + a·b″ − c″                          J x″ = −F″ at x″ = 0
 //! ```
+//!
+//! Of a bar and a guide c is constant; of a cylinder c′ = 2LL′, c″ = 2(L′² + LL″).
 //!
 //! The start is read from a table over the crank angle that was made by following the motion
 //! ([`super::trace`]): so the group stays on its branch however it is asked. Linear equations are solved by
@@ -52,6 +54,8 @@ pub struct Bar {
 pub enum Condition {
     /// Two points at a distance.
     Distance { from: usize, to: usize, length: Slot },
+    /// Two points at a distance that is a coordinate known before: the length of a cylinder.
+    Length { from: usize, to: usize, slide: usize },
     /// A point on a guide that turns with a link known before.
     OnLine { point: usize, line: Line, slide: usize },
     /// A point on a guide fixed to a bar of the group, which runs from `from` to `to`.
@@ -87,8 +91,16 @@ const CONVERGED: f64 = 1e-9;
 struct Factors<R> {
     a: [Vec2<R>; 3],
     b: [Vec2<R>; 3],
+    /// c with two derivatives.
+    c: [R; 3],
+}
+
+impl<R: Real> Factors<R> {
     /// F at the present position.
-    value: R,
+    #[inline(always)]
+    fn value(&self) -> R {
+        self.a[0].dot(self.b[0]) - self.c[0]
+    }
 }
 
 impl Group {
@@ -148,7 +160,7 @@ impl Group {
             self.carry::<R, 0>(q, m);
             self.linearise(q, m, &mut system);
             for (row, condition) in self.conditions.iter().enumerate() {
-                system.rhs[row] = -self.factors(condition, q, m).value;
+                system.rhs[row] = -self.factors(condition, q, m).value();
             }
             system.factorise();
             system.solve();
@@ -183,7 +195,7 @@ impl Group {
             system.factorise();
             let mut residual = R::splat(0.0);
             for condition in &self.conditions {
-                residual = residual.max(self.factors(condition, q, m).value.abs());
+                residual = residual.max(self.factors(condition, q, m).value().abs());
             }
             for order in 1..=ORDER {
                 for &unknown in &self.unknowns {
@@ -198,10 +210,10 @@ impl Group {
                 for (row, condition) in self.conditions.iter().enumerate() {
                     let f = self.factors(condition, q, m);
                     let [a, b] = [f.a, f.b];
-                    system.rhs[row] = -if order == 1 {
-                        a[1].dot(b[0]) + a[0].dot(b[1])
+                    system.rhs[row] = if order == 1 {
+                        f.c[1] - (a[1].dot(b[0]) + a[0].dot(b[1]))
                     } else {
-                        a[2].dot(b[0]) + a[1].dot(b[1]) * 2.0 + a[0].dot(b[2])
+                        f.c[2] - (a[2].dot(b[0]) + a[1].dot(b[1]) * 2.0 + a[0].dot(b[2]))
                     };
                 }
                 system.solve();
@@ -249,6 +261,7 @@ impl Group {
         for condition in &self.conditions {
             let length = match *condition {
                 Condition::Distance { length, .. } => q[length],
+                Condition::Length { slide, .. } => m.slides[slide].s.abs(),
                 Condition::OnLine { point, line, .. } | Condition::OnBar { point, line, .. } => {
                     let u = m.points[point].p - m.points[line.through].p;
                     u.x.abs() + u.y.abs()
@@ -296,15 +309,23 @@ impl Group {
         }
     }
 
-    /// Both factors of a condition with two derivatives, and its value.
+    /// Both factors of a condition and their product, with two derivatives.
     #[inline(always)]
     fn factors<R: Real>(&self, condition: &Condition, q: &[R], m: &Motion<R>) -> Factors<R> {
+        let zero = R::splat(0.0);
         out_of_line!(
             R,
             match *condition {
                 Condition::Distance { from, to, length } => {
                     let u = between(&m.points[from], &m.points[to]);
-                    Factors { a: u, b: u, value: u[0].dot(u[0]) - q[length].squared() }
+                    Factors { a: u, b: u, c: [q[length].squared(), zero, zero] }
+                }
+                Condition::Length { from, to, slide } => {
+                    let u = between(&m.points[from], &m.points[to]);
+                    let length = &m.slides[slide];
+                    let c1 = length.s * length.d1 * 2.0;
+                    let c2 = (length.d1.squared() + length.s * length.d2) * 2.0;
+                    Factors { a: u, b: u, c: [length.s.squared(), c1, c2] }
                 }
                 Condition::OnLine { point, line, .. } => {
                     let c = between(&m.points[line.through], &m.points[point]);
@@ -313,7 +334,7 @@ impl Group {
                     let n = t.left();
                     let n1 = t * -link.d1;
                     let n2 = (t * -link.d2).plus(n, -(link.d1.squared()));
-                    Factors { a: [n, n1, n2], b: c, value: n.dot(c[0]) - q[line.offset] }
+                    Factors { a: [n, n1, n2], b: c, c: [q[line.offset], zero, zero] }
                 }
                 Condition::OnBar { point, line, bar, .. } => {
                     let c = between(&m.points[line.through], &m.points[point]);
@@ -324,7 +345,7 @@ impl Group {
                     for each in &mut n {
                         *each = (*each * cos).plus(each.left(), sin).left();
                     }
-                    Factors { a: n, b: c, value: n[0].dot(c[0]) - q[line.offset] }
+                    Factors { a: n, b: c, c: [q[line.offset], zero, zero] }
                 }
             }
         )
@@ -339,7 +360,7 @@ impl Group {
                 let Factors { a, b, .. } = self.factors(condition, q, m);
                 let minus = R::splat(-1.0);
                 match *condition {
-                    Condition::Distance { from, to, .. } => {
+                    Condition::Distance { from, to, .. } | Condition::Length { from, to, .. } => {
                         self.spread(to, a[0] * R::splat(2.0), row, system);
                         self.spread(from, a[0] * R::splat(-2.0), row, system);
                     }

@@ -46,7 +46,7 @@ pub(super) fn lines_of(element: &mut Element) -> Vec<&mut Line> {
 
 fn line_of(condition: &mut Condition) -> Option<&mut Line> {
     match condition {
-        Condition::Distance { .. } => None,
+        Condition::Distance { .. } | Condition::Length { .. } => None,
         Condition::OnLine { line, .. } | Condition::OnBar { line, .. } => Some(line),
     }
 }
@@ -226,6 +226,10 @@ impl Builder {
         match *condition {
             Condition::Distance { from, to, length } => {
                 self.slots(&[length])?;
+                self.points(&[from, to])
+            }
+            Condition::Length { from, to, slide } => {
+                self.slides(&[slide])?;
                 self.points(&[from, to])
             }
             Condition::OnLine { point, line, slide } => {

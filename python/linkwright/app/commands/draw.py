@@ -73,10 +73,10 @@ def _scene(machine: Machine, at: float | None) -> tuple[Scene, float]:
     from linkwright.app.report.scene import moving_scene
     from linkwright.drive.steady_state import steady_state
     from linkwright.linkages.closure import closure, in_cycle, require_full_turn
-    from linkwright.linkages.model.topology import DRIVERS
+    from linkwright.linkages.model.topology import Topology
     from linkwright.machine.program.compiled import compile_machine
 
-    if not any(getattr(machine.linkage, table) for table in DRIVERS):
+    if not Topology.of(machine.linkage).drivers:
         raise InputError("nothing to draw: the machine has no mechanism")
     angle = None if at is None else in_cycle(closure(machine), at)
     has_motor = machine.drive is not None and machine.drive.motor is not None

@@ -21,7 +21,7 @@ from linkwright.kernel.reader.angle_zero import zero_shown
 from linkwright.kernel.reader.out_units import reader
 from linkwright.linkages.closure import Closure, closure
 from linkwright.linkages.kinematics import Kinematics, kinematics
-from linkwright.linkages.model.topology import DRIVERS
+from linkwright.linkages.model.topology import Topology
 from linkwright.linkages.scene import arc_end, parts
 from linkwright.machine.machine import Machine
 
@@ -123,7 +123,7 @@ def _cam_reach(machine: Machine) -> Iterable[tuple[str, float]]:
 def _closes(machine: Machine) -> bool:
     """Whether something moves and closes at some crank angle; where not, the study says why."""
     try:
-        moves = any(getattr(machine.linkage, table) for table in DRIVERS)
+        moves = bool(Topology.of(machine.linkage).drivers)
         return moves and bool(closure(machine).ranges)
     except AssemblyError:
         # silent: the same, and a mechanism that does not move is not drawn

@@ -23,8 +23,8 @@ from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import ExchangeError, InputError, require_within, show
 from linkwright.kernel.files.cam_tables import TAB_STEP
 from linkwright.kernel.limits import LAW_POINTS
-from linkwright.kernel.reader.out_units import OutUnits, reader
 from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.reader.out_units import OutUnits, reader
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from linkwright.axes.export.exported import LawExport
+from linkwright.kernel.page.table import Row, Table
 from linkwright.kernel.reader.numbers import degrees, number
 from linkwright.kernel.reader.out_units import reader
-from linkwright.kernel.page.table import Row, Table
 
 # Quantity of which there is a deviation, and the units in which it is shown where the reader wants no other.
 _QUANTITIES = {

@@ -15,7 +15,15 @@ from linkwright.cam.laws.programme import CLOSES, TURN
 from linkwright.cam.model.motion_section import Family, section_faults
 from linkwright.kernel.description.base import fault, suggestion
 from linkwright.kernel.description.place import keys, look
-from linkwright.linkages.model.topology import DRIVERS
+
+# Entries by which drivers along a line move or act, and their words.
+_MOVED_BY = {
+    "linear_drivers": (("per_turn", "law"), "either per_turn or law"),
+    "cylinders": (
+        ("law", "flow", "pressure", "pressure_rod", "stiffness", "damping"),
+        "law or flow of a driver, pressure of a force, stiffness or damping",
+    ),
+}
 
 
 def axes_faults(machine: object) -> Iterator[InitErrorDetails]:
@@ -25,11 +33,12 @@ def axes_faults(machine: object) -> Iterator[InitErrorDetails]:
     for name in keys(axes):
         axis = look(axes, name)
         driver = look(axis, "driver") or name
-        known = [each for table in DRIVERS for each in keys(look(mechanism, table))]
+        tables = ("cranks", "linear_drivers", "cylinders", "cams")
+        known = [each for table in tables for each in keys(look(mechanism, table))]
         if driver not in known:
             remedy = suggestion(str(driver), known) if known else "give the mechanism a crank"
             key = ("driver",) if look(axis, "driver") else ()
-            expected = "a crank, a linear driver or a cam of the mechanism"
+            expected = "a crank, a linear driver, a cylinder or a cam of the mechanism"
             yield fault("axes", name, *key, found=driver, expected=expected, remedy=remedy)
         elif driver in moved:
             remedy = f"it is driven by the axis {moved[driver]}"
@@ -44,20 +53,18 @@ def axes_faults(machine: object) -> Iterator[InitErrorDetails]:
 
 
 def _unmoved(mechanism: object, axes: object) -> Iterator[InitErrorDetails]:
-    """Linear drivers that neither their own entries nor an axis moves."""
+    """Linear drivers and cylinders that neither their own entries nor an axis moves."""
     followed = {name: look(axes, name) for name in keys(axes)}
     by_axis = {look(axis, "driver") or name for name, axis in followed.items() if look(axis, "sections")}
-    drivers = look(mechanism, "linear_drivers")
-    for name in keys(drivers):
-        driver = look(drivers, name)
-        if isinstance(driver, BaseModel) or hasattr(driver, "keys"):
-            moves = look(driver, "law") is not None or look(driver, "per_turn") is not None
-            if not moves and name not in by_axis:
-                expected = "either per_turn or law"
+    for table, (moves, expected) in _MOVED_BY.items():
+        drivers = look(mechanism, table)
+        for name in keys(drivers):
+            driver = look(drivers, name)
+            if name in by_axis or not (isinstance(driver, BaseModel) or hasattr(driver, "keys")):
+                continue
+            if all(look(driver, key) is None for key in moves):
                 remedy = f"or the sections of an axis: [axes.{name}]"
-                yield fault(
-                    "mechanism", "linear_drivers", name, found="neither", expected=expected, remedy=remedy
-                )
+                yield fault("mechanism", table, name, found="none of these", expected=expected, remedy=remedy)
 
 
 def _within(place: tuple[str, ...], faults: Iterator[InitErrorDetails]) -> Iterator[InitErrorDetails]:
@@ -72,11 +79,16 @@ def _own_faults(machine: Any, axis: Axis, driver: str) -> Iterator[InitErrorDeta
     if family is None:
         yield from _cam_faults(axis)
         return
-    own = (machine.mechanism.cranks if family == "swing" else machine.mechanism.linear_drivers)[driver]
+    tables = ("cranks", "linear_drivers", "cylinders")
+    moved = (getattr(machine.mechanism, table) for table in tables)
+    own = next(table[driver] for table in moved if driver in table)
     key, other = ("advance", "travel") if family == "swing" else ("travel", "advance")
     if other in axis.model_fields_set:
-        kind = "crank, which turns" if family == "swing" else "linear driver"
+        kind = "crank, which turns" if family == "swing" else "driver along a line"
         yield fault(other, found=getattr(axis, other), expected=f"{key}: {driver} is a {kind}")
+    if getattr(own, "start_length", 0.0) is None:
+        expected = f"start_length of {driver}, its length at the start of the sections"
+        yield fault("driver", found=driver, expected=expected)
     if family == "lift" and axis.motor is not None and axis.gearbox.per_turn is None:
         expected = "the travel per revolution of the gearbox output: screw lead, pulley circumference"
         yield fault("gearbox", "per_turn", expected=expected)
@@ -88,7 +100,7 @@ def _own_faults(machine: Any, axis: Axis, driver: str) -> Iterator[InitErrorDeta
             remedy = f"a formula says it beside its law: advance of {driver}"
             yield fault(key, found=getattr(axis, key), expected="sections that advance", remedy=remedy)
         return
-    for beside in ("law", "per_turn"):
+    for beside in ("law", "per_turn", "flow", "pressure", "pressure_rod", "stiffness", "damping"):
         if getattr(own, beside, None) is not None:
             expected = f"either sections or {beside} of {driver}"
             yield fault("sections", found="both", expected=expected, remedy="remove one of them")

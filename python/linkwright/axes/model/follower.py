@@ -15,6 +15,7 @@ from linkwright.cam.model.motion_section import Family, MotionSection, programme
 from linkwright.drive.model.drive import Drive, design_speed
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
+from linkwright.linkages.model.cylinder import Cylinder
 from linkwright.linkages.model.element import Crank, LinearDriver
 
 if TYPE_CHECKING:
@@ -53,6 +54,17 @@ class AxisDriver(LinearDriver):
         return motion
 
 
+class AxisCylinder(Cylinder):
+    """A cylinder whose extension follows the law of an axis."""
+
+    programme: Any = Field(description="Its motion over the master angle.")
+
+    def follows(self) -> AxisProgramme:
+        """Its motion over the master angle."""
+        motion: AxisProgramme = self.programme
+        return motion
+
+
 def cycle_time_of(master: Master | None, drive: Drive | None) -> float | None:
     """Duration of a cycle [s]; None where neither master nor drive says it."""
     speed = design_speed(master, drive)
@@ -67,12 +79,13 @@ def whole_sections(axis: Axis, cycle_time: float | None) -> tuple[MotionSection,
 
 
 def family_of(mechanism: object, driver: str) -> Family | None:
-    """Whether a driver swings or is lifted; None where it is neither crank nor linear driver."""
+    """Whether a driver swings or is lifted; None where it does neither."""
     from linkwright.kernel.description.place import keys, look
 
     if driver in keys(look(mechanism, "cranks")):
         return "swing"
-    return "lift" if driver in keys(look(mechanism, "linear_drivers")) else None
+    lifted = any(driver in keys(look(mechanism, table)) for table in ("linear_drivers", "cylinders"))
+    return "lift" if lifted else None
 
 
 def programme_of(axis: Axis, family: Family, cycle_time: float | None) -> AxisProgramme:
@@ -92,20 +105,15 @@ def with_axes(
 ) -> Mechanism:
     """A mechanism whose drivers follow the sections of their axes."""
     cycle_time = cycle_time_of(master, drive)
-    cranks, drivers = dict(own.cranks), dict(own.linear_drivers)
+    followers = {"cranks": AxisCrank, "linear_drivers": AxisDriver, "cylinders": AxisCylinder}
+    made = {table: dict(getattr(own, table)) for table in followers}
     for name, axis in axes.items():
         driver = axis.driver or name
         family = family_of(own, driver)
         if not axis.sections or family is None:
             continue
         motion = programme_of(axis, family, cycle_time)
-        if family == "swing":
-            cranks[driver] = AxisCrank.model_construct(**_entries(cranks[driver]), programme=motion, turn=1.0)
-        else:
-            drivers[driver] = AxisDriver.model_construct(**_entries(drivers[driver]), programme=motion)
-    return own.with_entries({"cranks": cranks, "linear_drivers": drivers})
-
-
-def _entries(driver: Crank | LinearDriver) -> dict[str, Any]:
-    """The entries of a driver, as they are."""
-    return {name: getattr(driver, name) for name in type(driver).model_fields}
+        table = next(table for table in made if driver in made[table])
+        entries = {key: getattr(made[table][driver], key) for key in type(made[table][driver]).model_fields}
+        made[table][driver] = followers[table].model_construct(**entries, programme=motion)
+    return own.with_entries(made)

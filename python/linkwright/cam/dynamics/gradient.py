@@ -21,7 +21,7 @@ from linkwright.cam.profile.contact import contacts
 from linkwright.cam.profile.profile import CamProfile, cam_profile
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent, lifted
-from linkwright.kinetostatics.gradient import drive_forces_along, tied
+from linkwright.kinetostatics.gradient import drives_along, tied
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, followed, spread
 
@@ -41,7 +41,7 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
     loaded = loaded_cam(machine, profile)
     places = {key: at for key, of in _PLACES.items() if (at := getattr(loaded, of)) is not None}
     angles = np.unique(list(places.values()))
-    program, drives, lost, kinks = drive_forces_along(machine, variables, angles)
+    program, _, drives, lost, kinks = drives_along(machine, variables, angles)
     force = lifted(drives[name], len(program.variables))
     at = {key: int(np.searchsorted(angles, x)) for key, x in places.items()}
     slopes = {key: force.d[row] for key, row in at.items()}

@@ -131,6 +131,7 @@ MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 k
 SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", 1e-18, 1e6)
 DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", 1e-3, 1e6)
 PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", 1e-3, 1e15)
+VOLUME_FLOW = Kind("a volume flow", "m^3/s", "cubic metres per second", "40 l/min", 1e-12, 1e6)
 STIFFNESS = Kind("a stiffness", "N/m", "newtons per metre", "2000 N/m", 1e-15, 1e15)
 TORSIONAL_STIFFNESS = Kind(
     "a torsional stiffness",
@@ -195,6 +196,7 @@ KINDS = (
     SECTION_MODULUS,
     DENSITY,
     PRESSURE,
+    VOLUME_FLOW,
     STIFFNESS,
     TORSIONAL_STIFFNESS,
     DAMPING,

@@ -36,6 +36,7 @@ from linkwright.kernel.units.kinds import (
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
     VELOCITY,
+    VOLUME_FLOW,
     Kind,
     range_words,
 )
@@ -235,3 +236,5 @@ Velocities = Annotated[tuple[float, ...], QuantityList(VELOCITY)]
 Forces = Annotated[tuple[float, ...], QuantityList(FORCE)]
 Pressures = Annotated[tuple[float, ...], QuantityList(PRESSURE)]
 Torques = Annotated[tuple[float, ...], QuantityList(TORQUE)]
+Times = Annotated[tuple[float, ...], QuantityList(TIME)]
+Flows = Annotated[tuple[float, ...], QuantityList(VOLUME_FLOW)]

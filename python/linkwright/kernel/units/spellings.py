@@ -69,6 +69,7 @@ COMMON: dict[str, dict[str, float]] = {
     "kg m^2": {"kg m^2": 1.0, "kg cm^2": 1e-4, "kg mm^2": 1e-6, "g cm^2": 1e-7, "g mm^2": 1e-9, "t m^2": 1e3},
     "kg/m": {"kg/m": 1.0, "g/m": 1e-3, "kg/mm": 1e3, "g/mm": 1.0, "t/m": 1e3},
     "m^3": {"m^3": 1.0, "dm^3": 1e-3, "cm^3": 1e-6, "mm^3": 1e-9},
+    "m^3/s": {"m^3/s": 1.0, "l/min": 1e-3 / 60, "l/s": 1e-3, "cm^3/s": 1e-6, "m^3/h": 1 / 3600},
     "kg/m^3": {"kg/m^3": 1.0, "kg/dm^3": 1e3, "g/cm^3": 1e3, "t/m^3": 1e3},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm^2": 1e6, "N/m^2": 1.0},
     "N/m": {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "kN/mm": 1e6},

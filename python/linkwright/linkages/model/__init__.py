@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `assembly` | In which order a mechanism is built; what is missing or too much |
+| `cylinder` | Hydraulic cylinders: drivers by length or flow, or forces |
 | `drawing` | Lengths and places that follow from coordinates of points |
 | `dxf_points` | Points of a drawing from the layers of a DXF file |
 | `element` | Cranks, dyads, gears, cables, joints and bars |

@@ -16,8 +16,8 @@ from typing import Literal, NamedTuple
 class Part(NamedTuple):
     """One element as the assembly sees it."""
 
-    # `"element"`, `"joint"`, `"bar"` or `"carried"` (a point fixed to a link).
-    role: Literal["element", "joint", "bar", "carried"]
+    # `"element"`, `"joint"`, `"bar"`, `"cylinder"` (of varying length) or `"carried"` (a point of a link).
+    role: Literal["element", "joint", "bar", "cylinder", "carried"]
     # Points and links that must be placed before: the ends of a bar, what the guide of a joint hangs on.
     needs: tuple[str, ...]
     makes: tuple[str, ...]  # points and links that it places
@@ -28,7 +28,12 @@ class Step(NamedTuple):
 
     kind: Literal["element", "dyad", "group"]  # `"element"`, `"dyad"` or `"group"`
     names: tuple[str, ...]  # the element, or the joints
-    conditions: tuple[str, ...] = ()  # bars, and joints in place of their guides, that hold the joints
+    # Bars and cylinders, and joints in place of their guides, that hold the joints.
+    conditions: tuple[str, ...] = ()
+
+
+# Roles of what holds two points at a distance.
+_HOLDING = ("bar", "cylinder")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +74,7 @@ class _Builder:
     def _single(self) -> bool:
         for name, part in self.parts.items():
             if part.role != "joint" and self.placed.issuperset(part.needs):
-                if part.role == "bar" and name not in self.used and name not in self.ignored:
+                if part.role in _HOLDING and name not in self.used and name not in self.ignored:
                     self.build.surplus.append(name)
                 self._place([name], Step("element", (name,)))
                 return True
@@ -103,7 +108,7 @@ class _Builder:
         """Condition → the joints that it holds, without those that depend on other open elements."""
         system: dict[str, set[str]] = {}
         for name, part in self.parts.items():
-            if name in self.ignored or part.role not in ("bar", "joint"):
+            if name in self.ignored or part.role not in (*_HOLDING, "joint"):
                 continue
             if part.role == "joint" and not part.needs:
                 continue
@@ -125,7 +130,7 @@ class _Builder:
         part = self.parts[maker]
         if part.role == "joint":
             return {maker}
-        if part.role == "element":
+        if part.role in ("element", "cylinder"):
             return None
         below = [self._joints_of(need, depth + 1) for need in part.needs]
         return None if None in below else set().union(*(name for name in below if name is not None))
@@ -134,7 +139,9 @@ class _Builder:
         self.used.update(conditions)
         kind: Literal["dyad", "group"] = "group"
         if len(joints) == 1 and not any(self._turns_with(condition, joints[0]) for condition in conditions):
-            kind = "dyad"
+            # The dyads have bars of constant length.
+            varies = any(self.parts[condition].role == "cylinder" for condition in conditions)
+            kind = "group" if varies else "dyad"
         self._place(joints, Step(kind, tuple(joints), tuple(conditions)))
 
     def _turns_with(self, condition: str, joint: str) -> bool:

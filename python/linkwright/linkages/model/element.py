@@ -14,6 +14,8 @@
 | `gears` | gears, planets, pulleys | – |
 | `racks`, `cables` | what a turning link moves along a guide | – |
 | `joints`, `bars` | joints held by bars and guides, in any group | dyads, or solved together |
+
+Cylinders are in `linkages/model/cylinder.py`.
 """
 
 import math
@@ -74,7 +76,7 @@ Constants = dict[str, Annotated[float, AnyQuantity()]]
 _CLOSES = 1e-6
 
 
-def _law_faults(
+def law_faults(
     law: str | None, constants: Constants, advance: float | None, kind: Kind
 ) -> Iterator[InitErrorDetails]:
     yield from constant_faults(constants, law or "")
@@ -126,7 +128,7 @@ class Crank(CheckedDescription):
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        return _law_faults(self.law, self.constants, self.advance, ANGLE)
+        return law_faults(self.law, self.constants, self.advance, ANGLE)
 
 
 class LinearDriver(CheckedDescription):
@@ -149,7 +151,7 @@ class LinearDriver(CheckedDescription):
         return None
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        yield from _law_faults(self.law, self.constants, self.advance, LENGTH)
+        yield from law_faults(self.law, self.constants, self.advance, LENGTH)
         if self.law is not None and self.per_turn is not None:
             yield fault(found="both", expected="either per_turn or law")
 

@@ -21,6 +21,7 @@ _ENDS: dict[str, dict[str, tuple[str, ...]]] = {
     "slotted_levers": {"": ("pivot",)},
     "gears": {"": ("pivot",)},
     "bars": {"": ("start", "end")},
+    "cylinders": {"": ("start",), ".rod": ("end",)},
     "yokes": {"": ()},
 }
 

@@ -12,6 +12,7 @@ from linkwright.kernel.description.base import Description, Name, faults_of, rai
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.units.marks import Angle
 from linkwright.linkages.model.assembly import Step
+from linkwright.linkages.model.cylinder import Cylinder
 from linkwright.linkages.model.element import (
     Bar,
     Cable,
@@ -42,8 +43,7 @@ _ORIGIN = FixedPoint(x=0.0, y=0.0)
 class Link(NamedTuple):
     """A link of a mechanism: the rigid body between two of its points."""
 
-    # `"crank"`, `"rod"`, `"coupler"`, `"rocker"`, `"lever"`, `"bar"`, `"gear"` or `"yoke"`.
-    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke"]
+    role: Literal["crank", "rod", "coupler", "rocker", "lever", "bar", "gear", "yoke", "barrel", "piston rod"]
     element: str  # name of the element that makes it
     # Names of the points that it runs between; the same for a gear or a yoke, which has one point.
     start: str
@@ -75,6 +75,9 @@ class Mechanism(Description):
     cables: dict[Name, Cable] = Field(default_factory=dict, description="Cables on arcs, by name.")
     joints: dict[Name, Joint] = Field(default_factory=dict, description="Joints of bars and guides, by name.")
     bars: dict[Name, Bar] = Field(default_factory=dict, description="Bars between points, by name.")
+    cylinders: dict[Name, Cylinder] = Field(
+        default_factory=dict, description="Hydraulic cylinders between points, by name."
+    )
     assembled_at: Angle = Field(
         0.0, description="Crank angle to which the approximate positions of the joints refer."
     )
@@ -128,7 +131,17 @@ class Mechanism(Description):
             links[name] = Link("gear", name, gear.pivot, gear.pivot, 0.0)
         for name, bar in self.bars.items():
             links[name] = Link("bar", name, bar.start, bar.end, bar.length)
+        for name, cylinder in self.cylinders.items():
+            ends = cylinder.start, cylinder.end
+            links[name] = Link("barrel", name, *ends, cylinder.barrel_length or 0.0)
+            links[f"{name}.rod"] = Link("piston rod", name, *ends[::-1], cylinder.rod_length or 0.0)
         return links
+
+    def laws(self) -> dict[str, Crank | LinearDriver | Cylinder]:
+        """Drivers that follow a formula, by name."""
+        drivers: dict[str, Crank | LinearDriver | Cylinder] = {**self.cranks, **self.linear_drivers}
+        drivers |= self.cylinders
+        return {name: driver for name, driver in drivers.items() if driver.law is not None}
 
     def steps(self) -> list[Step]:
         """The steps in which the mechanism is built."""

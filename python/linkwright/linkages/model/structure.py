@@ -14,6 +14,7 @@
 | cable `H` | block `H`, its end | `H.guide`, which holds it in its line; `H.cable` |
 | joint `J` | block `J`, if it has a guide | `J.guide` |
 | bar `B` | `B` | pins at both ends |
+| cylinder `Z` | `Z`, the barrel, and `Z.rod` | a pin at each end; `Z.guide`; the drive of a driver |
 
 **Who carries a point.** A fixed point belongs to the frame; the pin of a crank to the crank; a joint of a
 rocker to `R.rocker`; a slider, a rack, the end of a cable to its block; a point of a link to that link; a
@@ -94,7 +95,7 @@ class Pair(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """A crank turned, or a block moved along its guide, by the crankshaft."""
+    """A crank turned, or a block moved along its guide, by the drive; of a cylinder the rod in its barrel."""
 
     name: str
     member: str
@@ -173,6 +174,7 @@ class _Builder:
         for part in (self._crossings, self._yokes, self._gears, self._racks, self._cables, self._joints):
             part()
         self._bars()
+        self._cylinders()
         redundant = tuple(name for name, bar in self.mechanism.bars.items() if bar.redundant)
         pairs = {pair.name: pair for pair in (*self._named_pins(), *self.others)}
         drives = tuple(self.drives)
@@ -187,11 +189,16 @@ class _Builder:
         yield from ((name, f"{name}.rocker") for name in m.rockers)
         yield from ((name, point.link) for name, point in m.rigid_points.items())
         for name, joint in m.joints.items():
-            holding = (bar for bar, held in m.bars.items() if name in (held.start, held.end))
-            yield (
-                name,
-                name if joint.guide is not None else next(b for b in holding if not m.bars[b].redundant),
-            )
+            yield name, name if joint.guide is not None else next(self._held_by(name))
+
+    def _held_by(self, joint: str) -> Iterator[str]:
+        """Members that hold a joint: bars that are not redundant, then barrels and rods of cylinders."""
+        for name, bar in self.mechanism.bars.items():
+            if joint in (bar.start, bar.end) and not bar.redundant:
+                yield name
+        for name, cylinder in self.mechanism.cylinders.items():
+            if joint in (cylinder.start, cylinder.end):
+                yield name if joint == cylinder.start else f"{name}.rod"
 
     def _link(self, name: str, point: str) -> None:
         self.members[name] = Member(name, point, name)
@@ -310,6 +317,16 @@ class _Builder:
                 self._loose_end(name, bar)
             else:
                 self._pin(bar.end, name)
+
+    def _cylinders(self) -> None:
+        for name, cylinder in self.mechanism.cylinders.items():
+            rod, bore = f"{name}.rod", Guide(on=name, through=cylinder.start)
+            for member, point in ((name, cylinder.start), (rod, cylinder.end)):
+                self._link(member, point)
+                self._pin(point, member)
+            self.others.append(Pair(f"{name}.guide", "guide", name, rod, cylinder.end, bore, name))
+            if cylinder.drives:
+                self.drives.append(Drive(name, rod, bore))
 
     def _loose_end(self, name: str, bar: Bar) -> None:
         """The end of a redundant bar, free along the bar."""

@@ -17,6 +17,7 @@
 | cable `H` | `H`, its end | – | `H`, free length | a link |
 | joint `J` | `J` | – | `J`, if it has a guide | its guide |
 | bar `B` | – | `B`, start → end | – | two points |
+| cylinder `Z` | – | `Z`, barrel, start → end; `Z.rod`, end → start | `Z`, its length | two points |
 
 A topology is taken from a checked mechanism or from the raw tables of a file.
 """
@@ -124,23 +125,33 @@ KINDS = (
     ElementKind("cables", "cable", slides=("",), references={"link": "link"}),
     ElementKind("joints", "joint", slides=("",), references=_guide("guide")),
     ElementKind("bars", "bar", points=(), links=("",), references={"start": "point", "end": "point"}),
+    ElementKind(
+        "cylinders",
+        "cylinder",
+        points=(),
+        links=("", ".rod"),
+        slides=("",),
+        references={"start": "point", "end": "point"},
+    ),
 )
 
 # The tables of a mechanism, each once.
 TABLES = tuple(dict.fromkeys(kind.table for kind in KINDS))
 
-# Tables of the elements that the drive moves.
-DRIVERS = ("cranks", "linear_drivers", "cams")
+# Tables of the elements that the drive moves; a cylinder with a length at the start is one of them too.
+_DRIVERS = ("cranks", "linear_drivers", "cams")
+_MOVED_BY = ("start_length", "law", "flow")
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One element: its kind, its name, the names that it refers to by key, and whether it is redundant."""
+    """One element: its kind, its name, the names that it refers to by key, and what else tells it apart."""
 
     kind: ElementKind
     name: str
     references: dict[str, str]
     redundant: bool = False
+    is_driver: bool = False
 
     def made(self, endings: tuple[str, ...]) -> tuple[str, ...]:
         """Names of the points, links or slides with these endings."""
@@ -191,6 +202,11 @@ class Topology:
         return [name for point in moving for name in point.made(point.kind.points)]
 
     @property
+    def drivers(self) -> list[str]:
+        """Names of the elements that the drive moves."""
+        return [element.name for element in self.elements if element.is_driver]
+
+    @property
     def slides(self) -> list[str]:
         """Names of the coordinates along guides."""
         free = {
@@ -222,12 +238,14 @@ class Topology:
         return build(parts, self.fixed_points, ignored)
 
     def _part(self, element: Element) -> Part:
-        roles: dict[str, Literal["joint", "bar", "carried"]] = {
+        roles: dict[str, Literal["joint", "bar", "cylinder", "carried"]] = {
             "joints": "joint",
             "bars": "bar",
             "rigid_points": "carried",
         }
         kind = element.kind
+        if kind.table == "cylinders" and element.is_driver:
+            roles["cylinders"] = "cylinder"
         makes = (*element.made(kind.points), *element.made(kind.links))
         needs = tuple(dict.fromkeys(element.references.values()))
         return Part(roles.get(kind.table, "element"), needs, makes)
@@ -237,9 +255,10 @@ class Topology:
 
         `values_fit`: whether every element is sound by itself; otherwise the mobility is left for later.
         """
-        driven = [element for element in self.elements if element.kind.table not in ("points", *DRIVERS)]
-        if driven and not self.names(*DRIVERS):
-            remedy = "a linear driver is also possible"
+        drivers = self.drivers
+        driven = [e for e in self.elements if e.kind.table != "points" and e.name not in drivers]
+        if driven and not drivers:
+            remedy = "a linear driver or a cylinder with start_length is also possible"
             expected = "at least one crank, which moves the others"
             return [*self._twice(), fault("cranks", expected=expected, remedy=remedy)]
         faults = [*self._twice(), *self._unknown()]
@@ -296,9 +315,8 @@ class Topology:
         """Each element → the moving elements that it depends on, joints by the bars that hold them."""
         makers = {point: point for point in self.moving_points} | self.links
         needs = {e.name: [makers[n] for n in e.references.values() if n in makers] for e in self.elements}
-        for bar in (
-            element for element in self.elements if element.kind.table == "bars" and not element.redundant
-        ):
+        holding = ("bars", "cylinders")
+        for bar in (e for e in self.elements if e.kind.table in holding and not e.redundant):
             for joint in set(needs[bar.name]) & set(self.names("joints")):
                 needs[joint] += [end for end in needs[bar.name] if end != joint]
         return needs
@@ -314,7 +332,7 @@ class Topology:
             fresh = set(needs.get(open_.pop(), ())) - drivers
             drivers |= fresh
             open_ += fresh
-        return [name for name in self.names(*DRIVERS) if name in drivers]
+        return [name for name in self.drivers if name in drivers]
 
     def _mixed_circle(self, joint: str, stuck: list[str]) -> str:
         """A circle from a joint through an element that depends on it; empty without one."""
@@ -362,7 +380,7 @@ class Topology:
         makers = {name: name for name in self.moving_points} | self.links
         for element in self.elements:
             makers.update(dict.fromkeys(element.made(element.kind.points), element.name))
-        free = ("points", "joints", "bars")
+        free = ("points", "joints", "bars", "cylinders")
         jointed = {element.name for element in self.elements if element.kind.table in free}
         return {
             element.name: [
@@ -411,7 +429,10 @@ def _elements(kind: ElementKind, table: object) -> Iterator[Element]:
         if kind.table == "joints" and look(element, "guide") is not None and not names:
             # A guide on the frame through the origin refers to nothing, and holds the joint all the same.
             names["guide"] = ORIGIN
-        yield Element(kind, name, names, look(element, "redundant") is True)
+        is_driver = kind.table in _DRIVERS or (
+            kind.table == "cylinders" and any(look(element, key) is not None for key in _MOVED_BY)
+        )
+        yield Element(kind, name, names, look(element, "redundant") is True, is_driver)
 
 
 def _conditions(holds: list[str]) -> str:

@@ -376,7 +376,7 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine
         gear_slots=factors,
         gear_factors=(ratio, forward, reverse),
         speed_tables=tuple(
-            (load.speed, load.torque) for load in machine.loads.values() if isinstance(load, TorqueSpeed)
+            (load.speed, load.torque) for load in machine.all_loads.values() if isinstance(load, TorqueSpeed)
         ),
         has_laws=assembly.plan.has_laws,
         resisting=assembly.plan.without_conservative(),
@@ -439,5 +439,6 @@ def _constants(machine: Machine) -> list[Mapping[str, float]]:
     """Constants of formulas: the one part of a description that can be changed in place."""
     mechanism = machine.linkage
     written: list[Any] = [*mechanism.cranks.values(), *mechanism.linear_drivers.values()]
-    written += [load for load in machine.loads.values() if isinstance(load, FormulaLoad)]
+    written += mechanism.cylinders.values()
+    written += [load for load in machine.all_loads.values() if isinstance(load, FormulaLoad)]
     return [constant.constants for constant in written]

@@ -10,6 +10,7 @@ import numpy as np
 from linkwright import _core
 from linkwright.kernel.description import formula
 from linkwright.kernel.units.reading import is_number
+from linkwright.linkages.model.cylinder import Cylinder
 from linkwright.linkages.model.element import (
     TURN,
     Cable,
@@ -24,7 +25,7 @@ from linkwright.linkages.model.element import (
     SlottedLever,
     Yoke,
 )
-from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name
+from linkwright.machine.program.places import Foldable, GuideLine, Places, angle_name, length_name
 
 # Name of what a law advances by among its constants; no constant of a file has a colon.
 _ADVANCE = ":advance"
@@ -49,6 +50,7 @@ class Elements(Places):
             "racks": self._rack,
             "cables": self._cable,
             "bars": self._bar,
+            "cylinders": self._cylinder,
         }
         for table, make in makers.items():
             element = getattr(mechanism, table).get(name)
@@ -82,19 +84,44 @@ class Elements(Places):
         )
 
     def _linear_driver(self, name: str, driver: LinearDriver) -> None:
-        programme = driver.follows()
-        start: Any = 0.0
-        terms: list[tuple[int | None, Any]]
-        if programme is not None:
-            start, terms = self._followed(name, programme, 1.0)
-        elif driver.law is not None:
-            terms = [(self._law(name, driver), 1.0)]
-        else:
-            assert driver.per_turn is not None
-            terms = [(None, driver.per_turn / TURN)]
+        start, terms = self._travel(name, driver)
         self._runner(name, self._guide(driver.guide), driver.start + start, terms)
 
-    def _law(self, name: str, driver: Crank | LinearDriver) -> int:
+    def _travel(self, name: str, driver: LinearDriver | Cylinder) -> tuple[Any, list[tuple[int | None, Any]]]:
+        """Constant and terms of what a driver follows: a lift, a formula or the crank."""
+        programme = driver.follows()
+        if programme is not None:
+            return self._followed(name, programme, 1.0)
+        if driver.law is not None:
+            return 0.0, [(self._law(name, driver), 1.0)]
+        assert driver.per_turn is not None
+        return 0.0, [(None, driver.per_turn / TURN)]
+
+    def _cylinder_length(self, name: str, cylinder: Cylinder) -> int:
+        """The length of a driver as a coordinate, on which a group of joints depends."""
+        hidden = length_name(name)
+        axis = GuideLine(self.origin, None, 0.0, 0.0)
+        start, terms = self._travel(name, cylinder)
+        self._runner(hidden, axis, cylinder.start_length + start, terms)
+        return self.slides[hidden]
+
+    def _cylinder(self, name: str, cylinder: Cylinder) -> None:
+        """Barrel and rod between points that are placed: directions, and the distance as a coordinate."""
+        ends = self.points[cylinder.start], self.points[cylinder.end]
+        rod = f"{name}.rod"
+        for link, slide, (pivot, pin) in ((name, name, ends), (rod, length_name(rod), ends[::-1])):
+            lever = _core.Element.SlottedLever(
+                link=self._link(link),
+                slide=self._slide(slide),
+                dyad=self._dyad(link),
+                pin=pin,
+                pivot=pivot,
+                offset=self.slot(0.0),
+                sign=self.slot(1.0),
+            )
+            self.elements.append(lever)
+
+    def _law(self, name: str, driver: Crank | LinearDriver | Cylinder) -> int:
         """A coordinate that is a formula of the crank angle."""
         assert driver.law is not None
         slide = self._slide(f"{name}.law")

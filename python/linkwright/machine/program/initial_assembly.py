@@ -104,13 +104,10 @@ class InitialAssembly:
 
     def _check_laws(self) -> None:
         """A driver's law must have values, and no jump; where it has none is known from then on."""
-        mechanism = self.program.mechanism
-        laws = {name: crank.law for name, crank in mechanism.cranks.items()}
-        laws |= {name: driver.law for name, driver in mechanism.linear_drivers.items()}
-        for name, law in laws.items():
-            if law is not None:
-                gap = gap_in_law(name, law, partial(self._law, self.program.slides[f"{name}.law"]))
-                self.law_gap = self.law_gap or gap
+        for name, driver in self.program.mechanism.laws().items():
+            assert driver.law is not None
+            gap = gap_in_law(name, driver.law, partial(self._law, self.program.slides[f"{name}.law"]))
+            self.law_gap = self.law_gap or gap
 
     def _law(self, slide: int, angles: Floats) -> Floats:
         """Value and slope of a law, (2, n)."""

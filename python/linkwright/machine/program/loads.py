@@ -71,7 +71,7 @@ class Loads:
 
     def all(self, *, brake: bool) -> list[tuple[_core.At, _core.What]]:
         """Forces and torques; a brake resists on the crankshaft."""
-        parts = [part for load in self.machine.loads.values() for part in self._parts(load)]
+        parts = [part for load in self.machine.all_loads.values() for part in self._parts(load)]
         drive = self.machine.drive
         if brake and drive and drive.brake:
             ratio = drive.gearbox.ratio if drive.brake.on == "motor" else 1.0

@@ -78,6 +78,11 @@ class MechanismProgram(Elements):
         joints, rigid = self.mechanism.joints, self.mechanism.rigid_points
         self.known = set(self.links)
         bars = [name for name in step.conditions if name in self.mechanism.bars]
+        lengths = {
+            name: self._cylinder_length(name, self.mechanism.cylinders[name])
+            for name in step.conditions
+            if name in self.mechanism.cylinders
+        }
         unknowns = [self._point(name) for name in step.names]
         carried = self._carried(bars, step)
         bars = list(dict.fromkeys([*bars, *(rigid[name].link for name in carried)]))
@@ -90,7 +95,7 @@ class MechanismProgram(Elements):
                 unknowns=unknowns,
                 bar_points=[self._carried_point(name) for name in carried],
                 bars=[self._placed_bar(name, self.mechanism.bars[name]) for name in bars],
-                conditions=[self._condition(name) for name in step.conditions],
+                conditions=[self._condition(name, lengths) for name in step.conditions],
                 starts=[table((0.0,), (float(np.ravel(primal(value))[0]),)) for value in places],
                 inverse_turns=turns,
                 repeats=True,
@@ -109,9 +114,11 @@ class MechanismProgram(Elements):
                 self._point(name)
                 carried.append(name)
 
-        for bar in bars:
-            need(self.mechanism.bars[bar].start)
-            need(self.mechanism.bars[bar].end)
+        cylinders = self.mechanism.cylinders
+        holding = [self.mechanism.bars[bar] for bar in bars]
+        for held in (*holding, *(cylinders[name] for name in step.conditions if name in cylinders)):
+            need(held.start)
+            need(held.end)
         for name in step.conditions:
             guide = self.mechanism.joints[name].guide if name in self.mechanism.joints else None
             if guide is not None and guide.through is not None:
@@ -129,8 +136,12 @@ class MechanismProgram(Elements):
             across=self.slot(part.across / bar.length),
         )
 
-    def _condition(self, name: str) -> _core.Condition:
-        """A bar's length, or a joint on its guide."""
+    def _condition(self, name: str, lengths: dict[str, int]) -> _core.Condition:
+        """A bar's length, that of a cylinder, or a joint on its guide."""
+        if name in lengths:
+            cylinder = self.mechanism.cylinders[name]
+            ends = self.points[cylinder.start], self.points[cylinder.end]
+            return _core.Condition.Length(start=ends[0], end=ends[1], slide=lengths[name])
         if name in self.mechanism.bars:
             bar = self.mechanism.bars[name]
             ends = self.points[bar.start], self.points[bar.end]

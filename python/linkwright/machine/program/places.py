@@ -175,3 +175,8 @@ class Places(Numbers):
 def angle_name(link: str) -> str:
     """Name of the slide that holds the continuous angle of a link; no element can have it."""
     return f"{link}.angle"
+
+
+def length_name(name: str) -> str:
+    """Name of the slide that holds the given length of a cylinder; no element can have it."""
+    return f"{name}.length"
