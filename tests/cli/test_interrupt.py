@@ -42,18 +42,12 @@ def _wait_for(program: subprocess.Popen[str], module: str) -> None:
     pytest.fail(f"{module} was never imported")
 
 
-@pytest.mark.parametrize("module", ["click.core", "linkwright.app.application"])
+@pytest.mark.parametrize(
+    "module",
+    ["click.core", "linkwright.app.application", "numpy", "linkwright.machine", "linkwright.app.study"],
+)
 def test_while_it_imports(module: str) -> None:
-    program = _start("run", "machines/roller_two_carts.toml", "--json")
-    _wait_for(program, module)
-    program.send_signal(signal.SIGINT)
-    _, told = program.communicate(timeout=PATIENCE)
-    assert program.returncode == 130
-    assert "Traceback" not in told
-
-
-@pytest.mark.parametrize("module", ["numpy", "linkwright.machine", "linkwright.app.study"])
-def test_while_a_command_imports(module: str) -> None:
+    """Itself, and what a command needs."""
     program = _start("run", "machines/roller_two_carts.toml", "--json")
     _wait_for(program, module)
     program.send_signal(signal.SIGINT)

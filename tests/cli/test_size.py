@@ -92,45 +92,34 @@ def test_papers(tmp_path: Path) -> None:
     assert page.count("<svg") == 5
 
 
-def test_papers_of_the_cam_drive(tmp_path: Path) -> None:
-    done = run("papers", "2", "--json", "--out", tmp_path)
+# Figures of a paper and words that its answer has; square brackets of a formula are no markup.
+PAPERS = {
+    "2": ("figure1 figure3 shape start alternatives course", ["reproduced to rounding", "continuous jerk"]),
+    "3": (
+        "scheme modes disc formulas amplitude unevenness cylinders delta weak",
+        ["[m_1 +", "cannot be read"],
+    ),
+    "5": ("figure3 step bands heads", ["d[(v_h/v)", "500…600 mm"]),
+}
+
+
+@pytest.mark.parametrize("number", PAPERS)
+def test_papers_with_their_figures(number: str, tmp_path: Path) -> None:
+    figures, words = PAPERS[number]
+    done = run("papers", number, "--json", "--out", tmp_path)
     assert done.exit_code == 0
-    found = json.loads(done.stdout)["results"]["paper2"]
-    assert found["cam"]["diameter_min"] == pytest.approx(found["cam"]["diameter_max"], abs=1e-12)
-    figures = ("figure1", "figure3", "shape", "start", "alternatives", "course")
-    names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers2.html"}
-    shown = run("papers", "2").stdout
-    assert "reproduced to rounding" in shown
-    assert "not reproduced" not in shown
-    assert "continuous jerk" in shown
-
-
-def test_papers_of_the_engine(tmp_path: Path) -> None:
-    done = run("papers", "3", "--json", "--out", tmp_path)
-    assert done.exit_code == 0
-    found = json.loads(done.stdout)["results"]["paper3"]
-    assert len(found["exact"]["natural_frequencies"]) == 3
-    figures = ("scheme", "modes", "disc", "formulas", "amplitude", "unevenness", "cylinders", "delta", "weak")
-    names = {f"{name}.{end}" for name in figures for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers3.html"}
-    shown = run("papers", "3").stdout
-    # Square brackets of a formula are no markup.
-    assert "[m_1 +" in shown
-    assert "cannot be read" in shown
-
-
-def test_papers_of_the_topper(tmp_path: Path) -> None:
-    done = run("papers", "5", "--json", "--out", tmp_path)
-    assert done.exit_code == 0
-    found = json.loads(done.stdout)["results"]["paper5"]
-    assert found["verdict"]["lengths"] == [0.25, 0.3]
-    names = {f"{name}.{end}" for name in ("figure3", "step", "bands", "heads") for end in ("svg", "png")}
-    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {"papers5.html"}
-    shown = run("papers", "5").stdout
-    # Square brackets of a formula are no markup.
-    assert "d[(v_h/v)" in shown
-    assert "500…600 mm" in shown
+    found = json.loads(done.stdout)["results"][f"paper{number}"]
+    if number == "2":
+        assert found["cam"]["diameter_min"] == pytest.approx(found["cam"]["diameter_max"], abs=1e-12)
+    elif number == "3":
+        assert len(found["exact"]["natural_frequencies"]) == 3
+    else:
+        assert found["verdict"]["lengths"] == [0.25, 0.3]
+    names = {f"{name}.{end}" for name in figures.split() for end in ("svg", "png")}
+    assert {path.name for path in tmp_path.glob("[!.]*")} == names | {f"papers{number}.html"}
+    shown = run("papers", number).stdout
+    assert all(word in shown for word in words)
+    assert number != "2" or "not reproduced" not in shown
 
 
 def test_the_flywheel_alone_for_the_motor_of_the_file(tmp_path: Path) -> None:

@@ -10,12 +10,8 @@ from sizes import cases, generator
 from zoo import ZOO, animal
 
 import linkwright as lw
-from linkwright import FindingError, LinkwrightError, _core
+from linkwright import FindingError, LinkwrightError
 from linkwright.machine import exchanged
-
-pytestmark = pytest.mark.skipif(
-    not hasattr(_core, "motions_along"), reason="the core was built before its derivatives of motions"
-)
 
 # Share of an entry by which it is varied: rounding leaves 1e-13 of a force over it, the differences h⁴.
 _STEP = 2e-4

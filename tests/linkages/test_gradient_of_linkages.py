@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from command_line import invoke
-from random_drives import random_drive
-from sizes import cases, random_cases
 
 import linkwright as lw
-from linkwright import FindingError, LinkwrightError
+from linkwright import FindingError
 from linkwright.linkages.gradient import linkage_tangents
-from linkwright.machine import exchanged
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
-# Extremes are located to rounding of the curve's slope; h⁶ of what is left by extrapolation beside it.
-_STEP, _TOLERANCE = 1e-4, 1e-7
 
 R, L, E = 0.1, 0.28, 0.03
 SLIDER = f"""
@@ -67,88 +61,6 @@ def test_of_an_inline_slider_the_stroke_is_twice_the_crank() -> None:
     assert "deviate equally from 90°" in along.ties["S.transmission_angle_worst"]
     assert np.isnan(along.tangents["S.transmission_angle_worst"].d).all()
     assert along.missing["S.time_ratio"] == "both ways take the same crank angle"
-
-
-def _scalars(machine: lw.Machine) -> dict[str, float]:
-    elements = lw.linkage(machine).to_dict()["elements"]
-    return {f"{name}.{key}": x for name, one in elements.items() for key, x in one.items()}
-
-
-def _difference(machine: lw.Machine, address: str, names: list[str], step: float) -> np.ndarray:
-    """Central differences over h, 2h and 4h, extrapolated to sixth order, by the share of an entry."""
-    value = lw.get(machine, address)
-    size = abs(value) or 0.1
-    near = {}
-    for n in (-4, -2, -1, 1, 2, 4):
-        scalars = _scalars(exchanged(machine, {address: value + n * step * size}))
-        near[n] = np.array([scalars[name] for name in names])
-
-    def between(n: int) -> Any:
-        change = near[n] - near[-n]
-        turned = np.array(["angle" in name.rpartition("_")[2] for name in names])
-        # Crank angles are those of one revolution.
-        return np.where(turned, (change + np.pi) % (2 * np.pi) - np.pi, change) / (2 * n * step)
-
-    found: np.ndarray = (64 * between(1) - 20 * between(2) + between(4)) / 45
-    return found
-
-
-def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
-    """How many derivatives were compared, and which are wrong."""
-    entries = [name for name in lw.addresses(machine) if name.startswith("mechanism.")]
-    found = linkage_tangents(machine, entries)
-    names = [name for name in found.tangents if name not in found.ties]
-    d = np.array([found.tangents[name].d for name in names]).reshape(len(names), len(found.variables))
-    sizes = np.array([abs(lw.get(machine, entry)) or 0.1 for entry in found.variables])
-    exact = d * sizes
-    values = np.array([abs(found.tangents[name].value) for name in names])
-    scales = np.maximum(np.abs(exact).max(axis=1, initial=0.0), values) + 1e-300
-    compared, wrong = 0, []
-    for column in range(0, len(sizes), every):
-        least = np.full(len(names), np.inf)
-        try:
-            # Differences over short steps know crank angles of flat extremes to the root of rounding.
-            for step in (_STEP, 0.1 * _STEP):
-                rough = _difference(machine, found.variables[column], names, step)
-                least = np.minimum(least, np.abs(rough - exact[:, column]) / scales)
-                if (least <= _TOLERANCE).all():
-                    break
-        except (LinkwrightError, KeyError):
-            # Beside it the mechanism does not close, or the element turns on.
-            continue
-        wrong += [
-            f"{names[k]} by {found.variables[column]}: {least[k]:.1e}"
-            for k in np.flatnonzero(~(least <= _TOLERANCE))
-        ]
-        compared += len(names)
-    return compared, wrong
-
-
-_LINKAGES = (
-    *("four_bar_coupler_curve", "six_bar_chains", "quick_returns", "jansen_leg", "klann_leg"),
-    *("three_circle_triad", "gears_and_guides", "geared_five_bar", "knuckle_press_drawing", "press_motion"),
-)
-
-
-@pytest.mark.parametrize("name", _LINKAGES)
-def test_derivatives_are_those_of_the_linkage(name: str) -> None:
-    compared, wrong = _wrong(lw.read(EXAMPLES / name / "machine.toml"), cases(3, 1))
-    assert not wrong, wrong
-    assert compared > 3
-
-
-def test_derivatives_of_random_mechanisms() -> None:
-    compared = 0
-    for case, random in random_cases(53, 10, 1000):
-        try:
-            machine = lw.Machine.model_validate(random_drive(random))
-            one, wrong = _wrong(machine, cases(3, 1))
-        except LinkwrightError:
-            # It does not close, or all its links turn on.
-            continue
-        assert not wrong, (case, wrong)
-        compared += one
-    assert compared > 50
 
 
 def test_what_has_no_derivative_says_why() -> None:

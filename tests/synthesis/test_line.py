@@ -71,23 +71,15 @@ def test_chebyshev_passes_its_three_places() -> None:
     assert left[:2, 0] / scale == pytest.approx([0, 4], abs=1e-12)
 
 
-def test_peaucellier_inverts() -> None:
-    found = lw.straight_line("peaucellier", 1.0)
-    mechanism = found.machine.mechanism
-    arm, side = mechanism.rockers["B"].rocker, mechanism.rockers["B"].coupler
-    p = lw.motions(found.machine, found.crank_angles, points=["C", "P"])[0]
+@pytest.mark.parametrize(
+    ("kind", "pivot", "end", "share"), [("peaucellier", "B", "C", 1.0), ("hart", "C", "R", 0.25)]
+)
+def test_inversors_invert(kind: str, pivot: str, end: str, share: float) -> None:
+    found = lw.straight_line(kind, 1.0)
+    rocker = found.machine.mechanism.rockers[pivot]
+    p = lw.motions(found.machine, found.crank_angles, points=[end, "P"])[0]
     product = np.hypot(p[0], p[1]) * np.hypot(p[6], p[7])
-    np.testing.assert_allclose(product, arm**2 - side**2, rtol=1e-12)
-
-
-def test_hart_inverts() -> None:
-    found = lw.straight_line("hart", 1.0)
-    mechanism = found.machine.mechanism
-    long = mechanism.rockers["C"].rocker
-    short = mechanism.rockers["C"].coupler
-    p = lw.motions(found.machine, found.crank_angles, points=["R", "P"])[0]
-    product = np.hypot(p[0], p[1]) * np.hypot(p[6], p[7])
-    np.testing.assert_allclose(product, 0.25 * (long**2 - short**2), rtol=1e-12)
+    np.testing.assert_allclose(product, share * (rocker.rocker**2 - rocker.coupler**2), rtol=1e-12)
 
 
 def test_proportions_and_range() -> None:

@@ -33,6 +33,9 @@ _STOPS = frozenset(".;:,")
 # Where a number or a name stands in a translation.
 _PLACE = re.compile(r"#(\d?)|\{(\d?)\}")
 
+# Between entries of a list, not between the arguments of a function.
+_LISTED = re.compile(r", (?![^()]*(?:\([^()]*\)[^()]*)*\))")
+
 # What makes an entry a formula, in which names are no words.
 _FORMULA = re.compile(r"[*^()=<>]| [-+/] ")
 
@@ -170,7 +173,7 @@ class Language:
 
     def entry(self, text: str) -> str:
         """Words of an entry of a machine: a key, a value, or a list of keys with their values."""
-        return text if self.code == "en" else ", ".join(map(self._keyed, text.split(", ")))
+        return text if self.code == "en" else ", ".join(map(self._keyed, _LISTED.split(text)))
 
     def _keyed(self, text: str) -> str:
         """A key, alone or before a value or a further key; what else there is stays, as formulas do."""

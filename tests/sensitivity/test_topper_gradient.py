@@ -1,4 +1,4 @@
-"""Derivatives of random toppers of every motion of the knife against extrapolated differences."""
+"""Derivatives of toppers: knives in pieces, closed forms, ties, what has none."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from differences import sixth_order
-from sizes import cases, random_cases
+from random_toppers import CAM, topper_table
+from sizes import generator
 
 import linkwright as lw
-from linkwright import FindingError, LinkwrightError
+from linkwright import FindingError
 from linkwright.cam import MotionLaw
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine import exchanged
@@ -18,134 +18,8 @@ from linkwright.sensitivity.sources import source
 from linkwright.topping import Knife, edges_of, require_topper
 from linkwright.topping.knife_along import knife_along, refused_of_law
 
-# Share of an entry by which it is varied: areas are good to 1e-12 of a head.
-_STEP = 1e-4
-
 # What differences are good for, as a share of the largest derivative of a response, or of the response.
 _TOLERANCE = 1e-7
-
-# Of a sum over heads, at some of which something begins to be left with the power 3/2 of the step.
-_OF_THE_MEAN = 1e-3
-
-# Places of extremes are found by looking, to 1e-8 of their range: differences are good for the rest.
-_OF_PLACES = 1e-2
-_PLACES = ("uncut_phase", "uncut_offset", "last_x", "last_y", "worst_phase", "worst_offset")
-
-_CAM = {
-    "base_radius": 0.05,
-    "roller_radius": 0.01,
-    "sections": [
-        {"angle": 2.4, "lift": 0.05, "law": "cycloidal"},
-        {"angle": 0.5},
-        {"angle": 2.6, "lift": -0.05, "law": "polynomial_3_4_5"},
-        {"angle": 2 * np.pi - 5.5},
-    ],
-}
-
-
-def _topper(rng: np.random.Generator, kind: str) -> dict[str, Any]:
-    stroke = rng.uniform(0.04, 0.08)
-    motion: dict[str, Any] = {"kind": kind, "stroke": stroke}
-    if kind in ("slider", "cam"):
-        motion = {"kind": "member", "of": "knife"}
-    elif kind == "one_way":
-        motion = {"kind": "constant"}
-    if kind != "one_way" and rng.random() < 0.3:
-        motion["phase"] = rng.uniform(0.1, 6.0)
-    topper = {
-        "root_diameter": rng.uniform(0.08, 0.13),
-        "cut_height": rng.uniform(0.02, 0.035),
-        "offset": rng.uniform(0.005, 0.03),
-        "edge_angle": rng.uniform(-0.5, 0.5),
-        "edge_length": rng.uniform(0.1, 0.25),
-        "forward_speed": rng.uniform(1.5, 2.5),
-        "motion": motion,
-    }
-    if motion["kind"] != "member":
-        topper["knife_speed"] = rng.uniform(0.2, 0.8)
-    return topper
-
-
-def _machine(rng: np.random.Generator, kind: str) -> lw.Machine:
-    described: dict[str, Any] = {"format": 1, "name": "Topper", "topper": _topper(rng, kind)}
-    if kind == "slider":
-        described["mechanism"] = {
-            "cranks": {"crank": {"radius": rng.uniform(0.02, 0.04)}},
-            "sliders": {
-                "knife": {"crank": "crank", "rod": rng.uniform(0.12, 0.2), "offset": rng.uniform(0.004, 0.02)}
-            },
-        }
-        described["bodies"] = {"knife": {"mass": 2.5}, "knife.rod": {"mass": 0.6}}
-        described["drive"] = {"speed": rng.uniform(15.0, 30.0)}
-        if rng.random() < 0.7:
-            described["loads"] = {"cut": {"kind": "viscous", "on": "knife", "damping": 40.0}}
-    if kind == "cam":
-        described["mechanism"] = {"cams": {"knife": _CAM}}
-        described["drive"] = {"speed": rng.uniform(15.0, 25.0)}
-        described["bodies"] = {"knife": {"mass": 2.0}}
-    return lw.Machine.model_validate(described)
-
-
-def _difference(machine: lw.Machine, names: list[str], address: str, step: float) -> np.ndarray:
-    """Central differences over h, 2h and 4h, extrapolated to sixth order, times the entry."""
-    value = lw.get(machine, address)
-
-    def measure(share: float) -> np.ndarray:
-        study = lw.topper(exchanged(machine, {address: value * (1 + share)}))
-        return np.array([float(getattr(study, name)) for name in names])
-
-    return sixth_order(measure, step)
-
-
-def _tolerance(name: str) -> float:
-    return _OF_THE_MEAN if name == "uncut_share_mean" else _OF_PLACES if name in _PLACES else _TOLERANCE
-
-
-def _wrong(machine: lw.Machine, every: int) -> tuple[int, list[str]]:
-    """How many derivatives were compared, and which are wrong."""
-    found = source(machine, "topper", list(lw.addresses(machine)))
-    listed = [name for name in found.tangents if name not in found.ties]
-    names = [name.partition(".")[2] for name in listed]
-    d = np.array([found.tangents[name].d for name in listed])
-    values = np.array([abs(found.tangents[name].value) for name in listed])
-    moving = [
-        k
-        for k, v in enumerate(found.variables)
-        if np.any(d[:, k]) and lw.get(machine, v) and "sections" not in v
-    ]
-    exact = d * np.array([float(lw.get(machine, name)) for name in found.variables])
-    scales = np.abs(exact).max(axis=1) + values + 1e-300
-    tolerances = np.array([_tolerance(name) for name in names])
-    wrong, compared = [], 0
-    for k in moving[::every]:
-        least = np.full(len(names), np.inf)
-        try:
-            for step in (_STEP, 0.1 * _STEP):
-                rough = _difference(machine, names, found.variables[k], step)
-                least = np.minimum(least, np.abs(rough - exact[:, k]) / scales)
-                if (least <= tolerances).all():
-                    break
-        except LinkwrightError:
-            # A knife that an entry varied takes to an edge that barely advances.
-            continue
-        wrong += [
-            f"{name} by {found.variables[k]}: {least[i]:.1e}"
-            for i, name in enumerate(names)
-            if least[i] > tolerances[i]
-        ]
-        compared += len(names)
-    return compared, wrong
-
-
-@pytest.mark.parametrize("kind", ["harmonic", "constant", "one_way", "slider", "cam"])
-def test_derivatives_are_those_of_the_topper(kind: str) -> None:
-    compared = 0
-    for case, random in random_cases(17, 1, 60):
-        machine = _machine(random, kind)
-        one, wrong = _wrong(machine, cases(4, 1))
-        assert not wrong, (kind, case, wrong)
-        compared += one
-    assert compared > 30
 
 
 def test_what_has_no_derivative_says_why() -> None:
@@ -177,9 +51,9 @@ def test_a_knife_in_pieces_follows_its_mechanism() -> None:
     described["mechanism"] = {
         "cranks": {"crank": {"radius": 0.03}},
         "sliders": {"knife": {"crank": "crank", "rod": 0.16, "offset": 0.01}},
-        "cams": {"beside": _CAM},
+        "cams": {"beside": CAM},
     }
-    described["topper"] = _topper(np.random.default_rng(5), "slider")
+    described["topper"] = topper_table(generator(5), "slider")
     machine = lw.Machine.model_validate(described)
 
     def knife(machine: lw.Machine) -> Knife:
