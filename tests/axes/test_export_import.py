@@ -14,6 +14,7 @@ from linkwright.axes.export.exported import exported, law_of
 from linkwright.axes.export.formats import FORMATS
 from linkwright.cam.laws.motion_law import MotionLaw
 from linkwright.kernel.errors import MachineError, MachineFileError
+from linkwright.kernel.files.cam_tables import controller_table
 
 MACHINE = """
 format = 1
@@ -166,3 +167,9 @@ def test_tables_with_velocities_alone_are_cubics() -> None:
     section = f'angle = "360 deg", law = {{ kind = "table", {POINTS}, velocity = "0, 0, 0 mm/deg" }}'
     z = 0.3
     assert law(section).value(z * math.pi) == pytest.approx(0.02 * (3 * z**2 - 2 * z**3), rel=1e-12)
+
+
+@pytest.mark.parametrize("part", ["(*", "(a := 1,", "x[1].y := ", "x", "1[1].y:=1;"])
+def test_reading_takes_linear_time(part: str) -> None:
+    """A hundred thousand parts that lead nowhere are read in one pass; their square would take hours."""
+    controller_table(part * 100_000 + ":=")

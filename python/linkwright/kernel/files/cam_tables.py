@@ -24,15 +24,24 @@ class TableRow(NamedTuple):
     entries: dict[str, str]
 
 
-_COMMENT = re.compile(r"\(\*(?:[^*]|\*(?!\)))*\*\)|//[^\n]*")
+# Where a comment begins, and where each kind ends.
+_COMMENT = re.compile(r"\(\*|//")
+_ENDS = {"(*": "*)", "//": "\n"}
 _FIELD = r"\w++\s*+:=\s*+[^(),;\[\]]++"
 _STRUCTURE = re.compile(rf"\(\s*+({_FIELD}(?:,\s*+{_FIELD})*+)\)")
-_ASSIGNMENT = re.compile(r"\w++\[\s*+(\d++)\s*+\]\.(\w++)\s*+:=\s*+([^;]++);")
+_ASSIGNMENT = re.compile(r"(?<!\w)\w++\[\s*+(\d++)\s*+\]\.(\w++)\s*+:=\s*+([^;:=\[\]]++);")
 
 
 def without_comments(text: str) -> str:
     """Structured Text without its comments, on the same lines."""
-    return _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+    parts, at = [], 0
+    while comment := _COMMENT.search(text, at):
+        mark = _ENDS[comment[0]]
+        end = text.find(mark, comment.end())
+        after = len(text) if end < 0 else end + (len(mark) if mark == "*)" else 0)
+        parts += [text[at : comment.start()], "\n" * text.count("\n", comment.start(), after)]
+        at = after
+    return "".join([*parts, text[at:]])
 
 
 def structured_rows(text: str, *names: str) -> list[TableRow]:
