@@ -266,16 +266,17 @@ def _motion_along(
         }
         return replace(motion, **followed), program.lost(gradient.lost), curves.torque_drive
     assert drive is not None
-    has_given = isinstance(drive.motor, ConstantSpeedMotor)
-    speed = drive.motor.speed / drive.gearbox.ratio if has_given else drive.speed
+    speed: Any = drive.speed
+    if isinstance(drive.motor, ConstantSpeedMotor):
+        speed = drive.motor.speed / drive.gearbox.ratio
     return _at_speed(motion, speed, len(program.variables)), {}, None
 
 
 def _at_speed(motion: Motion, speed: Any, n: int) -> Motion:
     """A motion at a given speed, with derivatives by n variables."""
     phi: Any = motion.crank_angle
-    speeds = lifted(np.ones(len(phi)), n) * speed
-    time = phi / speeds if motion.speed.any() else lifted(phi, n)
+    speeds: Any = lifted(np.ones(len(phi)), n) * speed
+    time: Any = phi / speeds if motion.speed.any() else lifted(phi, n)
     acceleration: Any = lifted(motion.acceleration, n)
     return replace(motion, speed=speeds, acceleration=acceleration, time=time)
 
@@ -333,4 +334,5 @@ def _along(system: Equilibrium, found: Solution, load: AppliedLoad) -> Solution:
     d[usable] = (
         solution_along(x[usable], change[usable], system.matrix(primal(slopes))[usable]).d * size[:, None]
     )
-    return replace(found, x=Tangent(x, d)[:, :, None], slopes=slopes)
+    followed: Any = Tangent(x, d)
+    return replace(found, x=followed[:, :, None], slopes=slopes)
