@@ -354,12 +354,19 @@ def moves(x: Any) -> bool:
     return bool(x) or (isinstance(x, Tangent) and bool(np.any(x.d)))
 
 
-def _of_one(function: Any, of_number: Callable[[float], float]) -> Callable[[Any], Any]:
-    return lambda x: function(x) if isinstance(x, Tangent) else of_number(x)
+def sqrt(x: Any) -> Any:
+    """√x of a number or a tangent."""
+    return np.sqrt(x) if isinstance(x, Tangent) else math.sqrt(x)
 
 
-# Of a number or a tangent.
-sqrt, sin, cos = _of_one(np.sqrt, math.sqrt), _of_one(np.sin, math.sin), _of_one(np.cos, math.cos)
+def sin(x: Any) -> Any:
+    """sin x of a number or a tangent."""
+    return np.sin(x) if isinstance(x, Tangent) else math.sin(x)
+
+
+def cos(x: Any) -> Any:
+    """cos x of a number or a tangent."""
+    return np.cos(x) if isinstance(x, Tangent) else math.cos(x)
 
 
 def variables_of(numbers: Iterable[Any]) -> int | None:
