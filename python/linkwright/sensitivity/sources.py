@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
-from typing import get_type_hints
+from typing import Any, get_type_hints
 
 from linkwright.app.subjects import ANALYSES
 from linkwright.drive.model.motor import ConstantSpeedMotor
@@ -90,11 +90,10 @@ def _named(of: Analysis, prefix: str, derived: Derivatives) -> Derivatives:
     units = {name: mark.unit for name, mark in marks.items()} | dict(derived.units)
     usual = tuple(derived.tangents) if derived.usual is None else derived.usual
     whole = replace(derived, words=words, units=units)
-    return replace(
-        whole,
-        **{part: {f"{prefix}.{name}": x for name, x in getattr(whole, part).items()} for part in _NAMED},
-        usual=tuple(f"{prefix}.{name}" for name in usual),
-    )
+    prefixed: dict[str, Any] = {
+        part: {f"{prefix}.{name}": x for name, x in getattr(whole, part).items()} for part in _NAMED
+    }
+    return replace(whole, **prefixed, usual=tuple(f"{prefix}.{name}" for name in usual))
 
 
 def _mark(kind: type, name: str) -> Label:

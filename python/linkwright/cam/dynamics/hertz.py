@@ -69,7 +69,8 @@ class Material:
     @property
     def compliance(self) -> float:
         """(1 − ν²)/E [1/Pa]."""
-        return compliance(self.modulus, self.poisson)
+        own: float = compliance(self.modulus, self.poisson)
+        return own
 
 
 def compliance(modulus: Any, poisson: Any) -> Any:

@@ -12,7 +12,7 @@ import math
 import operator
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,6 +32,19 @@ class Tangent:
 
     __slots__ = ("d", "value")
     __hash__ = None  # type: ignore[assignment]
+
+    if TYPE_CHECKING:
+        # Operators are made below.
+        def __abs__(self) -> Any: ...
+        def __neg__(self) -> Any: ...
+        def __add__(self, other: Any) -> Any: ...
+        def __sub__(self, other: Any) -> Any: ...
+        def __mul__(self, other: Any) -> Any: ...
+        def __truediv__(self, other: Any) -> Any: ...
+        def __pow__(self, other: Any) -> Any: ...
+        def __lt__(self, other: Any) -> Any: ...
+
+        __radd__, __rsub__, __rmul__, __rtruediv__, __rpow__ = __add__, __sub__, __mul__, __truediv__, __pow__
 
     def __init__(self, value: Any, d: Any) -> None:
         # One number stays a number: most of a description is.
@@ -341,12 +354,19 @@ def moves(x: Any) -> bool:
     return bool(x) or (isinstance(x, Tangent) and bool(np.any(x.d)))
 
 
-def _of_one(function: Any, of_number: Callable[[float], float]) -> Callable[[Any], Any]:
-    return lambda x: function(x) if isinstance(x, Tangent) else of_number(x)
+def sqrt(x: Any) -> Any:
+    """√x of a number or a tangent."""
+    return np.sqrt(x) if isinstance(x, Tangent) else math.sqrt(x)
 
 
-# Of a number or a tangent.
-sqrt, sin, cos = _of_one(np.sqrt, math.sqrt), _of_one(np.sin, math.sin), _of_one(np.cos, math.cos)
+def sin(x: Any) -> Any:
+    """sin x of a number or a tangent."""
+    return np.sin(x) if isinstance(x, Tangent) else math.sin(x)
+
+
+def cos(x: Any) -> Any:
+    """cos x of a number or a tangent."""
+    return np.cos(x) if isinstance(x, Tangent) else math.cos(x)
 
 
 def variables_of(numbers: Iterable[Any]) -> int | None:
