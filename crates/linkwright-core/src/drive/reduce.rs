@@ -133,8 +133,8 @@ impl Plan {
                 r.load = pull.mul_add(way.d1, r.load);
             }
             What::Resistance { forward, back } => {
-                let [ahead, behind] =
-                    [forward, back].map(|table| self.tables[table].held_at(way.position, q));
+                let ahead = self.tables[forward].held_at(way.position, q);
+                let behind = self.tables[back].held_at(way.position, q);
                 let force = (way.d1 * sense).select_lt(R::splat(0.0), behind, ahead);
                 r.dry = way.d1.abs().mul_add(force, r.dry);
             }
