@@ -476,3 +476,15 @@ Q = { law = "0.05*(1 - cos(phi))", start = "0.3 m", advance = 0 }
     assert lw.clearance(machine, "P", "Q", keep=0.1).earlier == pytest.approx(2 * np.pi)
     with pytest.raises(lw.InputError, match="both moved by P"):
         lw.clearance(machine, "P", "P")
+
+
+def test_a_corner_of_a_law_is_refused_and_a_jump_of_the_acceleration_warned_of() -> None:
+    """A step at constant velocity would need an infinite acceleration of the dial; a parabolic one jumps."""
+    corner = lw.loads(changed(PACKAGING, ('law = "cycloidal"', 'law = "constant_velocity"')))
+    with pytest.raises(
+        lw.LinkwrightError, match=r"the velocity of the law of dial jumps from 0 to 0\.5 rad/rad"
+    ):
+        lw.servo_axis(corner, "dial")
+    assert any("infinite acceleration" in text for text in lw.study(corner).findings)
+    bent = lw.study(lw.loads(changed(PACKAGING, ('law = "cycloidal"', 'law = "parabolic"'))))
+    assert any("The acceleration of the law of dial jumps" in text for text in bent.warnings)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
@@ -262,7 +263,7 @@ def _axis(
         acceleration=acceleration,
         torque=torque,
         power=torque * velocity,
-        torque_rms=float(np.sqrt(max(weights @ torque**2 / asked.period, 0.0))),
+        torque_rms=math.sqrt(max(float(weights @ torque**2) / asked.period, 0.0)),
         inertia_mean=inertia,
         name=name,
         driver=driver,

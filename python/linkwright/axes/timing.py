@@ -13,6 +13,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import axis_drivers
 from linkwright.machine.program.compiled import compile_machine
@@ -49,10 +50,10 @@ class Track(Result):
 def moved_drivers(machine: Machine) -> tuple[str, ...]:
     """Drivers with a law of their own: cams, axes, formulas; not what rotates with the master."""
     mechanism, own = machine.linkage, axis_drivers(machine)
-    drivers = (*mechanism.cranks.items(), *mechanism.linear_drivers.items())
+    drivers: dict[str, Crank | LinearDriver] = {**mechanism.cranks, **mechanism.linear_drivers}
     return tuple(
         name
-        for name, driver in drivers
+        for name, driver in drivers.items()
         if name in own or driver.follows() is not None or driver.law is not None
     )
 
@@ -85,10 +86,12 @@ def tracks_of(machine: Machine, cycle: AxesCycle) -> tuple[Track, ...]:
     for driver in moved_drivers(machine):
         is_cam = driver in machine.mechanism.cams
         motion = _follower(machine, driver, cycle) if is_cam else driver_motion(machine, driver, cycle)
-        torque = driver_torque(machine, driver, cycle)
-        curves = [curve[within] for curve in (cycle.angle, *motion, torque)]
+        angle, position, velocity, acceleration, torque = (
+            curve[within] for curve in (cycle.angle, *motion, driver_torque(machine, driver, cycle))
+        )
         turns = machine.mechanism.cams[driver].is_oscillating if is_cam else _turns(machine, driver)
-        found.append(Track(*curves, names.get(driver, driver), driver, turns, is_cam))
+        name = names.get(driver, driver)
+        found.append(Track(angle, position, velocity, acceleration, torque, name, driver, turns, is_cam))
     return tuple(found)
 
 

@@ -364,7 +364,8 @@ def balance(
     share of a slider's mass; and what they change.
     """
     from linkwright.kinetostatics.balancing import balance as fit
-    from linkwright.kinetostatics.balancing import has_speed, partial_balance
+    from linkwright.kinetostatics.balancing import partial_balance
+    from linkwright.kinetostatics.motion import has_speed
 
     machine = file.read()
     if (links is None) == (slider is None):

@@ -44,10 +44,23 @@ def forces_figure(forces: Forces) -> Figure:
     reactions = [Line(forces.pairs[name].size, colour, named(name)) for name, colour in sizes]
     return line_figure(
         np.degrees(forces.crank_angle),
-        Panel("driving torque $M_d$\n[N m]", [Line(forces.torque_drive, DRIVE)]),
+        *_driving(forces),
         Panel("magnitude of the reaction\n[N]", reactions, room=None),
         height=4.2,
     )
+
+
+def _driving(forces: Forces) -> Iterator[Panel]:
+    """The driving torque; of drives with laws the torque, and the force, of each by name."""
+    if not forces.laws:
+        yield Panel("driving torque $M_d$\n[N m]", [Line(forces.torque_drive, DRIVE)])
+        return
+    for unit, word in (("N m", "torque of the drive"), ("N", "force of the drive")):
+        names = [name for name in forces.drives if forces.drive_unit(name) == unit]
+        coloured = zip(names, LINES * len(names), strict=False)
+        lines = [Line(forces.drives[name], colour, named(name)) for name, colour in coloured]
+        if lines:
+            yield Panel(f"{word}\n[{unit}]", lines)
 
 
 @styled
@@ -126,8 +139,11 @@ def has_reactions(forces: Forces) -> bool:
 
 def _given(forces: Forces) -> str:
     most = quantity(forces.torque_drive_max, "N m")
-    if forces.shaft:
-        return f"The peak {forces.shaft}, is {most}."
+    if forces.laws:
+        each = ", ".join(
+            f"{name} {quantity(value, forces.drive_unit(name))}" for name, value in forces.drive_max.items()
+        )
+        return f"Peak torques of the drives: {each}. The peak {forces.shaft} is {most}."
     return f"Peak driving torque at the crank: {most}."
 
 

@@ -46,7 +46,10 @@ def envelope_tables(forces: Forces) -> tuple[Table]:
 
 
 def forces_headline(forces: Forces) -> Iterator[tuple[str, str, str]]:
-    """The largest force of a pair, and where."""
+    """Peak torque of each drive with a law, the largest force of a pair, and where."""
+    for name, value in forces.drive_max.items() if forces.laws else ():
+        unit = forces.drive_unit(name)
+        yield f"peak {'torque' if unit == 'N m' else 'force'} of {name}", *parted(value, unit)
     known = {name: force for name, force in forces.reaction_max.items() if math.isfinite(force)}
     if known and any(known.values()):
         pair = max(known, key=lambda name: known[name])

@@ -79,9 +79,9 @@ class Axis(Description):
     )
     phase: Angle = Field(0.0, description="Angle of the master at which the first section begins.")
     advance: Angle = Field(
-        0.0, description="By how much a crank advances per cycle: index steps add up. Default: it returns."
+        0.0, description="Advance of a crank per cycle: index steps add up. Default: it returns."
     )
-    travel: Length = Field(0.0, description="The same of a linear driver.")
+    travel: Length = Field(0.0, description="Advance of a linear driver per cycle. Default: it returns.")
     motor: ServoMotor | None = Field(None, description="Servo motor.")
     gearbox: AxisGearbox = Field(
         default_factory=AxisGearbox, description="Gearbox between motor and driver. Default: a direct drive."

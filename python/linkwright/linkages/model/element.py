@@ -118,7 +118,7 @@ class Crank(CheckedDescription):
     )
     advance: Angle | None = Field(
         None,
-        description="By how much the law advances per cycle: it then restarts in every revolution, and the "
+        description="Advance of the law per cycle: it then restarts in every revolution, and the "
         "steps add up; 0 for a law that repeats. Default: phi continues beyond 2*pi.",
     )
     pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
@@ -141,9 +141,7 @@ class LinearDriver(CheckedDescription):
     constants: Constants = Field(
         default_factory=dict, description="Constants of the law by name, in any unit."
     )
-    advance: Length | None = Field(
-        None, description="By how much the law advances per cycle, as that of a crank."
-    )
+    advance: Length | None = Field(None, description="Advance of the law per cycle, as that of a crank.")
     pushed: ClassVar[bool] = False  # whether the contact with a cam moves it
 
     def follows(self) -> Any:
