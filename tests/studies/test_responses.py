@@ -31,6 +31,7 @@ CASES = {
     "cam": ("roller_cam", "bodies.cart.mass", "cart.pressure_angle_max"),
     "cam_check": ("roller_cam", "bodies.cart.mass", "cart.n_faults"),
     "cam_force": ("roller_cam", "bodies.cart.mass", "cart.force_size"),
+    "cylinder": ("scissor_lift_cylinder", "loads.load_B.force", "lift.force_max"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
     "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),

@@ -34,6 +34,29 @@ fn a_group_of_one_is_the_dyad() {
     }
 }
 
+/// A bar r about the origin, a cylinder of length L = 0.3 sin φ from a point at distance t on x: x = (r² + t² − L²)/2t.
+#[test]
+fn a_cylinder_follows_the_law_of_cosines() {
+    let mut b = Builder::new();
+    let (foot, trunnion) = (b.fixed(0.0, 0.0), b.fixed(0.4, 0.0));
+    let length = b.law_of_sine();
+    let joint = b.cylinder((foot, 0.3), (trunnion, length), [0.25, 0.16]);
+    let built = b.finish(Motor::Off, [1.0; 5]);
+    for i in 0..20 {
+        // Between the angles where the cylinder is as short as t − r.
+        let phi = 0.6 + 0.09 * f64::from(i);
+        let p = place(&built, phi).points[joint];
+        let x = (0.09 + 0.16 - 0.09 * phi.sin().powi(2)) / 0.8;
+        let (x1, x2) = (-0.09 * (2.0 * phi).sin() / 0.8, -0.18 * (2.0 * phi).cos() / 0.8);
+        let y = (0.09 - x * x).sqrt();
+        let y1 = -x * x1 / y;
+        let y2 = -(x1 * x1 + x * x2 + y1 * y1) / y;
+        for (found, (x, y)) in [(p.p, (x, y)), (p.d1, (x1, y1)), (p.d2, (x2, y2))] {
+            assert!((found.x - x).abs() + (found.y - y).abs() < 1e-12, "{found:?} at {phi}");
+        }
+    }
+}
+
 /// Where a group cannot go it says so, and what it would place is NaN.
 #[test]
 fn a_group_beyond_its_limit_says_so() {

@@ -166,19 +166,22 @@ def _duty(machine: Machine, name: str, known: Forces) -> CylinderForce:
     slide = kinematics_of(compile_machine(machine), known.crank_angle, [("slides", name)]).slides[name]
     velocity = slide.d1 * known.speed
     force = known.drives[name] if cylinder.drives else force_of(cylinder, slide.position, velocity)
-    duty = CylinderForce(
-        known.crank_angle, known.time, slide.position, velocity, force, force * velocity, name
-    )
-    found = dict[str, Any](findings=tuple(_beyond(name, cylinder, duty.crank_angle, duty.length)))
+    chambers = dict[str, Any]()
     if cylinder.areas is not None:
-        found |= dict(zip(("pressure_bore", "pressure_rod"), pressures_of(cylinder, force), strict=True))
-        found |= {
-            f"flow_{side}": A * velocity for side, A in zip(("bore", "rod"), cylinder.areas, strict=True)
-        }
-    return CylinderForce(**{**{key: getattr(duty, key) for key in _CURVES}, "name": name, **found})
-
-
-_CURVES = ("crank_angle", "time", "length", "velocity", "force", "power")
+        (bore, rod), pressures = cylinder.areas, pressures_of(cylinder, force)
+        chambers = dict(zip(("pressure_bore", "pressure_rod"), pressures, strict=True))
+        chambers |= {"flow_bore": bore * velocity, "flow_rod": rod * velocity}
+    return CylinderForce(
+        crank_angle=known.crank_angle,
+        time=known.time,
+        length=slide.position,
+        velocity=velocity,
+        force=force,
+        power=force * velocity,
+        name=name,
+        findings=tuple(_beyond(name, cylinder, known.crank_angle, slide.position)),
+        **chambers,
+    )
 
 
 def force_of(cylinder: Cylinder, length: Any, velocity: Any) -> Any:

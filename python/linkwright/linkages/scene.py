@@ -234,8 +234,8 @@ def _grounds(machine: Machine) -> Iterator[Scene]:
     pivots += [cam.pivot or ORIGIN for cam in machine.mechanism.cams.values()]
     for table in ("rockers", "slotted_levers", "gears"):
         pivots += [element.pivot for element in getattr(mechanism, table).values()]
-    joining = (*mechanism.bars.values(), *mechanism.cylinders.values())
-    pivots += [end for part in joining for end in (part.start, part.end)]
+    pivots += [end for bar in mechanism.bars.values() for end in (bar.start, bar.end)]
+    pivots += [end for cylinder in mechanism.cylinders.values() for end in (cylinder.start, cylinder.end)]
     fixed = mechanism.fixed_points()
     joined = [load for load in machine.loads.values() if isinstance(load, BetweenPoints)]
     sprung = [end for load in joined for end in load.between]

@@ -35,7 +35,7 @@ from linkwright.studies.study_response import (
     ENTRY,
     LINKAGE,
     MOTION,
-    OF_ONE_CAM,
+    OF_ONE_PART,
     PARTS,
     PATH,
     NoPlaceError,
@@ -180,8 +180,9 @@ def _require_part(
 ) -> None:
     """Raise what is wrong, with a remedy, if a response names no part of the machine, or should name one."""
     place = next((parts for parts in axes if parts in PARTS), None)
-    if first in OF_ONE_CAM:
-        known = [*machine.mechanism.cams]
+    if first in OF_ONE_PART:
+        parts = ANALYSES[first].parts
+        known = [*machine.mechanism.cams] if parts is None else [*parts(machine)]
         if not of and len(known) == 1:
             return
     elif not of:
@@ -194,7 +195,7 @@ def _require_part(
         raise wrong(f"leave out {'.'.join(of)}")
     given = ".".join(of)
     if given not in known and not known:
-        raise wrong("the machine has no cams")
+        raise wrong(f"the machine has no {ANALYSES[first].part or 'cam'}s")
     if given not in known:
         raise wrong(suggestion(given, known) if of else f"name one of {', '.join(known)}")
 

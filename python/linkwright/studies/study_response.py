@@ -27,7 +27,7 @@ LINKAGE = "linkage"
 CYCLE = "cycle_motion"
 
 # Analyses of one part of the machine, by its name.
-OF_ONE_CAM = ("cam", "cam_check", "cam_force")
+OF_ONE_PART = ("cam", "cam_check", "cam_force", "cylinder")
 
 # Parts of a train that a list of curves has a row for.
 PARTS = ("discs", "shafts")
@@ -69,7 +69,7 @@ class StudyResponse:
     @property
     def arguments(self) -> tuple[str, ...]:
         """What the analysis takes besides the machine."""
-        return self.of if self.analysis in OF_ONE_CAM else ()
+        return self.of if self.analysis in OF_ONE_PART else ()
 
     @property
     def options(self) -> dict[str, float]:

@@ -193,12 +193,30 @@ impl Builder {
     }
 
     /// A coordinate 0.3 sin φ.
-    pub fn law_of_sine(&mut self) {
+    pub fn law_of_sine(&mut self) -> usize {
         let slide = self.slide();
         let size = self.number(0.3);
         let ops = vec![Op::Number(size), Op::Variable(Variable::Phi), Op::Sin, Op::Mul];
         let formula = Formula::new(ops).expect("a sound formula");
         self.add(Element::Law(Law { slide, formula }));
+        slide
+    }
+
+    /// A joint at a distance from one point, and at a length that is a slide from another.
+    pub fn cylinder(&mut self, bar: (usize, f64), cylinder: (usize, usize), near: [f64; 2]) -> usize {
+        let to = self.point();
+        let conditions = vec![
+            Condition::Distance { from: bar.0, to, length: self.number(bar.1) },
+            Condition::Length { from: cylinder.0, to, slide: cylinder.1 },
+        ];
+        let starts = near.iter().map(|&x| Table::new(&[0.0], &[x]).expect("one knot")).collect();
+        let (gap, inverse_turns) = (self.gap(), self.number(1.0));
+        let unknowns = vec![to];
+        let (bar_points, bars) = (vec![], vec![]);
+        let group =
+            Group { unknowns, bar_points, bars, conditions, gap, starts, inverse_turns, repeats: true };
+        self.add(Element::Group(group));
+        to
     }
 
     /// Joints P, Q and the third corner of the plate PQ; bars from the pin to P, of the plate, from Q and from

@@ -114,11 +114,12 @@ class MechanismProgram(Elements):
                 self._point(name)
                 carried.append(name)
 
-        cylinders = self.mechanism.cylinders
-        holding = [self.mechanism.bars[bar] for bar in bars]
-        for held in (*holding, *(cylinders[name] for name in step.conditions if name in cylinders)):
-            need(held.start)
-            need(held.end)
+        for bar in bars:
+            need(self.mechanism.bars[bar].start)
+            need(self.mechanism.bars[bar].end)
+        for name in set(step.conditions) & set(self.mechanism.cylinders):
+            need(self.mechanism.cylinders[name].start)
+            need(self.mechanism.cylinders[name].end)
         for name in step.conditions:
             guide = self.mechanism.joints[name].guide if name in self.mechanism.joints else None
             if guide is not None and guide.through is not None:
