@@ -282,8 +282,8 @@ def _motion_along(
 def _at_speed(motion: Motion, speed: Any, n: int) -> Motion:
     """A motion at a given speed, with derivatives by n variables."""
     phi: Any = motion.crank_angle
-    speeds = lifted(np.ones(len(phi)), n) * speed
-    time = phi / speeds if motion.speed.any() else lifted(phi, n)
+    speeds: Any = lifted(np.ones(len(phi)), n) * speed
+    time: Any = phi / speeds if motion.speed.any() else lifted(phi, n)
     acceleration: Any = lifted(motion.acceleration, n)
     return replace(motion, speed=speeds, acceleration=acceleration, time=time)
 
@@ -341,4 +341,5 @@ def _along(system: Equilibrium, found: Solution, load: AppliedLoad) -> Solution:
     d[usable] = (
         solution_along(x[usable], change[usable], system.matrix(primal(slopes))[usable]).d * size[:, None]
     )
-    return replace(found, x=Tangent(x, d)[:, :, None], slopes=slopes)
+    followed: Any = Tangent(x, d)
+    return replace(found, x=followed[:, :, None], slopes=slopes)

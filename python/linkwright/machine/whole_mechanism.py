@@ -43,8 +43,8 @@ def with_followers(
     flowing = [cylinder for cylinder in own.cylinders.values() if cylinder.flow is not None]
     if not (own.cams or flowing):
         return own
-    parts = (*own.cams.values(), *own.points.values(), *flowing)
-    return _kept((own,), partial(_driven, own), _has_arrays(*parts))
+    varies = _has_arrays(*own.cams.values(), *own.points.values(), *flowing)
+    return _kept((own,), partial(_driven, own), varies)
 
 
 def _driven(own: Mechanism) -> Mechanism:

@@ -105,7 +105,11 @@ def with_axes(
 ) -> Mechanism:
     """A mechanism whose drivers follow the sections of their axes."""
     cycle_time = cycle_time_of(master, drive)
-    followers = {"cranks": AxisCrank, "linear_drivers": AxisDriver, "cylinders": AxisCylinder}
+    followers: dict[str, type[Crank | LinearDriver | Cylinder]] = {
+        "cranks": AxisCrank,
+        "linear_drivers": AxisDriver,
+        "cylinders": AxisCylinder,
+    }
     made = {table: dict(getattr(own, table)) for table in followers}
     for name, axis in axes.items():
         driver = axis.driver or name
