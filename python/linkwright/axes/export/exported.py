@@ -17,7 +17,9 @@ from linkwright.axes.export.cam_data import CamData, CamTitle
 from linkwright.axes.export.formats import CamFormat
 from linkwright.axes.export.interpolation import DEGREES, deviation, interpolated
 from linkwright.axes.export.placement import as_polynomials, placed, sampled
+from linkwright.axes.model.follower import cycle_time_of, family_of, programme_of
 from linkwright.cam.laws.motion_law import MotionLaw
+from linkwright.cam.laws.programme import periodic
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import ExchangeError, InputError, require_within, show
@@ -50,23 +52,42 @@ class MasterLaw(NamedTuple):
 
 
 def law_of(machine: Machine, name: str | None = None) -> MasterLaw:
-    """The law of a cam by its name, or its address ``mechanism.cams.NAME``, over the crank angle.
+    """The law of a cam or a servo axis by its name or its address, over the master angle.
 
     The name may be left out if there is one. Raises `InputError` if there is none, none of this name, or
     several to choose from.
     """
-    cams = machine.mechanism.cams
-    listed = ", ".join(cams)
-    if not cams:
-        raise InputError("the machine has no law to export: give it a cam as [mechanism.cams.NAME]")
-    if name is None and len(cams) > 1:
+    cams, moved = machine.mechanism.cams, {name for name, axis in machine.axes.items() if axis.sections}
+    names = {f"mechanism.cams.{cam}": cam for cam in cams} | {f"axes.{axis}": axis for axis in moved}
+    listed = ", ".join(names.values())
+    if not names:
+        raise InputError(
+            "the machine has no law to export: give it a cam as [mechanism.cams.NAME], or an axis with sections"
+        )
+    if name is None and len(names) > 1:
         raise InputError(f"the machine has several laws: name one of {listed}")
-    chosen = next(iter(cams)) if name is None else name.removeprefix("mechanism.cams.")
+    chosen = next(iter(names.values())) if name is None else names.get(name, name)
+    if chosen in moved and not (chosen in cams and name == f"mechanism.cams.{chosen}"):
+        return _law_of_axis(machine, chosen)
     if chosen not in cams:
-        raise InputError(f"{show(chosen)}: the machine has no such cam; {suggestion(chosen, cams) or listed}")
+        known = list(names.values())
+        raise InputError(
+            f"{show(chosen)}: the machine has no such cam or axis; {suggestion(chosen, known) or listed}"
+        )
     cam = cams[chosen]
     law = cam.lift.primal.shifted(cam.phase)
     return MasterLaw(machine.name, chosen, law, "rad" if cam.is_oscillating else "m")
+
+
+def _law_of_axis(machine: Machine, name: str) -> MasterLaw:
+    """The law of an axis from φ = 0 on, where its position counts from zero if it advances."""
+    axis = machine.axes[name]
+    family = family_of(machine.mechanism, axis.driver or name)
+    assert family is not None  # axes of cams have no sections
+    programme = programme_of(axis, family, cycle_time_of(machine.master, machine.drive))
+    law = periodic(programme.lift.primal.shifted(float(programme.phase)), -float(programme.advance))
+    at_zero = law.value(law.start) if programme.advance else 0.0
+    return MasterLaw(machine.name, name, law.scaled(1.0, -at_zero), "rad" if family == "swing" else "m")
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def with_axes(
 ) -> Mechanism:
     """A mechanism whose drivers follow the sections of their axes."""
     cycle_time = cycle_time_of(master, drive)
-    followers: dict[str, type[Crank | LinearDriver | Cylinder]] = {
+    followers: dict[str, Any] = {
         "cranks": AxisCrank,
         "linear_drivers": AxisDriver,
         "cylinders": AxisCylinder,
