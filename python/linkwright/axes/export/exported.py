@@ -62,7 +62,7 @@ def law_of(machine: Machine, name: str | None = None) -> MasterLaw:
     listed = ", ".join(names.values())
     if not names:
         raise InputError(
-            "the machine has no law to export: give it a cam as [mechanism.cams.NAME], or an axis with sections"
+            "the machine has no law to export: give it [mechanism.cams.NAME], or an axis with sections"
         )
     if name is None and len(names) > 1:
         raise InputError(f"the machine has several laws: name one of {listed}")

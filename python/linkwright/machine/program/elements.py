@@ -94,7 +94,8 @@ class Elements(Places):
             return self._followed(name, programme, 1.0)
         if driver.law is not None:
             return 0.0, [(self._law(name, driver), 1.0)]
-        assert isinstance(driver, LinearDriver) and driver.per_turn is not None
+        assert isinstance(driver, LinearDriver)
+        assert driver.per_turn is not None
         return 0.0, [(None, driver.per_turn / TURN)]
 
     def _cylinder_length(self, name: str, cylinder: Cylinder) -> int:
