@@ -79,6 +79,7 @@ _CLOSES = 1e-6
 def law_faults(
     law: str | None, constants: Constants, advance: float | None, kind: Kind
 ) -> Iterator[InitErrorDetails]:
+    """Faults of a formula of the crank angle, and of what it says that it advances per cycle."""
     yield from constant_faults(constants, law or "")
     if law is None:
         if constants:
