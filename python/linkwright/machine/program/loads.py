@@ -45,7 +45,8 @@ def _body(program: MechanismProgram, carrier: str, body: Body, length: Any) -> _
 def table_of(machine: Machine, program: MechanismProgram, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
     """A table of the description. Raises ShapeError: they vary from machine to machine."""
     if any(np.ndim(value) for value in (*x, *y)):
-        points = ", ".join(join(place) for place, _ in arrays(machine) if place[-1].isdecimal())
+        places = [join(place) for place, _ in arrays(machine) if place[-1].isdecimal()]
+        points = ", ".join(places or ["drive.motor"])
         raise ShapeError(
             f"{points}: the points of a table cannot vary from machine to machine in a batch; "
             "compute machines with others one by one"
