@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import axis_drivers
 from linkwright.machine.program.compiled import compile_machine
@@ -49,13 +48,14 @@ class Track(Result):
 
 def moved_drivers(machine: Machine) -> tuple[str, ...]:
     """Drivers with a law of their own: cams, axes, formulas; not what rotates with the master."""
-    mechanism, own = machine.linkage, axis_drivers(machine)
-    drivers: dict[str, Crank | LinearDriver] = {**mechanism.cranks, **mechanism.linear_drivers}
-    return tuple(
+    mechanism, own = machine.mechanism, axis_drivers(machine)
+    drivers: dict[str, Any] = {**mechanism.cranks, **mechanism.linear_drivers, **mechanism.cylinders}
+    moved = (
         name
         for name, driver in drivers.items()
-        if name in own or driver.follows() is not None or driver.law is not None
+        if name in own or driver.law is not None or getattr(driver, "flow", None) is not None
     )
+    return (*moved, *mechanism.cams)
 
 
 @public

@@ -113,6 +113,9 @@ class Loads:
                 | loads.FormulaLoad(force=None)
             ):
                 return _core.At.Link(link=self.links[load.on])
+        cylinder = self.machine.mechanism.cylinders.get(load.on)
+        if cylinder is not None:
+            return _core.At.Between(start=self.points[cylinder.start], end=self.points[cylinder.end])
         point = self.points[load.on]
         along, direction = getattr(load, "along", None), getattr(load, "direction", None)
         if along is not None:
