@@ -94,7 +94,10 @@ def axis_figures(axes: Sequence[ServoAxis]) -> Iterator[CaptionedFigure]:
             f"{quantity(axis.motor.speed_mean, 'rad/s')}."
         )
         if axis.axis.motor is not None:
-            words += " Dashed lines show the peak and the continuous torque; the cross is the root mean square torque."
+            words += (
+                " Dashed lines show the peak and the continuous torque; the cross is the root mean square "
+                "torque."
+            )
         yield CaptionedFigure(
             f"axis_{axis.name}", f"Axis {axis.name}: torque over speed", words, loop_figure(axis)
         )
