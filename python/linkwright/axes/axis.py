@@ -316,6 +316,7 @@ def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floa
         return cycle.angle + start, motion.speed, motion.acceleration
     (rows,) = compiled.motion([Channel.Slide(slide)], motion.crank_angle)
     position, d1, d2 = rows
+    position = position + d1 * (cycle.angle - motion.crank_angle)  # both sides of an end are one position
     return position, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
 
 

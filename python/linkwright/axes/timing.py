@@ -104,4 +104,5 @@ def _follower(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, 
     compiled, motion = compile_machine(machine), cycle.forces.motion
     (rows,) = compiled.motion([Channel.Slide(compiled.slides[f"{driver}.lift"])], motion.crank_angle)
     lift, d1, d2 = rows
+    lift = lift + d1 * (cycle.angle - motion.crank_angle)
     return lift, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
