@@ -139,9 +139,12 @@ class Mechanism(Description):
 
     def laws(self) -> dict[str, Crank | LinearDriver | Cylinder]:
         """Drivers that follow a formula, by name."""
-        drivers: dict[str, Crank | LinearDriver | Cylinder] = {**self.cranks, **self.linear_drivers}
-        drivers |= self.cylinders
-        return {name: driver for name, driver in drivers.items() if driver.law is not None}
+        return {name: driver for name, driver in self.drivers().items() if driver.law is not None}
+
+    def drivers(self) -> dict[str, Crank | LinearDriver | Cylinder]:
+        """What the drive, a law or an axis moves, by name; a cylinder without a length is a force."""
+        moved = {name: cylinder for name, cylinder in self.cylinders.items() if cylinder.drives}
+        return {**self.cranks, **self.linear_drivers, **moved}
 
     def steps(self) -> list[Step]:
         """The steps in which the mechanism is built."""
