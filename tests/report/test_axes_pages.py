@@ -1,4 +1,4 @@
-"""Pages about axes and cylinders: what cards, tables, figures and machine data say, and what they leave out."""
+"""Pages about axes and cylinders: what cards, tables, figures and machine data say, and what is left out."""
 
 from __future__ import annotations
 
