@@ -116,12 +116,12 @@ def loop_figure(axis: ServoAxis) -> Figure:
     lines.append(
         Line(np.array([duty.torque_rms]), MOTOR, "rms at mean speed", np.array([duty.speed_mean]), "x", marks)
     )
-    width = max(float(np.max(np.abs(line.x))) for line in lines if line.x is not None)
+    width = 1.05 * max(float(np.max(np.abs(line.x))) for line in lines if line.x is not None)
     figure = line_figure(
         np.array([-width, width]),
         Panel("torque of the motor $M_m$\n[N m]", lines),
         height=3.6,
-        over="speed of the motor ω_m [rad/s]",
+        over="speed of the motor $ω_m$ [rad/s]",
     )
     figure.axes[0].axvline(0, color=SOFT, linewidth=0.8)
     return figure

@@ -270,7 +270,7 @@ function run(holder, canvas) {
     const scene = state.scene.value;
     const k = scene ? placeOf(scene.times, state.time.value) : 0;
     const joints = [
-      ...state.draft.value.flat(),
+      ...state.draft.value.flatMap(([start, end]) => [start, end]),
       ...Object.entries(scene?.points ?? {}).map(([point, path]) => ({ point, ...xy(pairAt(path, k)) })),
       { x: 0, y: 0, point: "O" },
     ];
@@ -285,7 +285,7 @@ function run(holder, canvas) {
     rope = null;
     dirty = true;
     if (!link || Math.hypot(link[0].x - link[1].x, link[0].y - link[1].y) * frame.scale < ONTO) return;
-    state.draft.value = [...state.draft.value, link];
+    state.draft.value = [...state.draft.value, [...link, state.drawing.value]];
     drawLinks(state.scene.value ? angle() : 0, 1 / frame.scale);
   }
 
