@@ -109,3 +109,21 @@ def test_what_cannot_be_chosen_from_is_refused(
     done = invoke("axes", files[0], *words)
     assert done.exit_code == 2
     assert re.search(said, done.stderr), done.stderr
+
+
+def test_a_driver_along_a_line_needs_its_screw_before_a_motor_is_chosen(
+    files: tuple[str, str], tmp_path: Path
+) -> None:
+    """Newtons are no newton metres: without `per_turn` no motor is judged."""
+    line = MACHINE.replace("swing", "lift").replace("180 deg", "180 mm").replace('"180 mm" }', '"180 deg" }')
+    line = (
+        line[: line.index("[mechanism")] + "[mechanism.linear_drivers.A]\n[bodies]\nA = { mass = '2 kg' }\n"
+    )
+    machine = tmp_path / "line.toml"
+    machine.write_text(line)
+    done = invoke("axes", str(machine), "--catalogue", MOTORS, "--gearboxes", files[1])
+    assert done.exit_code == 2
+    assert "without per_turn" in done.stderr
+    machine.write_text(line + '[axes.A.gearbox]\nper_turn = "100 mm"\n')
+    done = invoke("axes", str(machine), "--catalogue", MOTORS, "--gearboxes", files[1])
+    assert "passes all checks" in done.stdout

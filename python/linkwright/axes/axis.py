@@ -13,6 +13,7 @@ from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
 from linkwright.axes.duty import DriverCycle, MotorDuty, motor_duty
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
+from linkwright.axes.model.follower import family_of
 from linkwright.axes.model.servo_motor import ServoMotor
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.check import Check
@@ -54,7 +55,7 @@ class ServoAxis(Result):
         Label("mean inertia at the driver", "J_q", "kg m² or kg", "All others held; None without masses."),
     ]
     name: Annotated[str, About("Of the axis.")]
-    driver: Annotated[str, About("Crank, linear driver or cam that it drives.")]
+    driver: Annotated[str, About("Crank, linear driver, cylinder or cam that it drives.")]
     turns: Annotated[bool, About("Whether the driver turns; else it moves along a line.")]
     motor: Annotated[
         MotorDuty, About("Speed and torque at the motor, and the checks; without a motor, without its rotor.")
@@ -233,7 +234,7 @@ def _axis(
 ) -> ServoAxis:
     axis = machine.axes[name]
     driver = axis.driver or name
-    turns = driver not in machine.mechanism.linear_drivers
+    turns = driver_turns(machine, driver)
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
     torque = driver_torque(machine, driver, cycle)
@@ -287,7 +288,7 @@ def _driver_cycle(
 ) -> DriverCycle:
     """What a driver asks of its drive, referred to the pinion or screw where it moves along a line."""
     if turns or axis.gearbox.per_turn is None:
-        return DriverCycle(time, velocity, acceleration, torque, inertia)
+        return DriverCycle(time, velocity, acceleration, torque, inertia, turns)
     return DriverCycle.of_line(time, velocity, acceleration, torque, axis.gearbox.per_turn, inertia)
 
 
@@ -306,10 +307,15 @@ def _duty(axis: Axis, asked: DriverCycle) -> MotorDuty:
 _NO_MOTOR = ServoMotor.model_construct(inertia=0.0)
 
 
+def driver_turns(machine: Machine, driver: str) -> bool:
+    """Whether a driver turns, as a crank or a camshaft; else it moves along a line."""
+    return family_of(machine.mechanism, driver) != "lift"
+
+
 def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a driver; a camshaft turns with the master."""
     compiled, motion = compile_machine(machine), cycle.forces.motion
-    slide = compiled.slides.get(driver if driver in machine.mechanism.linear_drivers else angle_name(driver))
+    slide = compiled.slides.get(angle_name(driver) if driver_turns(machine, driver) else driver)
     if driver in machine.mechanism.cams or slide is None:
         crank = machine.mechanism.cranks.get(driver)
         start = 0.0 if crank is None else float(crank.phase)

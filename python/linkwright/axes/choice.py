@@ -178,12 +178,18 @@ def choose_servo(
     Raises
     ------
     InputError
-        No motors or gearboxes; or the goal needs a column that a catalogue does not have.
+        No motors or gearboxes; a driver along a line without the travel per revolution; or the goal needs a
+        column that a catalogue does not have.
     """
     in_range(coupling=(coupling, not_negative(INERTIA)), inertia_ratio=(inertia_ratio, positive(RATIO)))
     servos, gears = tuple(motors), tuple(gearboxes)
     if not servos or not gears:
         raise InputError(f"{'gearboxes' if servos else 'motors'}: found none to choose from")
+    if not cycle.turns:
+        raise InputError(
+            "gearbox: found a driver along a line without per_turn, expected its travel per revolution of "
+            "the gearbox output: screw lead, pulley circumference"
+        )
     used = _utilisations(cycle.divided(), servos, gears, coupling, inertia_ratio)
     value = _values(goal, servos, gears, used)
     worst = np.max(np.nan_to_num(used, nan=np.inf), axis=0)

@@ -24,7 +24,6 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import law_jumps, require_finite_accelerations
-from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -107,8 +106,7 @@ def _sampled(machine: Machine, compiled: CompiledMachine, turns: int) -> tuple[F
     own = compiled.over_turns(turns)
     places = [0.0, cycle, *own.kinks()]
     in_turn = [jump.angle for jump in law_jumps(machine)]
-    drivers: list[Crank | LinearDriver] = [*machine.linkage.cranks.values()]
-    for driver in [*drivers, *machine.linkage.linear_drivers.values()]:
+    for driver in machine.linkage.drivers().values():
         followed = driver.follows()
         if followed is not None:
             law = getattr(followed, "law", followed.lift)

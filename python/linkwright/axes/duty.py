@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -56,6 +56,7 @@ class DriverCycle:
     inertia: float | None = (
         None  # mean inertia of the mechanism at the driver; None if it is not known [kg m²]
     )
+    turns: bool = True  # else along a line, in m/s, N and kg: no screw or pinion is known
 
     @classmethod
     def of_line(
@@ -108,7 +109,7 @@ class DriverCycle:
             columns, places, np.hstack([np.repeat(crossing, 2, axis=1), columns[:, own]]), axis=1
         )
         time, speed, acceleration, torque = columns
-        return type(self)(time, speed, acceleration, torque, self.inertia)
+        return replace(self, time=time, speed=speed, acceleration=acceleration, torque=torque)
 
     def geared(self, gearbox: AxisGearbox) -> tuple[Floats, Floats, Floats]:
         """Speed and acceleration at the motor, and the torque there that the driver asks for.

@@ -22,9 +22,12 @@ def axis_drivers(machine: Machine) -> dict[str, str]:
     return {axis.driver or name: name for name, axis in machine.axes.items()}
 
 
-def on_crankshaft(machine: Machine) -> Machine:
-    """The machine without bodies and loads that axes alone move, if a motor drives its crankshaft."""
-    if not machine.axes or machine.drive is None or machine.drive.motor is None:
+def on_crankshaft(machine: Machine, *, has_motor: bool = False) -> Machine:
+    """The machine without bodies and loads that axes alone move, if a motor drives its crankshaft.
+
+    `has_motor`: also where that motor is still to be chosen.
+    """
+    if not machine.axes or not (has_motor or (machine.drive and machine.drive.motor)):
         return machine
     own = set(axis_drivers(machine))
     felt = {

@@ -112,6 +112,10 @@ class Loads:
                 | loads.FormulaLoad(force=None)
             ):
                 return _core.At.Link(link=self.links[load.on])
+        if load.on in self.machine.linkage.cylinders:
+            # The rod slides in the barrel: trunnion and eye move apart.
+            cylinder = self.machine.linkage.cylinders[load.on]
+            return _core.At.Between(start=self.points[cylinder.start], end=self.points[cylinder.end])
         point = self.points[load.on]
         along, direction = getattr(load, "along", None), getattr(load, "direction", None)
         if along is not None:
