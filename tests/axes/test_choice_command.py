@@ -127,3 +127,23 @@ def test_a_driver_along_a_line_needs_its_screw_before_a_motor_is_chosen(
     machine.write_text(line + '[axes.A.gearbox]\nper_turn = "100 mm"\n')
     done = invoke("axes", str(machine), "--catalogue", MOTORS, "--gearboxes", files[1])
     assert "passes all checks" in done.stdout
+
+
+def test_a_choice_stands_the_start_and_stop_of_the_master(files: tuple[str, str], tmp_path: Path) -> None:
+    """A stop in 10 ms needs more than the cycle: what is chosen passes all checks in the file too."""
+    machine, gears = files
+    # At φ = 0 the crank is amid its rise.
+    text = Path(machine).read_text()
+    text = text.replace("[axes.A]", '[axes.A]\nphase = "-90 deg"')
+    stops = tmp_path / "stops.toml"
+    stops.write_text(text.replace('"1 s"', '"1 s"\nstop_time = "10 ms"'))
+    found = {}
+    for name in (machine, str(stops)):
+        done = invoke("axes", name, "--catalogue", MOTORS, "--gearboxes", gears, "--json")
+        found[name] = json.loads(done.stdout)["results"]["choice"]["A"]
+    cycle, stopping = found.values()
+    assert stopping["passing"] < cycle["passing"]
+    for pair in stopping.get("chosen", []):
+        notes = [check for check in pair["checks"] if "while the master stops" in check["note"]]
+        assert notes
+        assert all(check["passed"] for check in pair["checks"])

@@ -34,6 +34,9 @@ from linkwright.machine.program.drive_line import reverse_factor
 # thumb of makers of servo motors.
 INERTIA_RATIO = 10.0
 
+# Checks of a start or stop of the master, which has no root mean square.
+OF_STARTS = ("speed", "torque_peak", "gearbox_torque_peak", "gearbox_speed")
+
 # Share of the peak speed or torque below which a sample counts as rest, or as no load: rounding.
 _REST = 1e-9
 
@@ -284,6 +287,13 @@ def motor_duty(
         *_resistor_checks(duty, resistor),
     )
     return MotorDuty(**{**vars(duty), "checks": checks})
+
+
+def start_checks(duty: MotorDuty, when: str) -> Iterator[Check]:
+    """Checks of a start or stop, each saying so, such as "while the master starts"."""
+    for check in duty.checks:
+        if check.name in OF_STARTS:
+            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 def _at_most(name: str, value: float, limit: float, unit: str, note: str = "") -> Check:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from linkwright.drive.model.drive import Drive
 from linkwright.kernel.errors import FindingError
 from linkwright.machine.machine import Machine
 from linkwright.machine.whole_mechanism import topology_of
@@ -20,6 +21,12 @@ _PLACES = ("on", "between", "along", "against")
 def axis_drivers(machine: Machine) -> dict[str, str]:
     """Driver of each axis → name of the axis."""
     return {axis.driver or name: name for name, axis in machine.axes.items()}
+
+
+def without_drive(machine: Machine) -> Machine:
+    """The machine without what its drive is made of; its speed still says how long a cycle is."""
+    drive = None if machine.drive is None else Drive(speed=machine.drive.speed)
+    return machine.with_entries({"drive": drive})
 
 
 def on_crankshaft(machine: Machine, *, has_motor: bool = False) -> Machine:
