@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
 from linkwright.axes.driver_cycle import DriverCycle
-from linkwright.axes.duty import MotorDuty, motor_duty
+from linkwright.axes.duty import MotorDuty, motor_duty, start_checks
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
 from linkwright.axes.model.follower import family_of
@@ -28,8 +27,8 @@ from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import Channel
 from linkwright.machine.program.places import angle_name
 
-# Checks of a start or stop of the master, which has no root mean square.
-_OF_STARTS = ("speed", "torque_peak", "gearbox_torque_peak", "gearbox_speed")
+# When the master starts and stops, in words.
+_STARTS = ("while the master starts", "while the master stops")
 
 # Units of a driver that moves along a line, by those of one that turns.
 _ALONG = {"rad": "m", "rad/s": "m/s", "rad/s²": "m/s²", "N m": "N"}
@@ -65,6 +64,9 @@ class ServoAxis(Result):
     stop: Annotated[MotorDuty | None, About("The same while the master stops; None without its time.")]
     axis: Annotated[Axis, About("The description.")]
     cycle: Annotated[DriverCycle, About("What the driver asks of its drive over the cycle.")]
+    starts: Annotated[
+        dict[str, DriverCycle], About("The same while the master starts or stops, by these words.")
+    ]
 
     @property
     def torque_max(self) -> Annotated[float, Label("peak torque at the driver", "M_q,max", "N m or N")]:
@@ -99,11 +101,13 @@ class ServoAxis(Result):
         """Checks of motor, gearbox and resistor, over the cycle, at start and stop; none without a motor."""
         if self.axis.motor is None:
             return ()
-        return (
-            *self.motor.checks,
-            *_of_start(self.start, "while the master starts"),
-            *_of_start(self.stop, "while the master stops"),
-        )
+        starts = [
+            check
+            for duty, when in zip((self.start, self.stop), _STARTS, strict=True)
+            if duty is not None
+            for check in start_checks(duty, when)
+        ]
+        return (*self.motor.checks, *starts)
 
     @property
     def passes(self) -> bool | None:
@@ -133,13 +137,6 @@ class ServoAxis(Result):
 def _peak(values: Floats) -> float:
     """The value that is largest in size, with its sign."""
     return float(values[np.nanargmax(np.abs(values))])
-
-
-def _of_start(duty: MotorDuty | None, when: str) -> Iterator[Check]:
-    """Checks of a start or stop, each saying so."""
-    for check in () if duty is None else duty.checks:
-        if check.name in _OF_STARTS:
-            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 @public
@@ -240,22 +237,19 @@ def _axis(
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
     torque = driver_torque(machine, driver, cycle)
     asked = _driver_cycle(axis, turns, cycle.time, velocity, acceleration, torque, inertia)
-    duties = [
-        None
-        if start is None
-        else _duty(
+    started = {
+        when: _driver_cycle(
             axis,
-            _driver_cycle(
-                axis,
-                turns,
-                start.time,
-                *driver_motion(machine, driver, start)[1:],
-                driver_torque(machine, driver, start),
-                inertia,
-            ),
+            turns,
+            start.time,
+            *driver_motion(machine, driver, start)[1:],
+            driver_torque(machine, driver, start),
+            inertia,
         )
-        for start in starts
-    ]
+        for when, start in zip(_STARTS, starts, strict=True)
+        if start is not None
+    }
+    duties = [_duty(axis, started[when]) if when in started else None for when in _STARTS]
     weights = asked.weights()
     return ServoAxis(
         crank_angle=cycle.angle,
@@ -275,6 +269,7 @@ def _axis(
         stop=duties[1],
         axis=axis,
         cycle=asked,
+        starts=started,
     )
 
 
@@ -289,7 +284,7 @@ def _driver_cycle(
 ) -> DriverCycle:
     """What a driver asks of its drive, referred to the pinion or screw where it moves along a line."""
     if turns or axis.gearbox.per_turn is None:
-        return DriverCycle(time, velocity, acceleration, torque, inertia)
+        return DriverCycle(time, velocity, acceleration, torque, inertia, turns)
     return DriverCycle.of_line(time, velocity, acceleration, torque, axis.gearbox.per_turn, inertia)
 
 

@@ -75,6 +75,7 @@ class DriverCycle:
     torque: Any  # that the drive gives to the driver; positive in the sense of the speed [N m]
     # Mean inertia of the mechanism at the driver; None if it is not known [kg m²].
     inertia: Any = None
+    turns: bool = True  # else along a line, in m/s, N and kg: no screw or pinion is known
 
     @classmethod
     def of_line(

@@ -13,7 +13,7 @@ along a line is referred to the pinion or screw that moves it first.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -30,6 +30,9 @@ from linkwright.kernel.result import Result
 # Inertia of the load over that of the rotor up to which servo drives are usually well controlled: a rule of
 # thumb of makers of servo motors.
 INERTIA_RATIO = 10.0
+
+# Checks of a start or stop of the master, which has no root mean square.
+OF_STARTS = ("speed", "torque_peak", "gearbox_torque_peak", "gearbox_speed")
 
 # A speed chosen at a limit meets it to rounding.
 _ROUNDED = 1e-12
@@ -201,6 +204,13 @@ def motor_duty(
         *_resistor_checks(duty, resistor),
     )
     return MotorDuty(**{**vars(duty), "checks": checks})
+
+
+def start_checks(duty: MotorDuty, when: str) -> Iterator[Check]:
+    """Checks of a start or stop, each saying so, such as "while the master starts"."""
+    for check in duty.checks:
+        if check.name in OF_STARTS:
+            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 def _at_most(name: str, value: float, limit: float, unit: str, note: str = "") -> Check:

@@ -115,6 +115,7 @@ class Loads:
                 return _core.At.Link(link=self.links[load.on])
         cylinder = self.machine.mechanism.cylinders.get(load.on)
         if cylinder is not None:
+            # The rod slides in the barrel: trunnion and eye move apart.
             return _core.At.Between(start=self.points[cylinder.start], end=self.points[cylinder.end])
         point = self.points[load.on]
         along, direction = getattr(load, "along", None), getattr(load, "direction", None)
