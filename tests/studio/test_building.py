@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -18,25 +19,34 @@ EMPTY = 'format = 1\nname = "New machine"\n\n[mechanism]\n'
 PIXEL = 1e-3
 
 
-def built(*kinds: str) -> str:
+def built(*kinds: str, path: str = "") -> str:
     text = EMPTY
     for kind in kinds:
-        text = added(text, kind, 1.0, "")
+        text = added(text, kind, 1.0, "", path)
     return text
 
 
+@pytest.fixture
+def beside(tmp_path: Path) -> str:
+    """Path of a machine file with a catalogue of servo motors beside it."""
+    head = "type, inertia [kg cm^2], torque_rated [N m], speed_rated [rpm], torque_max [N m], speed_max [rpm]"
+    (tmp_path / "motors.csv").write_text(f"{head}\nS1, 0.9, 2.4, 3000, 7.1, 6000\n")
+    return str(tmp_path / "machine.toml")
+
+
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_makes_a_sound_machine(kind: str) -> None:
+def test_every_kind_makes_a_sound_machine(kind: str, beside: str) -> None:
     """A crank and a slider give room for every kind of element; each reads as a machine file."""
-    before = built("cranks", "sliders")
-    after = added(before, kind, 1.0, "")
+    before = built("cranks", "sliders", *(["axes"] if "servo" in kind else []))
+    after = added(before, kind, 1.0, "", beside)
     assert after != before
-    loads(after)
+    loads(after, path=beside)
 
 
-def test_every_table_of_the_mechanism_and_every_load_is_among_them() -> None:
+def test_every_table_of_the_mechanism_and_every_load_is_among_them(beside: str) -> None:
     """The menu leaves out no table of a mechanism and no kind of load."""
-    text = built("cranks", "sliders", *(kind for kind in KINDS if kind not in ("cranks", "sliders")))
+    others = [kind for kind in KINDS if kind not in ("cranks", "sliders", "axes", "catalogue servo")]
+    text = built("cranks", "axes", "sliders", *others, path=beside)
     raw = tomllib.loads(text)
     assert set(TABLES) <= raw["mechanism"].keys()
     kinds = {load["kind"] for load in raw["loads"].values()}
@@ -96,7 +106,7 @@ def test_a_link_that_locks_the_mechanism_is_refused(tab: Tab) -> None:
     text, _ = drawn(EMPTY, FOUR_BAR, 0.0, PIXEL)
     tab.ask(ask="compute", text=text)
     spots = [{"x": 0.5, "y": 0.3, "point": "J1"}, {"x": 0.9, "y": 0.0, "point": "O"}]
-    answer = tab.ask(ask="compute", draw={"links": [spots], "angle": 0.0, "pixel": PIXEL})
+    answer = tab.ask(ask="compute", draw={"links": [[*spots, "link"]], "angle": 0.0, "pixel": PIXEL})
     assert answer["draft"] == "refused"
     assert "one constraint too many" in answer["words"]
     assert "text" not in answer

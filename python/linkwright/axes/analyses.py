@@ -8,6 +8,7 @@ from linkwright.machine.analysis import Analysis, of
 AXIS = Analysis(
     name="axis",
     words="Servo axes",
+    lane="fast",
     function=of("axes.axis:servo_axis"),
     applies=has_axes,
     parts=axis_names,
@@ -27,6 +28,7 @@ AXIS = Analysis(
 BUS = Analysis(
     name="dc_bus",
     words="DC bus",
+    lane="fast",
     function=of("axes.bus:dc_bus"),
     applies=has_axes,
     obstacle=of("axes.study:no_axes"),
@@ -38,6 +40,8 @@ BUS = Analysis(
 
 TIMING = Analysis(
     name="timing",
+    words="Timing diagram",
+    lane="fast",
     applies=has_timing,
     make=of("axes.study:made_timing"),
     tables=of("axes.tables:timing_tables", "*timing"),

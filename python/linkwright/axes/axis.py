@@ -9,7 +9,8 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
-from linkwright.axes.duty import DriverCycle, MotorDuty, motor_duty, start_checks
+from linkwright.axes.driver_cycle import DriverCycle
+from linkwright.axes.duty import MotorDuty, motor_duty, start_checks
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
 from linkwright.axes.model.follower import family_of
@@ -231,7 +232,7 @@ def _axis(
 ) -> ServoAxis:
     axis = machine.axes[name]
     driver = axis.driver or name
-    turns = driver_turns(machine, driver)
+    turns = turns_about(machine, driver)
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
     torque = driver_torque(machine, driver, cycle)
@@ -302,21 +303,22 @@ def _duty(axis: Axis, asked: DriverCycle) -> MotorDuty:
 _NO_MOTOR = ServoMotor.model_construct(inertia=0.0)
 
 
-def driver_turns(machine: Machine, driver: str) -> bool:
-    """Whether a driver turns, as a crank or a camshaft; else it moves along a line."""
+def turns_about(machine: Machine, driver: str) -> bool:
+    """Whether a driver of the file turns: a crank or a camshaft; else it moves along a line."""
     return family_of(machine.mechanism, driver) != "lift"
 
 
 def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a driver; a camshaft turns with the master."""
     compiled, motion = compile_machine(machine), cycle.forces.motion
-    slide = compiled.slides.get(angle_name(driver) if driver_turns(machine, driver) else driver)
+    slide = compiled.slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
     if driver in machine.mechanism.cams or slide is None:
         crank = machine.mechanism.cranks.get(driver)
         start = 0.0 if crank is None else float(crank.phase)
         return cycle.angle + start, motion.speed, motion.acceleration
     (rows,) = compiled.motion([Channel.Slide(slide)], motion.crank_angle)
     position, d1, d2 = rows
+    position = position + d1 * (cycle.angle - motion.crank_angle)  # both sides of an end are one position
     return position, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
 
 

@@ -14,7 +14,8 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from linkwright.axes.duty import INERTIA_RATIO, OF_STARTS, DriverCycle, MotorDuty, motor_duty, start_checks
+from linkwright.axes.driver_cycle import DriverCycle
+from linkwright.axes.duty import INERTIA_RATIO, OF_STARTS, MotorDuty, motor_duty, start_checks
 from linkwright.axes.model.axis_catalogue import CatalogueGearbox, CatalogueServo
 from linkwright.axes.model.servo_motor import TorqueCurve
 from linkwright.kernel.arrays import Floats

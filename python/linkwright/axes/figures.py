@@ -23,10 +23,10 @@ _MASTER = "master angle φ [°]"
 
 # Panels of the timing diagram, and their words.
 _PANELS = {
-    "position": "position\n[share of its range]",
-    "velocity": "velocity\n[share of its peak]",
-    "acceleration": "acceleration\n[share of its peak]",
-    "torque": "torque or force\n[share of its peak]",
+    "position": "position, as a\nshare of its range",
+    "velocity": "velocity, as a\nshare of its peak",
+    "acceleration": "acceleration, as a\nshare of its peak",
+    "torque": "torque or force, as\na share of its peak",
 }
 
 
@@ -94,7 +94,10 @@ def axis_figures(axes: Sequence[ServoAxis]) -> Iterator[CaptionedFigure]:
             f"{quantity(axis.motor.speed_mean, 'rad/s')}."
         )
         if axis.axis.motor is not None:
-            words += " Dashed: peak and continuous torque; the cross is the root mean square torque."
+            words += (
+                " Dashed lines show the peak and the continuous torque; the cross is the root mean square "
+                "torque."
+            )
         yield CaptionedFigure(
             f"axis_{axis.name}", f"Axis {axis.name}: torque over speed", words, loop_figure(axis)
         )
@@ -113,12 +116,12 @@ def loop_figure(axis: ServoAxis) -> Figure:
     lines.append(
         Line(np.array([duty.torque_rms]), MOTOR, "rms at mean speed", np.array([duty.speed_mean]), "x", marks)
     )
-    width = max(float(np.max(np.abs(line.x))) for line in lines if line.x is not None)
+    width = 1.05 * max(float(np.max(np.abs(line.x))) for line in lines if line.x is not None)
     figure = line_figure(
         np.array([-width, width]),
         Panel("torque of the motor $M_m$\n[N m]", lines),
         height=3.6,
-        over="speed of the motor ω_m [rad/s]",
+        over="speed of the motor $ω_m$ [rad/s]",
     )
     figure.axes[0].axvline(0, color=SOFT, linewidth=0.8)
     return figure

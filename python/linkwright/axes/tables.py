@@ -34,6 +34,7 @@ def drivers_table(axes: Sequence[ServoAxis]) -> Table:
     """What each driver asks of its drive."""
     heads = (
         "axis",
+        "",
         "driver",
         "advance per cycle",
         "peak velocity",
@@ -43,7 +44,7 @@ def drivers_table(axes: Sequence[ServoAxis]) -> Table:
         "mean inertia",
     )
     names = ("advance", "velocity_max", "torque_max", "torque_max_angle", "torque_rms", "inertia_mean")
-    rows: list[Row] = [(axis.name, axis.driver, *(_cell(axis, name) for name in names)) for axis in axes]
+    rows: list[Row] = [(axis.name, "", axis.driver, *(_cell(axis, name) for name in names)) for axis in axes]
     return Table("axes", "Axes: torque or force of each driver", heads, rows)
 
 
@@ -58,6 +59,7 @@ def motors_table(axes: Sequence[ServoAxis]) -> Table:
     """What each motor has to give."""
     heads = (
         "axis",
+        "",
         "motor",
         "ratio",
         "peak torque",
@@ -70,6 +72,7 @@ def motors_table(axes: Sequence[ServoAxis]) -> Table:
     rows: list[Row] = [
         (
             axis.name,
+            "",
             _motor_name(axis),
             f"{axis.axis.gearbox.ratio:.4g}",
             *(
@@ -99,7 +102,8 @@ def _motor_name(axis: ServoAxis) -> str:
 
 def bus_tables(bus: DcBus) -> Iterator[Table]:
     """The DC bus of all axes."""
-    yield Table("dc_bus", "DC bus of all axes", ("quantity", "", "value", "where"), known_rows(bus, "bus"))
+    rows = [row[:3] for row in known_rows(bus, "bus")]
+    yield Table("dc_bus", "DC bus of all axes", ("quantity", "", "value"), rows)
 
 
 def clearance_tables(apart: Clearance) -> Iterator[Table]:
@@ -123,7 +127,7 @@ def timing_tables(tracks: Sequence[Track]) -> Iterator[Table]:
         for track in tracks
     ]
     heads = ("driver", "", "position, 0° to 360° of the master", "range", "velocity")
-    yield Table("timing", "Timing of cams and axes", heads, rows)
+    yield Table("timing", "Timing of cams and axes", heads, rows, is_drawing=True)
 
 
 def heights(track: Track) -> str:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from linkwright.axes.axis import driver_motion, driver_torque, driver_turns
+from linkwright.axes.axis import driver_motion, driver_torque, turns_about
 from linkwright.axes.cycle import AxesCycle, axes_cycle
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
@@ -48,12 +48,13 @@ class Track(Result):
 
 def moved_drivers(machine: Machine) -> tuple[str, ...]:
     """Drivers with a law of their own: cams, axes, formulas; not what rotates with the master."""
-    mechanism, own = machine.linkage, axis_drivers(machine)
-    return tuple(
+    mechanism, own = machine.mechanism, axis_drivers(machine)
+    moved = (
         name
         for name, driver in mechanism.drivers().items()
-        if name in own or driver.follows() is not None or driver.law is not None
+        if name in own or driver.law is not None or getattr(driver, "flow", None) is not None
     )
+    return (*moved, *mechanism.cams)
 
 
 @public
@@ -87,7 +88,7 @@ def tracks_of(machine: Machine, cycle: AxesCycle) -> tuple[Track, ...]:
         angle, position, velocity, acceleration, torque = (
             curve[within] for curve in (cycle.angle, *motion, driver_torque(machine, driver, cycle))
         )
-        turns = machine.mechanism.cams[driver].is_oscillating if is_cam else driver_turns(machine, driver)
+        turns = machine.mechanism.cams[driver].is_oscillating if is_cam else turns_about(machine, driver)
         name = names.get(driver, driver)
         found.append(Track(angle, position, velocity, acceleration, torque, name, driver, turns, is_cam))
     return tuple(found)
@@ -98,4 +99,5 @@ def _follower(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, 
     compiled, motion = compile_machine(machine), cycle.forces.motion
     (rows,) = compiled.motion([Channel.Slide(compiled.slides[f"{driver}.lift"])], motion.crank_angle)
     lift, d1, d2 = rows
+    lift = lift + d1 * (cycle.angle - motion.crank_angle)
     return lift, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration

@@ -27,6 +27,7 @@ from linkwright.kernel.errors import SteadyStateError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
+from linkwright.kernel.reader.numbers import degrees
 from linkwright.kernel.result import Result
 from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
@@ -143,9 +144,9 @@ def constant_energy_of(reduced: Reduction, compiled: CompiledMachine | None = No
     neighbours: with 1440 intervals within 1e-6 of H on the machines that are shipped.
     """
     if not has_inertia(reduced):
-        at = np.degrees(reduced.inertia_min_angle)
+        at = degrees(reduced.inertia_min_angle)
         raise SteadyStateError(
-            f"no constant-energy limit: the reduced inertia falls to zero at a crank angle of {at:.1f}°, "
+            f"no constant-energy limit: the reduced inertia falls to zero at a crank angle of {at}, "
             "where the crank would be infinitely fast; give motor, flywheel or bodies their inertia"
         )
     slow, fast = np.sqrt(2 / reduced.inertia_max), np.sqrt(2 / reduced.inertia_min)

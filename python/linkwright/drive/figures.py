@@ -115,12 +115,11 @@ def reduction_figure(reduction: Reduction) -> Figure:
     mean = reduction.torque_load_mean
     words = f"mean {quantity(mean, 'N m', scale=_size(reduction))}"
     load = Line(reduction.torque_load, LOAD, "load torque")
-    return line_figure(
-        np.degrees(reduction.crank_angle),
-        Panel("reduced inertia $J$\n[kg m²]", [Line(reduction.inertia_reduced, INERTIA)]),
-        Panel("reduced torque $M_r$\n[N m]", [load, Level(mean, words)], room=(0.0,)),
-        height=4.2,
-    )
+    drawn = [Panel("reduced torque $M_r$\n[N m]", [load, Level(mean, words)], room=(0.0,))]
+    if reduction.inertia_max:
+        inertia = Line(reduction.inertia_reduced, INERTIA)
+        drawn.insert(0, Panel("reduced inertia $J$\n[kg m²]", [inertia]))
+    return line_figure(np.degrees(reduction.crank_angle), *drawn, height=2.1 * len(drawn))
 
 
 # Points per revolution that show the solver's quintics as smooth lines.
@@ -345,15 +344,18 @@ def _size(reduced: Reduction) -> float:
 
 def _reduction(study: Results) -> Iterator[CaptionedFigure]:
     reduced = study.reduction
-    if reduced is None:
+    if reduced is None or not (reduced.inertia_max or reduced.torque_load.any()):
         return
     low, high, mean = reduced.inertia_min, reduced.inertia_max, reduced.torque_load_mean
-    caption = (
-        f"Inertia reduced to the crank, from {quantity(low, 'kg m²', scale=high)} to "
-        f"{quantity(high, 'kg m²')}, and load torque referred to the crank, "
-        f"{quantity(mean, 'N m', scale=_size(reduced))} on average."
-    )
-    yield CaptionedFigure("reduction", "Reduced inertia and torque", caption, reduction_figure(reduced))
+    load = f"{quantity(mean, 'N m', scale=_size(reduced))} on average."
+    title, caption = "Load torque referred to the crank", f"Load torque referred to the crank, {load}"
+    if high:
+        title = "Reduced inertia and torque"
+        caption = (
+            f"Inertia reduced to the crank, from {quantity(low, 'kg m²', scale=high)} to "
+            f"{quantity(high, 'kg m²')}, and load torque referred to the crank, {load}"
+        )
+    yield CaptionedFigure("reduction", title, caption, reduction_figure(reduced))
 
 
 # Points that show polynomials as smooth lines.

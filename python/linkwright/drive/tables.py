@@ -27,10 +27,12 @@ def _rows(result: Reduction | SteadyState, table: str, *, without: Collection[st
 
 def _reduction(study: Results) -> Table | None:
     reduced = study.reduction
-    if reduced is None:
+    if reduced is None or not (reduced.inertia_max or reduced.torque_load.any()):
         return None
     # Most machines have no viscous friction, and no use for a row of zeros.
-    rows = _rows(reduced, "reduction", without=() if reduced.viscous_mean else ("viscous_mean",))
+    without = [] if reduced.viscous_mean else ["viscous_mean"]
+    without += [] if reduced.inertia_max else ["inertia_min", "inertia_max"]
+    rows = _rows(reduced, "reduction", without=without)
     return Table("reduction", "Reduced to the crank", ("quantity", "", "value", "where"), rows)
 
 
@@ -168,4 +170,6 @@ def drive_headline(study: Results) -> Iterator[tuple[str, str, str]]:
     if run_up is not None:
         yield "run-up time", *parted(run_up.time, "s")
     if steady is None and reduced is not None:
-        yield from few(reduced, ("inertia_min", "inertia_max", "torque_load_mean"))
+        # Without masses there is no inertia to tell of, without loads no torque.
+        names = ("inertia_min", "inertia_max") if reduced.inertia_max else ()
+        yield from few(reduced, (*names, "torque_load_mean") if reduced.torque_load.any() else names)

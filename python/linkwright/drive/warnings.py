@@ -14,6 +14,7 @@ from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import Reduction, has_inertia
 from linkwright.drive.steady_state import START_WORDS, SteadyState
+from linkwright.kernel.reader.numbers import degrees
 from linkwright.linkages.whole_cycle import first_revolution_words
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -38,7 +39,7 @@ def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | N
     drive = machine.drive
     sentences = [
         *_unloaded(machine),
-        *_reduced(reduced),
+        *_reduced(machine, reduced),
         *first_revolution_words(machine),
         *unjudged_limits(machine),
     ]
@@ -120,11 +121,14 @@ def _unloaded(machine: Machine) -> Iterator[str]:
         yield "The machine has no loads: only its inertia resists."
 
 
-def _reduced(reduced: Reduction) -> Iterator[str]:
-    if not has_inertia(reduced):
+def _reduced(machine: Machine, reduced: Reduction) -> Iterator[str]:
+    # A law gives the motion whatever the inertia is, and without masses none is asked for.
+    cranks = machine.linkage.cranks.values()
+    is_free = machine.mechanism.cams or any(one.law is None and one.follows() is None for one in cranks)
+    if is_free and reduced.inertia_max and not has_inertia(reduced):
         yield (
             "The reduced inertia falls to zero at a crank angle of "
-            f"{np.degrees(reduced.inertia_min_angle):.1f}°: give the inertias "
+            f"{degrees(reduced.inertia_min_angle)}: give the inertias "
             "of the drive; without them there is no constant-energy limit."
         )
     if reduced.torque_load_mean < -_SMALL * float(np.abs(reduced.torque_load).max()):
@@ -298,14 +302,11 @@ def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 def _beyond(drive: Drive, steady: SteadyState) -> str:
     fastest = steady.speed_max * drive.gearbox.ratio
-    match drive.motor:
-        case InductionMotor(speed_synchronous=float(limit)):
-            word = "synchronous"
-        case DcMotor(speed_no_load=limit):
-            word = "no-load"
-        case _:
-            return ""
-    return f", up to {fastest:.4g} rad/s, beyond its {word} speed of {limit:.4g} rad/s"
+    motor = drive.motor
+    if motor is None or not motor.no_load_word:
+        return ""
+    limit = f"{motor.no_load_word} speed of {motor.speed_without_load:.4g} rad/s"
+    return f", up to {fastest:.4g} rad/s, beyond its {limit}"
 
 
 def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:

@@ -45,7 +45,7 @@ CYLINDER = Analysis(
     check=of("kinetostatics.cylinder:check_cylinders"),
     tables=of("kinetostatics.cylinder_report:cylinder_tables", "*cylinder"),
     figures=of("kinetostatics.cylinder_report:cylinder_figures", "*cylinder"),
-    headline=("force_max", "force_min", "pressure_max", "power_max"),
+    headline=of("kinetostatics.cylinder_report:cylinder_headline", "*cylinder"),
 )
 
 CONTACT_LOSSES = Analysis(

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.kernel.figure.lines import Line, Panel, line_figure
 from linkwright.kernel.figure.style import DRIVE, LINES, CaptionedFigure, styled
-from linkwright.kernel.page.table import Table, part_table
-from linkwright.kernel.reader.numbers import quantity
+from linkwright.kernel.page.table import Table, few, part_table
+from linkwright.kernel.reader.numbers import parted, quantity
 from linkwright.kinetostatics.cylinder import CylinderForce
 
 if TYPE_CHECKING:
@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
 _SIZES = (
     ("cylinder", "name"),
-    ("L_min", "length_min"),
-    ("L_max", "length_max"),
+    ("", ""),
+    ("minimum length", "length_min"),
+    ("maximum length", "length_max"),
     ("peak velocity", "velocity_max"),
     ("maximum force", "force_max"),
     ("minimum force", "force_min"),
@@ -33,10 +34,30 @@ def cylinder_tables(cylinders: Sequence[CylinderForce]) -> tuple[Table, ...]:
     """Lengths, forces, pressures, flow and power of all cylinders, a row each."""
     if not cylinders:
         return ()
-    has_bore = any(one.pressure_max is not None for one in cylinders)
-    sizes = [size for size in _SIZES if has_bore or size[1] not in ("pressure_max", "flow_max")]
+    unknown = set[str]()
+    if all(one.pressure_max is None for one in cylinders):
+        unknown |= {"pressure_max", "flow_max"}
+    if not any(_moves(one) for one in cylinders):
+        unknown |= {"velocity_max", "flow_max", "power_max"}
+    sizes = [size for size in _SIZES if size[1] not in unknown]
     heads, cells = zip(*sizes, strict=True)
     return (part_table("cylinders", "Cylinders over the cycle", cylinders, heads, *cells),)
+
+
+def _moves(one: CylinderForce) -> bool:
+    """Whether its speed is known; without one the force holds each position."""
+    return bool(np.any(one.velocity))
+
+
+def cylinder_headline(cylinders: Sequence[CylinderForce]) -> Iterator[tuple[str, str, str]]:
+    """Extremes of force, pressure and power of each cylinder."""
+    for one in cylinders:
+        before = f"cylinder {one.name}: "
+        yield from few(one, ("force_max", "force_min"), before)
+        if one.pressure_max is not None:
+            yield f"{before}maximum pressure", *parted(one.pressure_max, "Pa", usual="bar")
+        if _moves(one):
+            yield from few(one, ("power_max",), before)
 
 
 def cylinder_figures(cylinders: Sequence[CylinderForce]) -> Iterator[CaptionedFigure]:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.cycle import Linkage
 
 # Transmission angle below which a linkage runs badly, a rule of thumb (VDI 2123) [°].
-_POOR = 40.0
+POOR = 40.0
 
 
 @styled
@@ -42,8 +42,8 @@ def transmission_figure(linkage: Linkage) -> Figure:
         Line(np.degrees(mu), LINES[k % len(LINES)], named(name))
         for k, (name, mu) in enumerate(angles.items())
     ]
-    limits = [Level(_POOR, "40° and 140°"), Level(180 - _POOR, "")]
-    panel = Panel("transmission angle μ [°]", [*lines, *limits], room=(_POOR, 180 - _POOR))
+    limits = [Level(POOR, "40° and 140°"), Level(180 - POOR, "")]
+    panel = Panel("transmission angle μ [°]", [*lines, *limits], room=(POOR, 180 - POOR))
     return line_figure(np.degrees(linkage.crank_angle), panel, height=2.9)
 
 

@@ -97,10 +97,10 @@ def law_jumps(machine: Machine) -> list[LawJump]:
 
 def _jumps_of_axes(machine: Machine) -> Iterator[LawJump]:
     """Jumps where sections of axes, or pieces of their laws, meet."""
-    own, cams = axis_drivers(machine), machine.mechanism.cams
-    for name, driver in machine.linkage.drivers().items():
-        programme = driver.follows() if name in own and name not in cams else None
-        if programme is None:
+    mechanism, cams = machine.linkage, machine.mechanism.cams
+    for name, driver in mechanism.drivers().items():
+        programme = None if name in cams else driver.follows()
+        if programme is None or not hasattr(programme, "advance"):
             continue
         lift = programme.lift.primal
         places = np.array(lift.breaks[:-1])

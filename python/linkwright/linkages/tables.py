@@ -139,7 +139,12 @@ def linkage_headline(linkage: Linkage) -> Iterator[tuple[str, str, str]]:
             yield f"swing of {moved.output}", degrees(moved.swing), ""
         if moved.time_ratio is not None and abs(moved.time_ratio - 1) > _EVEN:
             yield f"time ratio of {moved.output}", number(moved.time_ratio), ""
-    worst = [element.transmission_angle_worst for element in linkage.elements]
-    known = [angle for angle in worst if angle is not None]
-    if known:
-        yield "worst transmission angle", degrees(min(known)), ""
+    worst = worst_transmission(linkage)
+    if worst is not None:
+        yield "worst transmission angle", degrees(worst[0]), ""
+
+
+def worst_transmission(linkage: Linkage) -> tuple[float, str] | None:
+    """Worst transmission angle [rad] and the element that has it; None without one."""
+    angles = ((element.transmission_angle_worst, element.element) for element in linkage.elements)
+    return min(((angle, name) for angle, name in angles if angle is not None), default=None)

@@ -257,8 +257,8 @@ def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:
 
 def _faults_of_axes(machine: object) -> Iterator[InitErrorDetails]:
     mechanism = look(machine, "mechanism")
-    moved = (look(mechanism, table) for table in ("linear_drivers", "cylinders"))
-    if any(map(keys, (look(machine, "axes"), *moved))):
+    along_lines = (keys(look(mechanism, table)) for table in ("linear_drivers", "cylinders"))
+    if keys(look(machine, "axes")) or any(along_lines):
         from linkwright.axes.model.axis_faults import axes_faults
 
         yield from axes_faults(machine)

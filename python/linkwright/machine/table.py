@@ -53,7 +53,7 @@ class Part(NamedTuple):
 
 def machine_parts(machine: Machine) -> list[Part]:
     """All parts of a machine, from turning moments and topper to bodies, loads and run-up."""
-    parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _tables, _run_up)
+    parts = (_diagram, _topper, _drive, _train, _unit, _mechanism, _axes, _tables, _run_up)
     return [part for one in parts for part in one(machine)]
 
 
@@ -132,6 +132,17 @@ def _mechanism(machine: Machine) -> Iterator[Part]:
         group = _GROUPS.get(table) or table.replace("_", " ").capitalize()
         for name in getattr(machine.mechanism, table):
             yield _part(group, machine, ("mechanism", table, name))
+
+
+def _axes(machine: Machine) -> Iterator[Part]:
+    if machine.master is not None:
+        yield _part("Servo axes", machine, ("master",))
+    for name in machine.axes:
+        for part in _nested("Servo axes", machine, ("axes", name)):
+            if part.is_named:
+                yield part
+            elif any(entry.given for entry in part.entries):
+                yield part._replace(name=f"{name}: {part.name}")
 
 
 def _tables(machine: Machine) -> Iterator[Part]:

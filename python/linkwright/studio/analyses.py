@@ -7,6 +7,7 @@ Fast analyses follow every change at once; slow ones run beside them, in a proce
 | motion | at once | a mechanism that closes somewhere |
 | steady motion | at once | a motor, and a mechanism that closes over the whole revolution |
 | forces | at once | bodies or loads, steady motion |
+| servo axes, DC bus, timing | at once | axes, or several cams, and a cycle time |
 | study | beside | – ; everything that `linkwright run` computes |
 | torsion | beside | a train, or a driveline with an elastic part |
 """
@@ -21,6 +22,7 @@ import numpy as np
 
 from linkwright.app.study import Study, study
 from linkwright.app.subjects import ANALYSES
+from linkwright.axes.analyses import AXIS, BUS, TIMING
 from linkwright.drive.obstacles import design_speed, no_mass
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
@@ -34,11 +36,12 @@ from linkwright.kernel.reader.sentences import sentence
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.motion import Motion
-from linkwright.machine.analysis import Analysis
+from linkwright.machine.analysis import Analysis, Results
 from linkwright.machine.machine import Machine
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.studio.drawing import drawing
 from linkwright.studio.shown import shown
+from linkwright.studio.timing import timing_view
 from linkwright.studio.views import knife_view, train_view
 
 if TYPE_CHECKING:
@@ -97,9 +100,9 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     """What follows every change: scene, steady motion, forces; at fewer angles while something is `held`."""
     findings = Findings()
     train = findings.of(train_view, machine) if machine.twists else None
-    views = () if train is None else (train,)
+    views = [] if train is None else [train]
     if not machine.has_crank:
-        return Answers([], findings.findings, findings.warnings, views=views)
+        return Answers([], findings.findings, findings.warnings, views=tuple(views))
     steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
     if no_mass(machine) is None:
@@ -112,7 +115,16 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     known = [shown(name, result) for name, result in results.items() if result is not None]
     if scene is not None:
         known.append({"name": "transfer", "scalars": [], "plots": scene.pop("transfer")})
-    return Answers(known, findings.findings, findings.warnings, scene, views=views)
+    axes = Results(machine)
+    for analysis in (AXIS, BUS, TIMING):
+        if analysis.applies(machine):
+            axes.add(analysis, findings)
+    # The timing diagram is a picture of its own.
+    known += [shown(name, axes[name]) for name in axes if not name.startswith(TIMING.name)]
+    known += [shown(f"{name}.motor", axes[name].motor) for name in axes if name.startswith(AXIS.name)]
+    if tracks := axes.each(TIMING.name):
+        views.append(timing_view(machine, tracks))
+    return Answers(known, findings.findings, findings.warnings, scene, views=tuple(views))
 
 
 def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
@@ -157,8 +169,8 @@ _CURVES = {"speed", "torque", "time", "reduction", "run_up"}
 
 
 def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
-    known = ("steady_state", "forces")
-    yield from ((name, result) for name, result in results.items() if name not in known)
+    known = ("steady_state", "forces", AXIS.name, BUS.name, TIMING.name)
+    yield from ((name, result) for name, result in results.items() if name.partition(".")[0] not in known)
 
 
 def _torsion_study(machine: Machine) -> TorsionStudy:

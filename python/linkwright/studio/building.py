@@ -3,7 +3,8 @@
 Each kind of element says what it may be built on, best first; the first that makes a sound machine is taken.
 A link that is drawn is a crank if nothing drives the mechanism yet, else a bar. Where it begins in the plane
 is a point of the frame; where it ends in the plane, a new joint, or a point of the frame if it comes from a
-joint that needs no more than that. Links wait until each new joint has two.
+joint that needs no more than that. Links wait until each new joint has two. A driving cylinder is a link too;
+a passive one holds no joint, and ends in the plane at a point of the frame.
 """
 
 from __future__ import annotations
@@ -12,8 +13,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
+from pathlib import Path
 from typing import Any, NamedTuple
 
+from linkwright.axes.model.axis_catalogue import read_servo_motors
 from linkwright.kernel.description.place import join, keys, look
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.linkages.model.topology import ORIGIN, Topology
@@ -32,13 +35,15 @@ class Site:
     size: float  # of the drawing [m]
     unit: str  # of lengths in the file
     picked: str  # point that was picked last; empty for none
+    folder: Path | None = None  # of the file
 
     @classmethod
-    def of(cls, text: str, size: float, picked: str = "") -> Site:
+    def of(cls, text: str, size: float, picked: str = "", path: str = "") -> Site:
         """That of a file."""
         raw = tables_of(text)
         unit = "mm" if ' mm"' in text or look(look(raw, "units"), "length") == "mm" else "m"
-        return cls(raw, Topology.of(look(raw, "mechanism")), size, unit, picked)
+        folder = Path(path).parent if path else None
+        return cls(raw, Topology.of(look(raw, "mechanism")), size, unit, picked, folder)
 
     def names(self, table: str) -> list[str]:
         """Names in a table of the file, which may be none."""
@@ -131,6 +136,81 @@ def _cylinders(site: Site) -> Iterator[Entries]:
     return ({"start": start, "end": end, "damping": "1000 N s/m"} for start, end in ends)
 
 
+def _driving(site: Site, start: str, end: str, size: float, angle: float = 0.0) -> Entries:
+    """A cylinder as long as it is drawn, at a crank angle; it extends by a tenth of that and returns."""
+    half = float(f"{0.05 * size:.1g}")
+    length = site.metres(size - half * (1 - math.cos(angle)), 7)
+    return {"start": start, "end": end, "start_length": length, "law": f"{half:g} * (1 - cos(phi))"}
+
+
+def _lift(site: Site) -> Made:
+    """A boom about a point of the frame, lifted by a cylinder from another."""
+    joint, far = site.fresh("J"), site.fresh("P")
+    size = site.size
+    boom, cylinder = ({"start": start, "end": joint} for start in (site.fixed[0], far))
+    for name in site.fixed:
+        yield (
+            ("mechanism",),
+            {
+                f"points.{far}": {"x": site.length(0.4), "y": site.length(-0.2)},
+                f"joints.{joint}": {"x": site.length(0.6), "y": site.length(0.3)},
+                f"bars.{site.fresh('B')}": {**boom, "start": name, "length": site.length(0.67)},
+                f"cylinders.{site.fresh('Z')}": _driving(site, cylinder["start"], joint, 0.54 * size),
+            },
+        )
+
+
+def _axes(site: Site) -> Made:
+    """An axis for each driver that has none, with a swing or a lift where it has no motion of its own."""
+    taken = {look(look(look(site.raw, "axes"), name), "driver") or name for name in site.names("axes")}
+    mechanism = look(site.raw, "mechanism")
+    for table in ("cranks", "linear_drivers", "cylinders", "cams"):
+        for name in site.first(list(keys(look(mechanism, table)))):
+            own = look(look(mechanism, table), name)
+            if name in taken or (table == "cylinders" and look(own, "start_length") is None):
+                continue
+            entries: Entries = {"sections": _sections("swing", "60 deg")} if table == "cranks" else {}
+            if any(look(own, key) is not None for key in ("law", "advance")):
+                entries = {}
+            # Without a cycle time nothing is known of torques.
+            timed = any(look(look(site.raw, "drive"), key) is not None for key in ("speed", "motor"))
+            master = {} if timed or "master" in site.raw else {"master": {"cycle_time": "1 s"}}
+            yield (), {**master, f"axes.{join((name,))}": entries or {"driver": name}}
+
+
+def _axis_motors(entries: Callable[[Site], Iterator[Entries]]) -> Callable[[Site], Made]:
+
+    def made(site: Site) -> Made:
+        for name in site.names("axes"):
+            axis = look(look(site.raw, "axes"), name)
+            if look(axis, "motor") is None:
+                for motor in entries(site):
+                    yield ("axes", name, "motor"), motor
+                    # Along a line it turns a screw or a pinion.
+                    parts = {"motor": motor, "gearbox.per_turn": site.length(0.05)}
+                    yield (), {f"axes.{join((name,))}.{key}": entry for key, entry in parts.items()}
+
+    return made
+
+
+def _from_catalogues(site: Site) -> Iterator[Entries]:
+    """The first type of each catalogue of servo motors beside the file."""
+    for file in sorted(site.folder.glob("*.csv")) if site.folder is not None else ():
+        try:
+            motors = read_servo_motors(file)
+        except LinkwrightError:
+            # silent: another table than a catalogue of servo motors
+            continue
+        yield from ({"file": file.name, "catalogue": motor.type} for motor in motors[:1])
+
+
+_SERVO: Entries = {
+    "inertia": "1 kg cm^2",
+    "continuous": {"speed": "0, 3000 rpm", "torque": "2.4, 2.3 N m"},
+    "peak": {"speed": "0, 3000 rpm", "torque": "7.1, 7.1 N m"},
+}
+
+
 def _rockers(site: Site) -> Iterator[Entries]:
     for crank in site.moving:
         for pivot in site.fixed:
@@ -213,6 +293,7 @@ def _gravity(site: Site) -> Made:
 _MOVING, _LINK, _SLIDE = "a moving point, such as the pin of a crank", "a link", "a slider"
 _BOTH = f"{_MOVING}, and a fixed point"
 _FORCES = ["100 N", "100 N"]
+_NO_MOTOR = "a servo axis without a motor"
 
 KINDS: dict[str, Kind] = {
     "points": Kind(
@@ -242,6 +323,7 @@ KINDS: dict[str, Kind] = {
     "rockers": Kind("Coupler and rocker", "Mechanism", _BOTH, _one("rockers", "R", _rockers)),
     "slotted_levers": Kind("Slotted lever", "Mechanism", _BOTH, _one("slotted_levers", "L", _slots)),
     "cylinders": Kind("Passive cylinder", "Mechanism", _BOTH, _one("cylinders", "Z", _cylinders)),
+    "driving cylinders": Kind("Boom on a driving cylinder", "Mechanism", "", _lift),
     "crossings": Kind("Pin in two guides", "Mechanism", _LINK, _one("crossings", "X", _crossings)),
     "yokes": Kind(
         "Yoke", "Mechanism", _MOVING, _one("yokes", "Y", lambda site: ({"pin": n} for n in site.moving))
@@ -422,6 +504,14 @@ KINDS: dict[str, Kind] = {
         "",
         _drive("motor", {"kind": "constant_speed", "speed": "10 rad/s"}),
     ),
+    "axes": Kind("Servo axis", "Drive", "a crank, linear driver, cylinder or cam without an axis", _axes),
+    "servo motor": Kind("Servo motor", "Drive", _NO_MOTOR, _axis_motors(lambda _: iter([_SERVO]))),
+    "catalogue servo": Kind(
+        "Servo motor of a catalogue",
+        "Drive",
+        f"{_NO_MOTOR}, and a CSV file of servo motors in the folder",
+        _axis_motors(_from_catalogues),
+    ),
     "gearbox": Kind("Gearbox", "Drive", "", _drive("gearbox", {"ratio": 10})),
     "flywheel": Kind("Flywheel", "Drive", "", _drive("flywheel", {"inertia": "1 kg m^2", "on": "crank"})),
     "brake": Kind("Brake", "Drive", "", _drive("brake", {"torque": "100 N m"})),
@@ -444,7 +534,7 @@ def added(text: str, kind: str, size: float, picked: str, path: str = "") -> str
     """
     if kind not in KINDS:
         raise InputError(f"{kind!r}: expected one of {', '.join(KINDS)}")
-    element, site = KINDS[kind], Site.of(text, size, picked)
+    element, site = KINDS[kind], Site.of(text, size, picked, path)
     try:
         loads(text, path=path)
         is_sound = True
@@ -455,8 +545,9 @@ def added(text: str, kind: str, size: float, picked: str, path: str = "") -> str
         f"{element.word} needs {element.needs}" if element.needs else f"{element.word}: there is one already"
     )
     for _, (place, entries) in zip(range(_TRIES), element.made(site), strict=False):
-        parts = entries if place == ("mechanism",) else {"": entries}
-        new = changed(text, {join(place) + (f".{key}" if key else ""): e for key, e in parts.items()})
+        parts = entries if len(place) < 2 else {"": entries}
+        head = join(place) if place else ""
+        new = changed(text, {".".join(filter(None, (head, key))): e for key, e in parts.items()})
         if not is_sound:
             return new
         try:
@@ -477,16 +568,16 @@ class End(NamedTuple):
 
 
 def drawn(
-    text: str, links: Sequence[Sequence[End]], angle: float, pixel: float, path: str = ""
+    text: str, links: Sequence[Sequence[Any]], angle: float, pixel: float, path: str = ""
 ) -> tuple[str, str]:
     """The text with links that were drawn, and words where they wait for further ones.
 
-    `angle`: of the crank in the drawing [rad]; `pixel`: size of one [m]. Raises a `LinkwrightError` if they
-    make no machine.
+    `links`: both ends of each, and its kind, ``link``, ``driving`` or ``passive`` cylinder; `angle`: of the
+    crank in the drawing [rad]; `pixel`: size of one [m]. Raises a `LinkwrightError` if they make no machine.
     """
     drawing = _Drawing(Site.of(text, 1.0), angle, pixel)
-    for start, end in links:
-        drawing.link(start, end)
+    for start, end, *kind in links:
+        drawing.link(start, end, *kind)
     if waiting := drawing.waiting():
         return text, f"{waiting} has one link: draw a second from it"
     new = changed(text, drawing.entries)
@@ -506,11 +597,16 @@ class _Drawing:
         self.held: dict[str, int] = {}  # new joint → links that hold it
         self.is_driven = bool(site.topology.drivers)
 
-    def link(self, start: End, end: End) -> None:
+    def link(self, start: End, end: End, kind: str = "link") -> None:
         first = start.point or self.places.get((start.x, start.y)) or self._fixed(start)
         known = end.point or self.places.get((end.x, end.y))
-        length = self.site.metres(self._round(math.hypot(end.x - start.x, end.y - start.y)), 12)
-        if not self.is_driven and not known and self._is_fixed(first):
+        size = self._round(math.hypot(end.x - start.x, end.y - start.y))
+        length = self.site.metres(size, 12)
+        if kind == "passive":
+            second = known or self._fixed(end)
+            self._put("cylinders", self._name("Z"), {"start": first, "end": second, "damping": "1000 N s/m"})
+            return
+        if kind == "link" and not self.is_driven and not known and self._is_fixed(first):
             self.is_driven = True
             name = self._name("A", end)
             phase = math.degrees(math.atan2(end.y - start.y, end.x - start.x) - self.angle)
@@ -521,6 +617,10 @@ class _Drawing:
         for name in (first, second):
             if name in self.held:
                 self.held[name] += 1
+        if kind == "driving":
+            self.is_driven = True
+            self._put("cylinders", self._name("Z"), _driving(self.site, first, second, size, self.angle))
+            return
         self._put("bars", self._name("B"), {"start": first, "end": second, "length": length})
 
     def waiting(self) -> str:

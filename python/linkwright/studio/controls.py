@@ -7,15 +7,17 @@ are not given are listed with what holds without them, so that they can be added
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from linkwright.kernel.description.place import field_names, join
+from linkwright.kernel.description.place import field_names, join, look
 from linkwright.kernel.description.schema_walk import annotation_at, kinds_at, mark_of, model_of, words_of
-from linkwright.kernel.errors import UnitError
+from linkwright.kernel.errors import LinkwrightError, UnitError
+from linkwright.kernel.files.points import lines_of
 from linkwright.kernel.units.marks import Quantity, QuantityList
 from linkwright.kernel.units.reading import parse
 from linkwright.machine.machine import Machine
@@ -24,16 +26,22 @@ from linkwright.machine.size_limits import size_and_limits
 Control = dict[str, Any]
 
 
-def controls(raw: Mapping[str, Any]) -> Control:
-    """The controls of a file, sound or not, as a group.
+def controls(raw: Mapping[str, Any], path: str = "") -> Control:
+    """The controls of a file, sound or not, as a group. `path`: of the file, beside which catalogues are.
 
     ``address``, ``key``, ``about``, ``entries``, ``groups`` and ``missing``.
     """
-    return _group((), "machine", "", Machine, raw, raw)
+    return _group((), "machine", "", Machine, raw, raw, path)
 
 
 def _group(
-    place: tuple[str, ...], key: str, about: str, model: type[BaseModel] | None, node: Any, raw: Any
+    place: tuple[str, ...],
+    key: str,
+    about: str,
+    model: type[BaseModel] | None,
+    node: Any,
+    raw: Any,
+    path: str,
 ) -> Control:
     entries: list[Control] = []
     groups: list[Control] = []
@@ -43,9 +51,12 @@ def _group(
         field = _field(model, name)
         words = field.description or "" if field else ""
         if _is_table(value):
-            groups.append(_group(at, name, words, model_of(annotation, value), value, raw))
-        else:
-            entries.append(_entry(at, name, words, annotation, value))
+            groups.append(_group(at, name, words, model_of(annotation, value), value, raw, path))
+            continue
+        entry = _entry(at, name, words, annotation, value)
+        if name == "catalogue" and (types := _types(look(node, "file"), path)):
+            entry |= {"holds": "choice", "choices": types}
+        entries.append(entry)
     return {
         "address": join(place) if place else "",
         "key": key,
@@ -54,6 +65,19 @@ def _group(
         "groups": groups,
         "missing": list(_missing(place, model, node, raw)) if model else [],
     }
+
+
+def _types(file: Any, path: str) -> list[str]:
+    """Types of a catalogue beside the file; none if it cannot be read, which is a problem of its entry."""
+    if not isinstance(file, str) or not path:
+        return []
+    try:
+        lines = lines_of(Path(path).parent / file, "file")
+    except LinkwrightError:
+        # silent: it is a problem of the file, which stands beside its entry
+        return []
+    heads = [head.strip() for head in lines[0][1]] if lines else []
+    return [row[heads.index("type")].strip() for _, row in lines[1:]] if "type" in heads else []
 
 
 def _items(node: Any) -> Iterator[tuple[str, Any]]:

@@ -9,7 +9,7 @@ Handles are points that can be dragged; the entries of the file follow.
 | slider | length of the rod |
 | joint of a coupler and a rocker | both lengths |
 | point of a link | its place on the link |
-| joint of bars | lengths of the bars that end there |
+| joint of bars | lengths of the bars and driving cylinders that end there |
 | linear driver | its place at crank angle zero |
 """
 
@@ -148,7 +148,18 @@ def _handles(mechanism: Mechanism) -> Iterator[tuple[str, list[str]]]:
                 yield name, [join(("mechanism", table, name, entry)) for entry in given]
     for name in mechanism.joints:
         bars = [joint for joint, bar in mechanism.bars.items() if name in (bar.start, bar.end)]
-        yield name, [join(("mechanism", "bars", bar, "length")) for bar in bars]
+        driving = [
+            cylinder
+            for cylinder, own in mechanism.cylinders.items()
+            if own.drives and name in (own.start, own.end)
+        ]
+        yield (
+            name,
+            [
+                *(join(("mechanism", "bars", bar, "length")) for bar in bars),
+                *(join(("mechanism", "cylinders", one, "start_length")) for one in driving),
+            ],
+        )
 
 
 def transfer_functions(machine: Machine, motion: Kinematics) -> list[dict[str, Any]]:

@@ -110,9 +110,9 @@ class Spot(Request):
 
 
 class Draw(Request):
-    """Links that were drawn with the mouse."""
+    """Links and cylinders that were drawn with the mouse."""
 
-    links: list[tuple[Spot, Spot]]
+    links: list[tuple[Spot, Spot, Literal["link", "driving", "passive"]]]
     angle: Number  # of the crank in the drawing [rad]
     pixel: Annotated[Number, Field(gt=0)]  # size of one [m]
 

@@ -252,7 +252,10 @@ class Session:
     def _drawn(self, asked: Draw) -> Body:
         """The text with links that were drawn; what they wait for, or why they cannot be."""
         path = base(self.folder, self.place, self.name)
-        links = [tuple(End(end.x, end.y, end.point) for end in link) for link in asked.links]
+        links = [
+            (*(End(end.x, end.y, end.point) for end in (start, end)), kind)
+            for start, end, kind in asked.links
+        ]
         try:
             self.text, waits = drawn(self.text, links, asked.angle, asked.pixel, path)
         except LinkwrightError as error:
@@ -272,7 +275,7 @@ class Session:
         except (ValueError, RecursionError):
             raw = None
         return {
-            "controls": None if raw is None else controls(raw),
+            "controls": None if raw is None else controls(raw, base(self.folder, self.place, self.name)),
             "chips": [] if machine is None else chips(machine),
             "lanes": [] if machine is None else lanes(machine),
             "units": None if machine is None else units_of(machine),

@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from linkwright.app.report.scene import moving_scene, scene
 from linkwright.app.study import Study
 from linkwright.app.subjects import ANALYSES
@@ -17,9 +19,11 @@ from linkwright.kernel.page.content import Content, Few, Heading, Part
 from linkwright.kernel.page.html import html
 from linkwright.kernel.public import public
 from linkwright.kernel.reader.angle_zero import zero_shown
-from linkwright.kernel.reader.numbers import zero_words
+from linkwright.kernel.reader.numbers import degrees, zero_words
 from linkwright.kernel.reader.out_units import with_units_of
 from linkwright.kernel.reader.sentences import sentences
+from linkwright.linkages.figures import POOR
+from linkwright.linkages.tables import worst_transmission
 from linkwright.machine.machine import Machine
 from linkwright.machine.table import grouped, machine_parts
 from linkwright.machine.write import in_own_units
@@ -99,13 +103,24 @@ def _content(study: Study, command: str) -> Content:
         lead=zero_words(zero_shown()),
         findings=sentences(study.findings),
         warnings=sentences(study.warnings),
-        passed="" if study.findings else "All checks passed.",
+        passed="" if study.findings else _passed(study),
         headline=[Few(*line) for line in study.headline(ANALYSES)],
         parts=[part for part in parts if part.tables or part.figures],
         formulas=list(study.showing("formulas")),
         papers=". ".join(study.showing("papers")),
         command=command or "linkwright run machine.toml --out report",
         **sections,
+    )
+
+
+def _passed(study: Study) -> str:
+    """What is said where all checks pass; a poor transmission angle is no fault, and none of them."""
+    worst = None if study.linkage is None else worst_transmission(study.linkage)
+    if worst is None or worst[0] >= np.radians(POOR):
+        return "All checks passed."
+    return (
+        f"All checks passed; the transmission angle is not one of them: it falls to {degrees(worst[0])} at "
+        f"{worst[1]}, below {POOR:g}°."
     )
 
 

@@ -64,7 +64,7 @@ def line_figure(x: Floats, *drawn: Panel, height: float, over: str = CRANK_ANGLE
             turn_axis(one, x, label=False)
     if not over.endswith("[°]") and x[-1] > x[0]:
         axes[-1].set_xlim(float(x[0]), float(x[-1]))
-    axes[-1].set_xlabel(over)
+    axes[-1].set_xlabel(over, **(MATH if "$" in over else {}))
     return figure
 
 

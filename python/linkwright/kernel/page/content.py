@@ -94,6 +94,13 @@ class Content:
     command: str = ""  # the command line that gives the same
     language: Language = ENGLISH  # that it is written in, by `linkwright.kernel.reader.language.in_language`
 
+    def __post_init__(self) -> None:
+        """A page has figures in place of what letters draw."""
+        parts = [
+            part._replace(tables=[one for one in part.tables if not one.is_drawing]) for part in self.parts
+        ]
+        object.__setattr__(self, "parts", parts)
+
     @property
     def has_figures(self) -> bool:
         """Whether there is a figure among the results."""

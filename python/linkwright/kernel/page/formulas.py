@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 # A symbol of one letter and its index.
-INDEX = re.compile(r"\b([^\W\d_])_(\w+(?:,\w+)?)")
+INDEX = re.compile(r"\b(Δ?[^\W\d_])_(\w+(?:,\w+)?)")
 
 
 class Formula(NamedTuple):

@@ -40,6 +40,7 @@ class Table(NamedTuple):
     heads: Row
     rows: list[Row]
     is_whole: bool = False  # whether a terminal shows all rows, however many
+    is_drawing: bool = False  # whether it draws with letters, for a terminal: pages have the figure
 
 
 def row(result: Result, name: str, at: str = "", *, length: str = "") -> Row:

@@ -22,17 +22,23 @@ function Merge() {
     <p class="about">A joint dropped on another merges with it: elements of the first joint move to the second, and its element is removed.</p>`;
 }
 
-/** Links drawn in the drawing. */
+/** What is drawn in the drawing. */
+const DRAWN = [["link", "draw", "Draw links"], ["driving", "draw-driving", "Draw a driving cylinder"], ["passive", "draw-passive", "Draw a passive cylinder"]];
+
 function Links() {
   const is = state.drawing.value;
   return html`
-    <p class="sets"><button id="draw" class=${is ? "main" : ""} aria-pressed=${is} onClick=${() => {
-      state.draft.value = [];
-      state.waits.value = "";
+    <p class="sets">${DRAWN.map(([kind, id, words]) => html`<button key=${id} id=${id} class=${is === kind ? "main" : ""} aria-pressed=${is === kind} onClick=${() => {
+      // Links and cylinders may wait for each other.
+      if (!is || is === kind) {
+        state.draft.value = [];
+        state.waits.value = "";
+      }
       state.playing.value = false;
-      state.drawing.value = !is;
-    }}>Draw links</button></p>
-    ${is ? html`<p class="about">Press on a joint or in the plane, drag, and release on a joint or in the plane. The first link is the crank; a link that begins in the plane turns about a point of the frame. Escape removes links that are not complete.</p>` : null}
+      state.drawing.value = is === kind ? "" : kind;
+    }}>${words}</button>`)}</p>
+    ${is && is !== "link" ? html`<p class="about">Press on its trunnion, a joint or a place in the plane, drag, and release at its eye. A driving cylinder moves what it is joined to; a passive one is a spring or damper between two points.</p>` : null}
+    ${is === "link" ? html`<p class="about">Press on a joint or in the plane, drag, and release on a joint or in the plane. The first link is the crank; a link that begins in the plane turns about a point of the frame. Escape removes links that are not complete.</p>` : null}
     ${state.waits.value ? html`<p class="about" role="status">${state.waits.value}</p>` : null}`;
 }
 
@@ -55,4 +61,4 @@ export const Remove = ({ address, word }) => html`<button class="quiet remove" a
 }}>remove</button>`;
 
 /** Whether a group is an element that can be taken out. @param {string} address */
-export const isElement = (address) => /^(mechanism\.[a-z_]+|bodies|loads|train\.[a-z]+s)\.("[^"]*"|[^.]+)$/.test(address);
+export const isElement = (address) => /^(mechanism\.[a-z_]+|bodies|loads|axes|train\.[a-z]+s)\.("[^"]*"|[^.]+)$/.test(address);

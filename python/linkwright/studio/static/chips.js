@@ -11,7 +11,7 @@ const Blocked = ({ chips: [first, ...rest] }) => html`<span class="chip blocked"
 /** @param {{ chip: Chip }} props */
 function Chip({ chip }) {
   const { name, word, lane } = chip;
-  const now = lane === "fast" ? (state.results.value.some((each) => each.name === name) || (name === "motion" && state.scene.value) ? "ready" : "failed") : state.lanes.value[lane] ?? "ready";
+  const now = lane === "fast" ? (state.results.value.some((each) => each.name.split(".")[0] === name) || state.views.value.some(({ kind }) => kind === name) || (name === "motion" && state.scene.value) ? "ready" : "failed") : state.lanes.value[lane] ?? "ready";
   const looks = /** @type {Record<string, [string, string]>} */ ({ ready: ["●", "ready"], running: ["◌", "running"], stopped: ["■", "stopped"], failed: ["▲", "cannot be computed; see the findings"] });
   const [mark, about] = looks[now];
   return html`<span class="chip ${now}" title="${word}: ${about}"><i aria-hidden="true">${mark}</i>${word}${now === "ready" ? null : html`<small>${now === "failed" ? "see findings" : now}</small>`}

@@ -25,6 +25,27 @@ const ONTO = 12;
 /** What is drawn anew at every instant. @type {Set<(time: number) => void>} */
 export const followers = new Set();
 
+let way = 1;
+/** Moves the instant on by seconds of the page. @param {number} passed */
+export function advance(passed) {
+  const scene = state.scene.value;
+  if (!scene || !passed) return;
+  const period = scene.times[scene.times.length - 1];
+  [state.time.value, way] = onward(state.time.value, way, passed * (period / watchable(period)) * 10 ** state.pace.value, period, scene.swings);
+}
+
+/** All that shows the instant beside the picture. */
+export function tellInstant() {
+  for (const follow of followers) follow(state.time.value);
+  const scene = state.scene.value;
+  const words = document.getElementById("instant");
+  if (!scene || !words) return;
+  const k = placeOf(scene.times, state.time.value);
+  const { unit, factor } = shownUnit("rad/s", state.units.value);
+  const degrees = (between(scene.angles, k) * 180) / Math.PI;
+  words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
+}
+
 /** For the tests. */
 export const frames = { count: 0 };
 
@@ -60,7 +81,6 @@ function run(holder, canvas) {
   // Known from when it changed: asking for it while the page is written anew would lay the page out twice.
   let [width, height] = [holder.clientWidth, holder.clientHeight];
   let own = "";
-  let way = 1;
   let before = 0;
   let dirty = true;
   let stillFor = /** @type {any} */ (null);
@@ -127,10 +147,6 @@ function run(holder, canvas) {
     if (state.drawing.value) plane(ink);
     bar(ink);
     place(scene, k);
-    const { unit, factor } = shownUnit("rad/s", state.units.value);
-    const words = document.getElementById("instant");
-    const degrees = (between(scene.angles, k) * 180) / Math.PI;
-    if (words) words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
   }
 
   /** Paths that the user asked for. @param {Scene} scene @returns {any[]} */
@@ -225,17 +241,12 @@ function run(holder, canvas) {
 
   /** @param {number} now */
   function step(now) {
-    const scene = state.scene.value;
-    if (scene && state.playing.value && before && !gesture) {
-      const period = scene.times[scene.times.length - 1];
-      const by = (Math.min(now - before, 100) / 1000) * (period / watchable(period)) * 10 ** state.pace.value;
-      [state.time.value, way] = onward(state.time.value, way, by, period, scene.swings);
-    }
+    if (state.playing.value && before && !gesture) advance(Math.min(now - before, 100) / 1000);
     before = now;
     if (dirty) {
       dirty = false;
       draw();
-      for (const follow of followers) follow(state.time.value);
+      tellInstant();
       frames.count += 1;
     }
     handle = requestAnimationFrame(step);
@@ -259,7 +270,7 @@ function run(holder, canvas) {
     const scene = state.scene.value;
     const k = scene ? placeOf(scene.times, state.time.value) : 0;
     const joints = [
-      ...state.draft.value.flat(),
+      ...state.draft.value.flatMap(([start, end]) => [start, end]),
       ...Object.entries(scene?.points ?? {}).map(([point, path]) => ({ point, ...xy(pairAt(path, k)) })),
       { x: 0, y: 0, point: "O" },
     ];
@@ -274,7 +285,7 @@ function run(holder, canvas) {
     rope = null;
     dirty = true;
     if (!link || Math.hypot(link[0].x - link[1].x, link[0].y - link[1].y) * frame.scale < ONTO) return;
-    state.draft.value = [...state.draft.value, link];
+    state.draft.value = [...state.draft.value, [...link, state.drawing.value]];
     drawLinks(state.scene.value ? angle() : 0, 1 / frame.scale);
   }
 

@@ -60,9 +60,9 @@ export const pulled = signal("");
 export const building = signal(false);
 /** Kinds of elements that can be added. @type {Signal<{ kind: string, word: string, group: string }[]>} */
 export const kinds = signal([]);
-/** Whether the mouse draws links, those that wait for further ones, and what they wait for. */
-export const drawing = signal(false);
-/** @type {Signal<[Spot, Spot][]>} */
+/** What the mouse draws, "link", "driving" or "passive" cylinder, or nothing; what waits for further ones, and for what. */
+export const drawing = signal("");
+/** @type {Signal<[Spot, Spot, string][]>} */
 export const draft = signal([]);
 export const waits = signal("");
 

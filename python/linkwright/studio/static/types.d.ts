@@ -46,6 +46,10 @@ type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<strin
 type Paper = { ctx: Ctx, width: number, height: number, passed: number, ink: Record<string, string>, series: string[] };
 type Knife = { kind: "topper", law: Float64Array, rate: number, drift: number, phase: number, angle: number, length: number, speed: number,
   diameter: number, offset: number, heads: number[][], span: number[], box: number[], seconds: number };
+/** A section of a cam or an axis; `rate`, units of its entry in a radian of the master. */
+type Section = { address: string, unit: string, rate: number, angle: number, dwells: boolean };
+type Track = { name: string, phase: number, address?: string, sections: Section[], curves: { name: string, unit: string, values: Float64Array }[] };
+type SectionEnd = { track: Track, row: number, k: number, key: string, angle: number };
 type Disc = { name: string, x: number, row: number, half: number };
 type Joint = { name: string, kind: string, ends: (number | null)[], from: number[], to: number[], turned: boolean, share?: Float64Array, angles?: Float64Array };
 type Train = { kind: "train", discs: Disc[], parts: Joint[], frequencies: Float64Array, shapes: Float64Array,

@@ -7,6 +7,7 @@ import { Moving } from "./moving.js";
 import { Play, Playbar, Speed } from "./playbar.js";
 import { Stage } from "./stage.js";
 import * as state from "./state.js";
+import { Timing } from "./timing.js";
 import { paintTrain } from "./twist.js";
 import { number, shownUnit } from "./units.js";
 
@@ -16,7 +17,7 @@ const PERIOD = 2.4;
 /** Seconds at the end of a row before it begins again. */
 const REST = 1.5;
 
-const WORDS = /** @type {Record<string, string>} */ ({ mechanism: "Mechanism", train: "Shaft train", topper: "Topper from above" });
+const WORDS = /** @type {Record<string, string>} */ ({ mechanism: "Mechanism", train: "Shaft train", timing: "Timing diagram", topper: "Topper from above" });
 
 /** @param {{ view: Train }} props */
 function TrainView({ view }) {
@@ -77,5 +78,5 @@ export function Picture() {
   const view = views.find(({ kind }) => kind === at);
   return html`
     ${names.length > 1 ? html`<div class="sets views" role="group" aria-label="Picture">${names.map((name) => html`<button key=${name} aria-pressed=${name === at} onClick=${() => (state.seen.value = name)}>${WORDS[name]}</button>`)}</div>` : null}
-    ${view?.kind === "train" ? html`<${TrainView} view=${view} />` : view?.kind === "topper" ? html`<${KnifeView} view=${view} />` : html`<${Stage} /><${Playbar} />`}`;
+    ${view?.kind === "train" ? html`<${TrainView} view=${view} />` : view?.kind === "topper" ? html`<${KnifeView} view=${view} />` : view?.kind === "timing" ? html`<${Timing} view=${view} />` : html`<${Stage} /><${Playbar} />`}`;
 }
