@@ -536,3 +536,14 @@ def test_empty_sections_and_endless_starts_are_refused(old: str, new: str, words
     assert old in CARRIAGE
     with pytest.raises(lw.InputError, match=words):
         lw.servo_axis(lw.loads(CARRIAGE.replace(old, new)))
+
+
+def test_gears_that_gain_energy_in_reverse_are_warned_of() -> None:
+    """With a factor of 0.5 the motor gets twice what the braked carriage returns; with 1/η less."""
+    plain = lw.loads(CARRIAGE)
+    assert not [text for text in lw.study(plain).warnings if "gearbox factor" in text]
+    gains = lw.loads(CARRIAGE.replace("ratio = 10", "ratio = 10\nreverse = 0.5"))
+    (said,) = [text for text in lw.study(gains).warnings if "gearbox factor" in text]
+    axis = lw.servo_axis(gains)
+    returned = np.trapezoid(np.maximum(-axis.power, 0), axis.time)
+    assert f"factor 0.5 (axes.A.gearbox.reverse) gives the motor {returned:.3g}"[:-1] in said

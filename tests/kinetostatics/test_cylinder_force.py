@@ -248,3 +248,44 @@ S = { mass = "5 kg" }
     reduced = lw.study(lw.loads(text)).reduction
     assert reduced is not None
     assert reduced.torque_load_mean == pytest.approx(4 / (2 * np.pi), rel=1e-4)
+
+
+LIFT = """
+format = 1
+name = "Lift table with a gas spring"
+[mechanism.points]
+T = { x = "0.3 m", y = "-0.1 m" }
+[mechanism.joints]
+E = { x = "0.8 m", y = "0.6 m" }
+[mechanism.bars]
+arm = { start = "O", end = "E", length = "1 m" }
+[mechanism.rigid_points]
+K = { link = "arm", along = "0.5 m" }
+[mechanism.cylinders.ram]
+start = "T"
+end = "K"
+start_length = "0.40 m"
+law = "0.05*(1-cos(phi))"
+[bodies]
+E = { mass = "100 kg" }
+[loads]
+weight = { kind = "gravity" }
+[loads.gas]
+kind = "gas_spring"
+between = ["T", "K"]
+force_extended = "500 N"
+length_extended = "0.6 m"
+length_compressed = "0.3 m"
+progression = 1.5
+"""
+
+
+def test_what_holds_a_lift_table_is_the_weight_less_the_gas_spring() -> None:
+    """At half a cycle the cylinder stands upright, 0.5 m long, at half the arm of the weight."""
+    holds = lw.cylinder_force(lw.loads(LIFT))
+    upright = int(np.argmin(np.abs(holds.crank_angle - np.pi)))
+    assert holds.length[upright] == pytest.approx(0.5)
+    # Arm of 0.6 m for 981 N, of 0.3 m for the rod; the gas is pressed in by 0.1 m of a column c.
+    column = 0.3 / (1 - 1.5 ** (-1 / 1.2))
+    gas = 500 * (column / (column - 0.1)) ** 1.2
+    assert holds.force[upright] == pytest.approx(981 * 0.6 / 0.3 - gas, rel=1e-9)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from linkwright.axes.axis import ServoAxis, servo_axes
 from linkwright.axes.bus import DcBus, bus_of
 from linkwright.axes.cycle import axes_cycle, master_speed
@@ -14,6 +16,10 @@ from linkwright.kernel.findings import Findings
 from linkwright.kinetostatics.motion import has_speed
 from linkwright.machine.analysis import Obstacle, Results
 from linkwright.machine.machine import Machine
+from linkwright.machine.program.drive_line import reverse_factor
+
+# Share of the energy that an axis turns over, below which a gain of its gears is not warned of.
+_SMALL = 1e-3
 
 # The common timing diagram of fewer drivers than these is that of the one.
 _SEVERAL = 2
@@ -70,11 +76,26 @@ def axis_findings(axes: Sequence[ServoAxis]) -> Iterator[str]:
 
 
 def axis_warnings(axes: Sequence[ServoAxis]) -> Iterator[str]:
-    """Checks that cannot be made."""
+    """Checks that cannot be made, and gears that gain power in reverse."""
     for axis in axes:
+        yield from _gear_gain(axis)
         for check in axis.checks:
             if check.passed is None:
                 yield f"axis {axis.name}: {check.title} {check.note}"
+
+
+def _gear_gain(axis: ServoAxis) -> Iterator[str]:
+    """A factor below 1 in reverse hands the motor more energy than the driver returns."""
+    factor, cycle = float(reverse_factor(axis.axis.gearbox)), axis.cycle.divided()
+    power = cycle.torque * cycle.speed
+    returned, turned_over = (cycle.period * cycle.mean(part) for part in (np.maximum(-power, 0), abs(power)))
+    gained = returned * (1 / factor - 1)
+    if gained > _SMALL * turned_over and not axis.axis.gearbox.locks:
+        yield (
+            f"axis {axis.name}: while the load drives the motor, the gearbox factor {factor:.4g} "
+            f"(axes.{axis.name}.gearbox.reverse) gives the motor {gained:.4g} J per cycle more than the "
+            "driver returns; a gearbox with losses has a factor above 1"
+        )
 
 
 def check_axes(machine: Machine, findings: Findings) -> Iterator[str]:
