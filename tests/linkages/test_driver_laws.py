@@ -99,8 +99,8 @@ def test_a_corner_beside_the_masses_is_a_warning() -> None:
 @pytest.mark.parametrize(
     ("name", "words", "remedy"),
     [
-        ("law_that_saturates", "the law of A stays at 1;", 'advance = "57.2958 deg"'),
-        ("packaging", "the law of dial stays at 1.047;", 'write advance = "60 deg" beside the law'),
+        ("law_that_saturates", "the law of A stays at 1;", "advance, 57.2958 deg,"),
+        ("packaging", "the law of dial stays at 1.047;", "add the key advance, 60 deg, beside the law"),
     ],
 )
 def test_a_law_that_saturates_is_told_with_its_remedy(name: str, words: str, remedy: str) -> None:
@@ -121,6 +121,14 @@ def test_the_remedy_is_one(tmp_path: Path) -> None:
     assert steady.period > 0
     assert lw.period_turns(machine) == 6
     assert not [jump for jump in law_jumps(machine) if jump.order == 1]
+
+
+def test_a_bar_that_carries_an_idle_driver_is_a_cylinder() -> None:
+    """An excavator's cylinder as a nut on a bar of constant length: the finding says between which points."""
+    code, said = answer("check", str(FOUND / "excavator_bucket.toml"))
+    assert code == 1
+    (text,) = said["findings"]
+    assert "replace cyl and its bar by a cylinder between T and P, [mechanism.cylinders.cyl]" in text
 
 
 def test_what_no_driver_moves_is_named() -> None:

@@ -133,10 +133,11 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
             continue  # a steady advance, as that of index steps
         driver = name.removesuffix(".law")
         kind = LENGTH if driver in compiled.slides else ANGLE
+        advance = worded(float(first[-1] - first[0]), kind)
         return (
-            f"φ continues beyond 2π, where the law of {driver} {does}; write advance = "
-            f'"{worded(float(first[-1] - first[0]), kind)}" beside the law, which then starts again in every '
-            f"revolution from where it ended, or give it sections in [axes.{driver}]"
+            f"φ continues beyond 2π, where the law of {driver} {does}; add the key advance, {advance}, beside "
+            "the law: it then starts again in every revolution from where it ended; or describe a servo "
+            f"axis, [axes.{driver}]"
         )
     return ""
 
