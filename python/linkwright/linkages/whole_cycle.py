@@ -137,7 +137,7 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
         return (
             f"φ continues beyond 2π, where the law of {driver} {does}; add the key advance, {advance}, beside "
             "the law: it then starts again in every revolution from where it ended; or describe a servo "
-            f"axis, [axes.{driver}]"
+            f"axis, axes.{driver}"
         )
     return ""
 
