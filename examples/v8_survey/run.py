@@ -35,7 +35,6 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Q over the radius of the fillets, with what the rule asks for."""
-    from linkwright.kernel.figure.legends import legend_above
     from linkwright.kernel.figure.style import INK, LINES, panels, styled
 
     @styled
@@ -47,7 +46,7 @@ def figure(machine: lw.Machine):
             axes.plot(radii, values, "o-", color=colour, label=place.replace("_", " "))
         axes.axhline(1.15, linestyle="--", color=INK, label="required")
         axes.set(xlabel="radius of the fillets [mm]", ylabel="acceptability factor Q", ylim=(0, None))
-        legend_above(axes)
+        axes.legend()
         return drawing
 
     return drawn()

@@ -47,7 +47,8 @@ def idle_parts(machine: Machine) -> Iterator[str]:
     if listed:
         yield (
             f"{' and '.join(listed)} never move over the cycle, since nothing connects them with a driver: "
-            f"{_cylinder(machine, parts['bar'])}correct the points that they are attached to, or leave them out"
+            f"{_cylinder(machine, parts['bar'])}correct the points that they are attached to, or leave them "
+            "out"
         )
 
 
