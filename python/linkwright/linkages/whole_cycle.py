@@ -136,8 +136,8 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
         advance = worded(float(first[-1] - first[0]), kind)
         return (
             f"φ continues beyond 2π, where the law of {driver} {does}; add the key advance, {advance}, "
-            "beside the law: it then starts again in every revolution from where it ended; or describe a "
-            f"servo axis, axes.{driver}"
+            "beside the law: it then starts again in every revolution from where it ended; sections in "
+            f"[axes.{driver}] do the same"
         )
     return ""
 
