@@ -46,7 +46,7 @@ def figure(machine: lw.Machine):
             axes.plot(radii, [one[place] for one in found], "o-", color=colour, label=place.replace("_", " "))
         axes.axhline(1.15, linestyle="--", color=INK, label="required")
         axes.set(xlabel="radius of the fillets [mm]", ylabel="acceptability factor Q", ylim=(0, None))
-        legend_above(axes)
+        axes.legend()
         return drawing
 
     return drawn()

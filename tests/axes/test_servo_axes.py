@@ -442,7 +442,7 @@ def test_the_command_prints_a_row_for_every_axis(tmp_path: Path) -> None:
 def test_a_study_has_the_axes() -> None:
     """Results by the name of their analysis, forces at the speed of the master, and the timing of all."""
     study = lw.study(lw.loads(PACKAGING))
-    assert {"axis.dial", "axis.shaft", "dc_bus", "timing.dial", "timing.shaft", "forces"} <= set(study)
+    assert {"axis.dial", "axis.shaft", "dc_bus", "timing.dial", "timing.pusher", "forces"} <= set(study)
     assert isinstance(study["axis.dial"], ServoAxis)
     assert not study.findings
     assert not any("no motor" in text for text in study.warnings)

@@ -53,8 +53,8 @@ def prepared(page: Path, folder: Path) -> None:
         (folder / "one_cart.toml").write_text(machine, encoding="utf-8")
     for kind, block in _FENCED.findall(text):
         # A file whose first line is its name.
-        if kind == "toml" and (name := re.match(r"# (\w+\.toml)\n", block)):
-            (folder / name[1]).write_text(block, encoding="utf-8")
+        if kind in ("toml", "csv") and (name := re.match(rf"# (\w+\.{kind})\n", block)):
+            (folder / name[1]).write_text(block[name.end() :], encoding="utf-8")
     if "flywheel.csv" in text:
         # Eight cylinders that fire at one strength, over two revolutions.
         rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
@@ -159,6 +159,7 @@ def test_output_is_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.chdir(tmp_path)
     # Wide enough for no cell to be broken.
     monkeypatch.setattr("linkwright.kernel.command.console._WIDTH", 130)
+    prepared(page, tmp_path)
     blocks = _FENCED.findall(page.read_text(encoding="utf-8"))
     for line, printed in outputs(page):
         if "train.toml" in line:

@@ -43,6 +43,7 @@ def test_every_output_names_it() -> None:
     assert "The law of A acts as a cam on the crankshaft" in shown("run", SERVO)
     sized = shown("size", SERVO, "--catalogue", str(FOUND / "motors.csv"))
     assert "drives the input shaft of the law of A" in sized
+    assert "give it [axes.A] and use linkwright axes" in sized
 
 
 def test_a_crank_without_a_law_keeps_its_words() -> None:

@@ -234,3 +234,21 @@ def test_barrel_and_rod_are_drawn() -> None:
     assert scene is not None
     parts = [(part["kind"], part["name"]) for part in scene["parts"]]
     assert parts.index(("link", "Z.rod")) < parts.index(("slot", "Z"))
+
+
+def test_the_excavator_of_a_new_user_by_a_cylinder() -> None:
+    """Trunnion T and eye P on the lever: its angle by the law of cosines, and the bucket by the four-bar."""
+    machine, phi = lw.read(FOUND / "use" / "excavator_by_cylinder.toml"), np.linspace(0.0, 2 * np.pi, 41)
+    motion = lw.kinematics(machine, phi)
+    trunnion, pivot, hinge = 0.35j, 1.9, 2.3 - 0.05j
+    length, base = 1.75 + 0.1 * (1 - np.cos(phi)), abs(trunnion - pivot)
+    between = np.arccos((base**2 + 0.48**2 - length**2) / (2 * base * 0.48))
+    lever = np.angle(trunnion - pivot) - between
+    assert np.exp(1j * motion.links["lever"].angle) == pytest.approx(np.exp(1j * lever), abs=1e-12)
+    across = pivot + 0.48 * np.exp(1j * lever) - hinge
+    at_hinge = np.arccos((0.42**2 + abs(across) ** 2 - 0.55**2) / (2 * 0.42 * abs(across)))
+    bucket = np.angle(across) - at_hinge
+    assert np.exp(1j * motion.links["bucket"].angle) == pytest.approx(np.exp(1j * bucket), abs=1e-12)
+    stroke = lw.replace(machine, {"mechanism.cylinders.cyl.law": "0.45*(1 - cos(phi))"})
+    with pytest.raises(lw.FindingError, match="the cylinder cyl reaches"):
+        lw.forces(stroke, speed=1.0)

@@ -89,7 +89,8 @@ def tracks_of(machine: Machine, cycle: AxesCycle) -> tuple[Track, ...]:
             curve[within] for curve in (cycle.angle, *motion, driver_torque(machine, driver, cycle))
         )
         turns = machine.mechanism.cams[driver].is_oscillating if is_cam else turns_about(machine, driver)
-        name = names.get(driver, driver)
+        # The curves of a cam are those of its follower, whatever axis turns its shaft.
+        name = driver if is_cam else names.get(driver, driver)
         found.append(Track(angle, position, velocity, acceleration, torque, name, driver, turns, is_cam))
     return tuple(found)
 

@@ -47,5 +47,18 @@ def idle_parts(machine: Machine) -> Iterator[str]:
     if listed:
         yield (
             f"{' and '.join(listed)} never move over the cycle, since nothing connects them with a driver: "
-            "correct the points that they are attached to, or leave them out"
+            f"{_cylinder(machine, parts['bar'])}correct the points that they are attached to, or leave them "
+            "out"
         )
+
+
+def _cylinder(machine: Machine, idle: list[str]) -> str:
+    """The cylinder that a linear driver on the guide of an idle bar stands for; empty where there is none."""
+    mechanism = machine.linkage
+    for name, driver in mechanism.linear_drivers.items():
+        for bar in (mechanism.bars[bar] for bar in idle if bar == driver.guide.on):
+            return (
+                f"to move them, replace {name} and its bar by a cylinder between {bar.start} and {bar.end}, "
+                f"[mechanism.cylinders.{name}]; else "
+            )
+    return ""

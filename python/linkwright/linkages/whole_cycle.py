@@ -15,6 +15,8 @@ import numpy as np
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import AssemblyError
+from linkwright.kernel.units.kinds import ANGLE, LENGTH
+from linkwright.kernel.units.reading import worded
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.period import turns_to_repeat
 from linkwright.machine.machine import Machine
@@ -128,11 +130,14 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
         if np.ptp(second) <= _SAME * size:
             does = f"stays at {second[0]:.4g}"
         elif np.ptp(second - first) <= _SAME * size and np.ptp(third - second) <= _SAME * size:
-            does = f"advances by {second[0] - first[0]:.4g} per revolution"
+            continue  # a steady advance, as that of index steps
+        driver = name.removesuffix(".law")
+        kind = LENGTH if driver in compiled.slides else ANGLE
+        advance = worded(float(first[-1] - first[0]), kind)
         return (
-            f"φ continues beyond 2π, where the law of {name.removesuffix('.law')} {does}; with u = pi - "
-            "atan2(sin(phi), -cos(phi)) in place of phi it repeats in every revolution, and h*(phi - "
-            "u)/(2*pi) added to it advances by h in each; or describe the motion as a cam"
+            f"φ continues beyond 2π, where the law of {driver} {does}; add the key advance, {advance}, "
+            "beside the law: it then starts again in every revolution from where it ended; sections in "
+            f"[axes.{driver}] do the same"
         )
     return ""
 

@@ -15,9 +15,11 @@ def lost(machine: Machine | None) -> tuple[str, ...]:
 
 def unjudged(machine: Machine) -> tuple[str, ...]:
     """Which shaft is sized where drivers follow laws, and limits that are not judged, in sentences."""
-    names = ", ".join(drivers_with_laws(machine))
+    drivers = drivers_with_laws(machine)
+    names, axes = ", ".join(drivers), ", ".join(f"[axes.{name}]" for name in drivers)
     law = (
         f"The sized motor drives the input shaft of the law of {names} at constant speed, with the law "
-        "acting as a cam; a servo motor that generates the motion needs other torques and speeds"
+        "acting as a cam; a servo motor that generates the motion needs other torques and speeds: give it "
+        f"{axes} and use linkwright axes"
     )
     return (*((law,) if names else ()), *unjudged_limits(machine))
