@@ -23,10 +23,10 @@ _MASTER = "master angle φ [°]"
 
 # Panels of the timing diagram, and their words.
 _PANELS = {
-    "position": "position\n[share of its range]",
-    "velocity": "velocity\n[share of its peak]",
-    "acceleration": "acceleration\n[share of its peak]",
-    "torque": "torque or force\n[share of its peak]",
+    "position": "position\nover its range",
+    "velocity": "velocity\nover its peak",
+    "acceleration": "acceleration\nover its peak",
+    "torque": "torque or force\nover its peak",
 }
 
 
@@ -34,7 +34,7 @@ def timing_figures(tracks: Sequence[Track]) -> Iterator[CaptionedFigure]:
     """The timing diagram with the size of every curve."""
     if not tracks:
         return
-    peaks = "; ".join(f"{track.name} {_sizes(track)}" for track in tracks)
+    peaks = "; ".join(f"{track.name}: {_sizes(track)}" for track in tracks)
     yield CaptionedFigure(
         "timing",
         "Timing of cams and axes",
@@ -94,7 +94,8 @@ def axis_figures(axes: Sequence[ServoAxis]) -> Iterator[CaptionedFigure]:
             f"{quantity(axis.motor.speed_mean, 'rad/s')}."
         )
         if axis.axis.motor is not None:
-            words += " Dashed: peak and continuous torque; the cross is the root mean square torque."
+            words += " Dashed lines show peak torque and continuous torque; the cross is the root mean "
+            words += "square torque."
         yield CaptionedFigure(
             f"axis_{axis.name}", f"Axis {axis.name}: torque over speed", words, loop_figure(axis)
         )
