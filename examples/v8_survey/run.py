@@ -35,15 +35,15 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Q over the radius of the fillets, with what the rule asks for."""
-    from linkwright.kernel.figure.style import INK, LINES, legend_above, panels, styled
+    from linkwright.kernel.figure.legends import legend_above
+    from linkwright.kernel.figure.style import INK, LINES, panels, styled
 
     @styled
     def drawn():
         drawing, (axes,) = panels(1, height=3.0)
         found, radii = [crankshaft(machine, radius) for radius in RADII], [1e3 * radius for radius in RADII]
         for place, colour in zip(("crank_pin_fillet", "journal_fillet"), LINES, strict=False):
-            values = [one[place] for one in found]
-            axes.plot(radii, values, "o-", color=colour, label=place.replace("_", " "))
+            axes.plot(radii, [one[place] for one in found], "o-", color=colour, label=place.replace("_", " "))
         axes.axhline(1.15, linestyle="--", color=INK, label="required")
         axes.set(xlabel="radius of the fillets [mm]", ylabel="acceptability factor Q", ylim=(0, None))
         legend_above(axes)

@@ -109,3 +109,41 @@ def test_what_cannot_be_chosen_from_is_refused(
     done = invoke("axes", files[0], *words)
     assert done.exit_code == 2
     assert re.search(said, done.stderr), done.stderr
+
+
+def test_a_driver_along_a_line_needs_its_screw_before_a_motor_is_chosen(
+    files: tuple[str, str], tmp_path: Path
+) -> None:
+    """Newtons are no newton metres: without `per_turn` no motor is judged."""
+    line = MACHINE.replace("swing", "lift").replace("180 deg", "180 mm").replace('"180 mm" }', '"180 deg" }')
+    line = (
+        line[: line.index("[mechanism")] + "[mechanism.linear_drivers.A]\n[bodies]\nA = { mass = '2 kg' }\n"
+    )
+    machine = tmp_path / "line.toml"
+    machine.write_text(line)
+    done = invoke("axes", str(machine), "--catalogue", MOTORS, "--gearboxes", files[1])
+    assert done.exit_code == 2
+    assert "without per_turn" in done.stderr
+    machine.write_text(line + '[axes.A.gearbox]\nper_turn = "100 mm"\n')
+    done = invoke("axes", str(machine), "--catalogue", MOTORS, "--gearboxes", files[1])
+    assert "passes all checks" in done.stdout
+
+
+def test_a_choice_stands_the_start_and_stop_of_the_master(files: tuple[str, str], tmp_path: Path) -> None:
+    """A stop in 10 ms needs more than the cycle: what is chosen passes all checks in the file too."""
+    machine, gears = files
+    # At φ = 0 the crank is amid its rise.
+    text = Path(machine).read_text()
+    text = text.replace("[axes.A]", '[axes.A]\nphase = "-90 deg"')
+    stops = tmp_path / "stops.toml"
+    stops.write_text(text.replace('"1 s"', '"1 s"\nstop_time = "10 ms"'))
+    found = {}
+    for name in (machine, str(stops)):
+        done = invoke("axes", name, "--catalogue", MOTORS, "--gearboxes", gears, "--json")
+        found[name] = json.loads(done.stdout)["results"]["choice"]["A"]
+    cycle, stopping = found.values()
+    assert stopping["passing"] < cycle["passing"]
+    for pair in stopping.get("chosen", []):
+        notes = [check for check in pair["checks"] if "while the master stops" in check["note"]]
+        assert notes
+        assert all(check["passed"] for check in pair["checks"])

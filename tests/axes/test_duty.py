@@ -13,7 +13,8 @@ from axis_cycles import ACCELERATION_RMS, PERIOD, RISE, SPEED_MEAN, SPEED_PEAK, 
 
 import linkwright as lw
 from linkwright.axes.axis import servo_axis
-from linkwright.axes.duty import DriverCycle, integration_weights, motor_duty
+from linkwright.axes.driver_cycle import DriverCycle, integration_weights
+from linkwright.axes.duty import motor_duty
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.axes.model.servo_motor import ServoMotor
 from linkwright.kernel.check import Check

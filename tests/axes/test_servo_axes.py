@@ -11,6 +11,7 @@ from command_line import invoke
 
 import linkwright as lw
 from linkwright.axes.axis import ServoAxis, servo_axes
+from linkwright.sizing.flywheel import constant_inertia
 
 CARRIAGE = """
 format = 1
@@ -488,3 +489,50 @@ def test_a_corner_of_a_law_is_refused_and_a_jump_of_the_acceleration_warned_of()
     assert any("infinite acceleration" in text for text in lw.study(corner).findings)
     bent = lw.study(lw.loads(changed(PACKAGING, ('law = "cycloidal"', 'law = "parabolic"'))))
     assert any("The acceleration of the law of dial jumps" in text for text in bent.warnings)
+
+
+PRESS = """
+format = 1
+name = "Press with a feed over a time"
+[drive]
+speed = "60 rpm"
+[drive.gearbox]
+ratio = 16
+[drive.motor]
+kind = "dc"
+speed_no_load = "1000 rpm"
+torque_stall = "200 N m"
+inertia = "0.05 kg m^2"
+[mechanism.cranks.A]
+radius = "50 mm"
+[mechanism.linear_drivers.feed]
+[axes.feed]
+sections = [ { time = "0.4 s", lift = "40 mm" }, { time = "0.4 s", lift = "-40 mm" } ]
+[bodies]
+A = { mass = "5 kg" }
+feed = { mass = "5 kg" }
+[loads]
+A = { kind = "viscous", on = "A", damping_torsional = "20 N m s/rad" }
+"""
+
+
+def test_sections_over_a_time_beside_the_motor_of_the_crankshaft() -> None:
+    """The cycle is that of the design speed, also where the mechanism is looked at without its drive."""
+    machine = lw.loads(PRESS)
+    axis = lw.servo_axis(machine)
+    assert axis.position.max() == pytest.approx(0.04)
+    assert axis.crank_angle[np.argmax(axis.position)] == pytest.approx(np.radians(0.4 * 360), abs=0.02)
+    assert constant_inertia(machine) == pytest.approx(0.05 * 16**2 + 5 * 0.05**2 / 3)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (CARRIAGE.split("[axes.A]")[1].split("[axes.A.motor]")[0], "\nsections = []\n", "an empty list"),
+        ('cycle_time = "1 s"', 'cycle_time = "1 s"\nstart_time = "1 h"', "1800 revolutions of the master"),
+    ],
+)
+def test_empty_sections_and_endless_starts_are_refused(old: str, new: str, words: str) -> None:
+    assert old in CARRIAGE
+    with pytest.raises(lw.InputError, match=words):
+        lw.servo_axis(lw.loads(CARRIAGE.replace(old, new)))

@@ -7,7 +7,7 @@ import pytest
 from axis_cycles import inertia_cycle, motion
 
 from linkwright.axes.choice import CHECKS, choose_servo
-from linkwright.axes.duty import DriverCycle
+from linkwright.axes.driver_cycle import DriverCycle
 from linkwright.axes.model.axis_catalogue import CatalogueGearbox, CatalogueServo
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.axes.model.servo_motor import ServoMotor

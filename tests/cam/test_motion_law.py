@@ -72,6 +72,17 @@ def test_a_periodic_law_is_shifted_round(by: float) -> None:
     np.testing.assert_allclose(wave.shifted(by).at(x), expected, atol=1e-13)
 
 
+def test_a_shift_that_cuts_at_a_break_makes_no_piece_of_rounding() -> None:
+    """A third of a revolution has no exact number: the cut beside a break is at the break."""
+    third = 2 * math.pi / 3
+    law = MotionLaw((0.0, third, 2 * third, 2 * math.pi), (Piece((1.0,)), Piece((0.0, 1.0)), Piece((1.0,))))
+    for by in (math.radians(120), math.radians(240)):
+        shifted = law.shifted(by)
+        assert min(np.diff(shifted.breaks)) > 2
+        assert len(shifted.pieces) == 3
+        np.testing.assert_allclose(shifted.at(by + 0.5), law.at(0.5), atol=1e-12)
+
+
 def test_extremes_against_a_fine_grid() -> None:
     x = np.linspace(0.5, 3.0, 400_001)
     for order in range(4):

@@ -227,3 +227,24 @@ def test_tables_and_figures_of_a_study() -> None:
     assert any("bar" in head for head in table.heads)
     (figure,) = cylinder_figures(known.each("cylinder"))
     assert figure.name == "cylinder_Z"
+
+
+def test_seal_friction_resists_the_drive_of_the_machine() -> None:
+    """A driver of 20 mm stroke with 100 N of friction takes 4 J a revolution: 4/2π N m on average."""
+    text = """
+format = 1
+name = "Press"
+[mechanism.joints]
+S = { x = "0.4 m", y = "0 m", guide = { angle = "0 deg" } }
+[mechanism.cylinders.Z]
+start = "O"
+end = "S"
+start_length = "0.4 m"
+law = "0.01*(1 - cos(phi))"
+friction = "100 N"
+[bodies]
+S = { mass = "5 kg" }
+"""
+    reduced = lw.study(lw.loads(text)).reduction
+    assert reduced is not None
+    assert reduced.torque_load_mean == pytest.approx(4 / (2 * np.pi), rel=1e-4)

@@ -135,6 +135,8 @@ def _external(machine: lw.Machine, scene: Scene) -> dict[str, np.ndarray]:
         elif drive.guide is not None:
             push = result.drives[drive.name][:, None] * scene.direction(drive.guide)
             found[drive.member] += push
+            if drive.guide.on is not None:
+                found[drive.guide.on] -= push
     return found
 
 

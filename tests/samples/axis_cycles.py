@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.axes.duty import DriverCycle
+from linkwright.axes.driver_cycle import DriverCycle
 from linkwright.kernel.arrays import Floats
 
 # Time of a rise, of a dwell, of the cycle [s]; turn of a rise [rad].

@@ -340,7 +340,7 @@ def _reason(error: LinkwrightError) -> str:
     return reasons[0]
 
 
-@pytest.mark.parametrize(("kinds", "rounds"), [(QUICK, 6), (SLOW, 1)])
+@pytest.mark.parametrize(("kinds", "rounds"), [(QUICK, 6), (SLOW, 2)])
 def test_derivatives_are_those_of_the_analyses(
     kinds: dict[str, Callable[[Generator], Case]], rounds: int
 ) -> None:

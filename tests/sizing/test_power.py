@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkwright import InputError, read, replace, required_power
+from linkwright import InputError, loads, read, replace, required_power
 from linkwright.kernel.files.library import library_path
 
 
@@ -42,3 +42,35 @@ def test_without_a_design_speed_the_input_is_wrong() -> None:
     machine = replace(read(library_path("roller_two_carts")), {"drive.speed": None})
     with pytest.raises(InputError, match="design speed"):
         required_power(machine)
+
+
+FEED = """
+format = 1
+name = "Press with a feed by its own servo motor"
+[drive]
+speed = "60 rpm"
+[mechanism.cranks.A]
+radius = "50 mm"
+[mechanism.sliders.ram]
+crank = "A"
+rod = "300 mm"
+[mechanism.linear_drivers.feed]
+[axes.feed]
+sections = [ { angle = "140 deg", lift = "40 mm" }, { angle = "140 deg", lift = "-40 mm" } ]
+[loads]
+ram = { kind = "dry", on = "ram", force = "1 kN" }
+feed = { kind = "dry", on = "feed", force = "5 kN" }
+"""
+
+
+def test_the_motor_of_the_crankshaft_does_not_drive_what_an_axis_does() -> None:
+    """Twice the stroke of 0.1 m against 1 kN; the servo motor of the feed overcomes the 5 kN."""
+    assert required_power(loads(FEED)).torque_load_mean == pytest.approx(200 / (2 * np.pi), rel=1e-12)
+
+
+def test_a_machine_of_axes_alone_has_no_main_motor() -> None:
+    """Sizing says which command chooses servo motors."""
+    alone = FEED.split("[mechanism.cranks.A]")[0] + "[mechanism.linear_drivers.feed]\n[axes.feed]\n"
+    alone += 'sections = [ { angle = "140 deg", lift = "40 mm" }, { angle = "140 deg", lift = "-40 mm" } ]\n'
+    with pytest.raises(InputError, match="linkwright axes FILE --catalogue"):
+        required_power(loads(alone))

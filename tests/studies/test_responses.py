@@ -32,6 +32,8 @@ CASES = {
     "cam_check": ("roller_cam", "bodies.cart.mass", "cart.n_faults"),
     "cam_force": ("roller_cam", "bodies.cart.mass", "cart.force_size"),
     "cylinder": ("scissor_lift_cylinder", "loads.load_B.force", "lift.force_max"),
+    "axis": ("servo_carriage", "bodies.carriage.mass", "torque_max"),
+    "dc_bus": ("servo_carriage", "bodies.carriage.mass", "power_max"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
     "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),

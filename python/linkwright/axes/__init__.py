@@ -9,6 +9,7 @@
 | `clearance` | Distance of points of two axes, and the shift that keeps a wanted one |
 | `commands` | `linkwright axes` |
 | `cycle` | Forces along the motion of the master, piece by piece |
+| `driver_cycle` | Speed and torque at a driver over a cycle, piece by piece, and means over time |
 | `duty` | What an axis asks of its motor over the cycle, and whether the motor stands it |
 | `export/` | Laws as cam tables of motion controllers, read back and compared |
 | `feasibility` | Accelerating factor and load factor: which ratios are feasible for a motor |

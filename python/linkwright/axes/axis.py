@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
 from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
-from linkwright.axes.duty import DriverCycle, MotorDuty, motor_duty
+from linkwright.axes.driver_cycle import DriverCycle
+from linkwright.axes.duty import MotorDuty, motor_duty, start_checks
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
+from linkwright.axes.model.follower import family_of
 from linkwright.axes.model.servo_motor import ServoMotor
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.check import Check
@@ -26,8 +27,8 @@ from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import Channel
 from linkwright.machine.program.places import angle_name
 
-# Checks of a start or stop of the master, which has no root mean square.
-_OF_STARTS = ("speed", "torque_peak", "gearbox_torque_peak", "gearbox_speed")
+# When the master starts and stops, in words.
+_STARTS = ("while the master starts", "while the master stops")
 
 # Units of a driver that moves along a line, by those of one that turns.
 _ALONG = {"rad": "m", "rad/s": "m/s", "rad/s²": "m/s²", "N m": "N"}
@@ -54,7 +55,7 @@ class ServoAxis(Result):
         Label("mean inertia at the driver", "J_q", "kg m² or kg", "All others held; None without masses."),
     ]
     name: Annotated[str, About("Of the axis.")]
-    driver: Annotated[str, About("Crank, linear driver or cam that it drives.")]
+    driver: Annotated[str, About("Crank, linear driver, cylinder or cam that it drives.")]
     turns: Annotated[bool, About("Whether the driver turns; else it moves along a line.")]
     motor: Annotated[
         MotorDuty, About("Speed and torque at the motor, and the checks; without a motor, without its rotor.")
@@ -63,6 +64,9 @@ class ServoAxis(Result):
     stop: Annotated[MotorDuty | None, About("The same while the master stops; None without its time.")]
     axis: Annotated[Axis, About("The description.")]
     cycle: Annotated[DriverCycle, About("What the driver asks of its drive over the cycle.")]
+    starts: Annotated[
+        dict[str, DriverCycle], About("The same while the master starts or stops, by these words.")
+    ]
 
     @property
     def torque_max(self) -> Annotated[float, Label("peak torque at the driver", "M_q,max", "N m or N")]:
@@ -97,11 +101,13 @@ class ServoAxis(Result):
         """Checks of motor, gearbox and resistor, over the cycle, at start and stop; none without a motor."""
         if self.axis.motor is None:
             return ()
-        return (
-            *self.motor.checks,
-            *_of_start(self.start, "while the master starts"),
-            *_of_start(self.stop, "while the master stops"),
-        )
+        starts = [
+            check
+            for duty, when in zip((self.start, self.stop), _STARTS, strict=True)
+            if duty is not None
+            for check in start_checks(duty, when)
+        ]
+        return (*self.motor.checks, *starts)
 
     @property
     def passes(self) -> bool | None:
@@ -131,13 +137,6 @@ class ServoAxis(Result):
 def _peak(values: Floats) -> float:
     """The value that is largest in size, with its sign."""
     return float(values[np.nanargmax(np.abs(values))])
-
-
-def _of_start(duty: MotorDuty | None, when: str) -> Iterator[Check]:
-    """Checks of a start or stop, each saying so."""
-    for check in () if duty is None else duty.checks:
-        if check.name in _OF_STARTS:
-            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 @public
@@ -233,27 +232,24 @@ def _axis(
 ) -> ServoAxis:
     axis = machine.axes[name]
     driver = axis.driver or name
-    turns = driver not in machine.mechanism.linear_drivers
+    turns = turns_about(machine, driver)
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
     torque = driver_torque(machine, driver, cycle)
     asked = _driver_cycle(axis, turns, cycle.time, velocity, acceleration, torque, inertia)
-    duties = [
-        None
-        if start is None
-        else _duty(
+    started = {
+        when: _driver_cycle(
             axis,
-            _driver_cycle(
-                axis,
-                turns,
-                start.time,
-                *driver_motion(machine, driver, start)[1:],
-                driver_torque(machine, driver, start),
-                inertia,
-            ),
+            turns,
+            start.time,
+            *driver_motion(machine, driver, start)[1:],
+            driver_torque(machine, driver, start),
+            inertia,
         )
-        for start in starts
-    ]
+        for when, start in zip(_STARTS, starts, strict=True)
+        if start is not None
+    }
+    duties = [_duty(axis, started[when]) if when in started else None for when in _STARTS]
     weights = asked.weights()
     return ServoAxis(
         crank_angle=cycle.angle,
@@ -273,6 +269,7 @@ def _axis(
         stop=duties[1],
         axis=axis,
         cycle=asked,
+        starts=started,
     )
 
 
@@ -287,7 +284,7 @@ def _driver_cycle(
 ) -> DriverCycle:
     """What a driver asks of its drive, referred to the pinion or screw where it moves along a line."""
     if turns or axis.gearbox.per_turn is None:
-        return DriverCycle(time, velocity, acceleration, torque, inertia)
+        return DriverCycle(time, velocity, acceleration, torque, inertia, turns)
     return DriverCycle.of_line(time, velocity, acceleration, torque, axis.gearbox.per_turn, inertia)
 
 
@@ -306,16 +303,22 @@ def _duty(axis: Axis, asked: DriverCycle) -> MotorDuty:
 _NO_MOTOR = ServoMotor.model_construct(inertia=0.0)
 
 
+def turns_about(machine: Machine, driver: str) -> bool:
+    """Whether a driver of the file turns: a crank or a camshaft; else it moves along a line."""
+    return family_of(machine.mechanism, driver) != "lift"
+
+
 def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a driver; a camshaft turns with the master."""
     compiled, motion = compile_machine(machine), cycle.forces.motion
-    slide = compiled.slides.get(driver if driver in machine.mechanism.linear_drivers else angle_name(driver))
+    slide = compiled.slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
     if driver in machine.mechanism.cams or slide is None:
         crank = machine.mechanism.cranks.get(driver)
         start = 0.0 if crank is None else float(crank.phase)
         return cycle.angle + start, motion.speed, motion.acceleration
     (rows,) = compiled.motion([Channel.Slide(slide)], motion.crank_angle)
     position, d1, d2 = rows
+    position = position + d1 * (cycle.angle - motion.crank_angle)  # both sides of an end are one position
     return position, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.axes.axis import ServoAxis, driver_motion, driver_torque, servo_axes
 from linkwright.axes.cycle import AxesCycle, axes_cycle
-from linkwright.axes.duty import integration_weights
+from linkwright.axes.driver_cycle import integration_weights
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label

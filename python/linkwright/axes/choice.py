@@ -8,13 +8,14 @@ inertia among the motors compared.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from linkwright.axes.duty import INERTIA_RATIO, DriverCycle, MotorDuty, motor_duty
+from linkwright.axes.driver_cycle import DriverCycle
+from linkwright.axes.duty import INERTIA_RATIO, OF_STARTS, MotorDuty, motor_duty, start_checks
 from linkwright.axes.model.axis_catalogue import CatalogueGearbox, CatalogueServo
 from linkwright.axes.model.servo_motor import TorqueCurve
 from linkwright.kernel.arrays import Floats
@@ -38,6 +39,11 @@ CHECKS = (
     "gearbox_torque_rms",
     "gearbox_speed",
 )
+
+# Those of a start or stop of the master.
+_OF_STARTS = [CHECKS.index(name) for name in OF_STARTS]
+
+_NO_STARTS: Mapping[str, DriverCycle] = {}
 
 # A limit that is met to rounding is kept.
 _ROUNDED = 1e-12
@@ -68,6 +74,7 @@ class ServoChoice(Record):
         ),
     ]
     cycle: Annotated[DriverCycle, About("At the driver.")]
+    starts: Annotated[Mapping[str, DriverCycle], About("The same while the master starts or stops.")]
     coupling: Annotated[float, About("Inertia at the motor shaft [kg m²].")]
     inertia_ratio: Annotated[float, About("At most permitted.")]
 
@@ -77,14 +84,20 @@ class ServoChoice(Record):
         return np.asarray(np.all(self.utilisation <= 1 + _ROUNDED, axis=0))
 
     def duty(self, motor: int, gearbox: int) -> MotorDuty:
-        """The duty of a pair with all its checks."""
-        return motor_duty(
-            self.cycle,
-            self.motors[motor].motor,
-            self.gearboxes[gearbox].gearbox,
-            coupling=self.coupling,
-            inertia_ratio=self.inertia_ratio,
-        )
+        """The duty of a pair over the cycle, with all its checks."""
+
+        def over(cycle: DriverCycle) -> MotorDuty:
+            return motor_duty(
+                cycle,
+                self.motors[motor].motor,
+                self.gearboxes[gearbox].gearbox,
+                coupling=self.coupling,
+                inertia_ratio=self.inertia_ratio,
+            )
+
+        duty = over(self.cycle)
+        started = (check for when, cycle in self.starts.items() for check in start_checks(over(cycle), when))
+        return replace(duty, checks=(*duty.checks, *started))
 
     def reasons(self, motor: int, gearbox: int) -> tuple[str, ...]:
         """Why a pair is refused, each reason in words; none if it passes."""
@@ -151,6 +164,7 @@ def choose_servo(
     gearboxes: Sequence[CatalogueGearbox],
     *,
     goal: Goal = "power",
+    starts: Mapping[str, DriverCycle] = _NO_STARTS,
     coupling: float = 0.0,
     inertia_ratio: float = INERTIA_RATIO,
 ) -> ServoChoice:
@@ -165,6 +179,8 @@ def choose_servo(
     goal : str
         The lowest comes first: ``"cost"`` of motor and gearbox, rated ``"power"``, ``"inertia"`` of the
         rotor, or ``"rms"``, the utilisation of the continuous torque.
+    starts : mapping
+        The same while the master starts or stops, as in ``ServoAxis.starts``.
     coupling : float
         Inertia of a coupling at the motor shaft [kg m²].
     inertia_ratio : float
@@ -178,18 +194,27 @@ def choose_servo(
     Raises
     ------
     InputError
-        No motors or gearboxes; or the goal needs a column that a catalogue does not have.
+        No motors or gearboxes; a driver along a line without the travel per revolution; or the goal needs a
+        column that a catalogue does not have.
     """
     in_range(coupling=(coupling, not_negative(INERTIA)), inertia_ratio=(inertia_ratio, positive(RATIO)))
     servos, gears = tuple(motors), tuple(gearboxes)
     if not servos or not gears:
         raise InputError(f"{'gearboxes' if servos else 'motors'}: found none to choose from")
+    if not cycle.turns:
+        raise InputError(
+            "gearbox: found a driver along a line without per_turn, expected its travel per revolution of "
+            "the gearbox output: screw lead, pulley circumference"
+        )
     used = _utilisations(cycle.divided(), servos, gears, coupling, inertia_ratio)
+    for start in starts.values():
+        of_start = _utilisations(start.divided(), servos, gears, coupling, inertia_ratio)
+        used[_OF_STARTS] = np.maximum(used[_OF_STARTS], of_start[_OF_STARTS])
     value = _values(goal, servos, gears, used)
     worst = np.max(np.nan_to_num(used, nan=np.inf), axis=0)
     passing = np.argwhere(worst <= 1 + _ROUNDED)
     ranks = np.lexsort((worst[tuple(passing.T)], value[tuple(passing.T)]))
-    return ServoChoice(goal, servos, gears, used, passing[ranks], cycle, coupling, inertia_ratio)
+    return ServoChoice(goal, servos, gears, used, passing[ranks], cycle, starts, coupling, inertia_ratio)
 
 
 def _values(

@@ -117,7 +117,8 @@ def _axis_of(machine: Machine, first: str, second: str) -> str:
         )
     if len(drivers[1]) != 1:
         found = f"{len(drivers[1])} drivers" if drivers[1] else "no driver"
-        raise InputError(f"{second} is moved by {found}, expected one, whose start is shifted")
+        other = f"; name it first, {second} {first}" if len(drivers[0]) == 1 else ""
+        raise InputError(f"{second} is moved by {found}, expected one, whose start is shifted{other}")
     driver = drivers[1].pop()
     return axis_drivers(machine).get(driver, driver)
 

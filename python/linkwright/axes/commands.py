@@ -187,6 +187,7 @@ def _chosen(axes: dict[str, ServoAxis], options: ChoiceOptions) -> dict[str, Ser
             motors,
             gears or (CatalogueGearbox("the gearbox of the axis", found.axis.gearbox, 0.0),),
             goal=options.goal,
+            starts=found.starts,
             coupling=0.0 if found.axis.coupling is None else found.axis.coupling.inertia,
         )
         for name, found in axes.items()

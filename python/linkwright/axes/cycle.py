@@ -24,13 +24,16 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import law_jumps, require_finite_accelerations
-from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 # Intervals of a revolution of the master, at least of a piece, and at most of a cycle of many revolutions.
 _INTERVALS, _LEAST, _MOST = 720, 8, 8640
+
+# Revolutions of a start or stop that so many intervals can show.
+_STARTING = 120
 
 # By how much an end of a piece is looked at inside the piece [rad], and pieces shorter than that are none.
 _INSIDE, _SHORT = 1e-10, 1e-8
@@ -98,7 +101,7 @@ def master_speed(machine: Machine) -> float:
 
 def _with_all_loads(machine: Machine, compiled: CompiledMachine) -> CompiledMachine:
     """The machine with the loads that its crankshaft does not feel."""
-    return compile_machine(machine.with_entries({"drive": None})) if has_motor(machine) else compiled
+    return compile_machine(without_drive(machine)) if has_motor(machine) else compiled
 
 
 def _sampled(machine: Machine, compiled: CompiledMachine, turns: int) -> tuple[Floats, Floats]:
@@ -107,8 +110,7 @@ def _sampled(machine: Machine, compiled: CompiledMachine, turns: int) -> tuple[F
     own = compiled.over_turns(turns)
     places = [0.0, cycle, *own.kinks()]
     in_turn = [jump.angle for jump in law_jumps(machine)]
-    drivers: list[Crank | LinearDriver] = [*machine.linkage.cranks.values()]
-    for driver in [*drivers, *machine.linkage.linear_drivers.values()]:
+    for driver in machine.linkage.drivers().values():
         followed = driver.follows()
         if followed is not None:
             law = getattr(followed, "law", followed.lift)
@@ -149,6 +151,12 @@ def start_cycle(machine: Machine, duration: float, speed: float, *, stops: bool 
     """
     rate = speed / duration
     turns = 0.5 * speed * duration / (2 * math.pi)
+    if turns > _STARTING:
+        key = "stop_time" if stops else "start_time"
+        raise InputError(
+            f"master.{key}: found {duration:.6g} s, {turns:.4g} revolutions of the master, expected at most "
+            f"{_STARTING} revolutions: so slow a change of speed adds nothing to the cycle; remove it"
+        )
     n = int(min(max(_INTERVALS, math.ceil(_INTERVALS * turns)), _MOST))
     time = np.linspace(0.0, duration, n + 1)
     omega = speed - rate * time if stops else rate * time

@@ -8,160 +8,34 @@ torque :math:`M_L` at the driver,
 
 where losses go the way that the power goes through the gears; at rest they do not count. A driver that moves
 along a line is referred to the pinion or screw that moves it first.
-
-Means over time are exact for a law of pieces: each piece is integrated for itself, with cubics through
-neighbouring samples, and is divided where the power changes its sign and the losses jump.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
+from linkwright.axes.driver_cycle import DriverCycle, integration_weights, sign_changes
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.axes.model.servo_motor import ServoMotor, TorqueCurve
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.check import Check
+from linkwright.kernel.numerics.tangent import primal, sqrt
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.machine.program.drive_line import reverse_factor
 
 # Inertia of the load over that of the rotor up to which servo drives are usually well controlled: a rule of
 # thumb of makers of servo motors.
 INERTIA_RATIO = 10.0
 
-# Share of the peak speed or torque below which a sample counts as rest, or as no load: rounding.
-_REST = 1e-9
+# Checks of a start or stop of the master, which has no root mean square.
+OF_STARTS = ("speed", "torque_peak", "gearbox_torque_peak", "gearbox_speed")
 
 # A speed chosen at a limit meets it to rounding.
 _ROUNDED = 1e-12
-
-
-@dataclass(frozen=True)
-class DriverCycle:
-    """Speed and torque at a driver that turns, over one cycle; a time that occurs twice ends a piece.
-
-    There, the first sample belongs to the piece before and the second to that behind, so that torques may
-    jump.
-    """
-
-    time: Floats  # from 0, not decreasing [s]
-    speed: Floats  # [rad/s]
-    acceleration: Floats  # [rad/s²]
-    torque: Floats  # that the drive gives to the driver; positive in the sense of the speed [N m]
-    inertia: float | None = (
-        None  # mean inertia of the mechanism at the driver; None if it is not known [kg m²]
-    )
-
-    @classmethod
-    def of_line(
-        cls,
-        time: Floats,
-        velocity: Floats,
-        acceleration: Floats,
-        force: Floats,
-        per_turn: float,
-        mass: float | None = None,
-    ) -> Self:
-        """Of a driver that moves along a line by `per_turn` [m] per revolution of its screw or pinion.
-
-        `mass`: mean mass of the mechanism at the driver [kg].
-        """
-        lead = per_turn / (2 * math.pi)
-        inertia = None if mass is None else mass * lead * lead
-        return cls(time, velocity / lead, acceleration / lead, force * lead, inertia)
-
-    @property
-    def period(self) -> float:
-        """Time of a cycle [s]."""
-        return float(self.time[-1] - self.time[0])
-
-    @property
-    def power_sign(self) -> Floats:
-        """1 where the drive drives the mechanism, −1 where the mechanism drives it, 0 at rest."""
-        return np.sign(_without_specks(self.speed)) * np.sign(_without_specks(self.torque))
-
-    def divided(self) -> Self:
-        """The same cycle with pieces that end where the power changes its sign.
-
-        Between two samples the place is found on straight lines.
-        """
-        sign = self.power_sign
-        before, behind = sign[:-1], sign[1:]
-        columns = np.array([self.time, self.speed, self.acceleration, self.torque])
-        at = np.flatnonzero((before * behind < 0) & (np.diff(self.time) > 0))
-        turning = np.where(self.speed[at] * self.speed[at + 1] < 0, 1, 3)
-        first, last = columns[turning, at], columns[turning, at + 1]
-        share = first / (first - last)
-        crossing = columns[:, at] + share * (columns[:, at + 1] - columns[:, at])
-        crossing[turning, np.arange(len(at))] = 0.0
-        # A sample in which the power is zero between two of opposite sign ends a piece itself.
-        inner = np.arange(1, len(sign) - 1)
-        own = inner[(sign[inner] == 0) & (sign[inner - 1] * sign[inner + 1] < 0)]
-        own = own[(np.diff(self.time)[own - 1] > 0) & (np.diff(self.time)[own] > 0)]
-        places = np.concatenate([np.repeat(at + 1, 2), own])
-        columns = np.insert(
-            columns, places, np.hstack([np.repeat(crossing, 2, axis=1), columns[:, own]]), axis=1
-        )
-        time, speed, acceleration, torque = columns
-        return type(self)(time, speed, acceleration, torque, self.inertia)
-
-    def geared(self, gearbox: AxisGearbox) -> tuple[Floats, Floats, Floats]:
-        """Speed and acceleration at the motor, and the torque there that the driver asks for.
-
-        [rad/s, rad/s², N m]; of a cycle that is `divided`.
-        """
-        ratio, back = gearbox.ratio, float(reverse_factor(gearbox))
-        sign = self._side_of_power()
-        factor = np.where(sign > 0, 1 / gearbox.efficiency, np.where(sign < 0, 1 / back, 1.0))
-        if gearbox.locks:
-            factor = np.where(sign > 0, factor, 0.0)
-        return self.speed * ratio, self.acceleration * ratio, self.torque / ratio * factor
-
-    def _side_of_power(self) -> Floats:
-        """The sign of the power about each sample: at an instant of rest, that of its neighbour."""
-        sign, ends = self.power_sign, np.diff(self.time) == 0
-        left = np.concatenate([[0.0], np.where(ends, 0.0, sign[:-1])])
-        right = np.concatenate([np.where(ends, 0.0, sign[1:]), [0.0]])
-        return np.where(sign == 0, np.where(right != 0, right, left), sign)
-
-    def weights(self) -> Floats:
-        """Weights of the samples in an integral over the time of a cycle [s]."""
-        return integration_weights(self.time)
-
-
-def _without_specks(values: Floats) -> Floats:
-    """The values with zero for what is rounding beside the largest."""
-    return np.where(np.abs(values) <= _REST * np.max(np.abs(values), initial=0.0), 0.0, values)
-
-
-def integration_weights(time: Floats) -> Floats:
-    """Weights of samples in an integral over time, each piece between equal times for itself.
-
-    Over each interval the cubic through its four nearest samples of the piece is integrated.
-    """
-    weights = np.zeros(len(time))
-    ends = np.flatnonzero(np.diff(time) == 0) + 1
-    for first, last in zip([0, *ends], [*ends, len(time)], strict=True):
-        n = last - first
-        if n < 2:
-            continue
-        order = min(4, n)
-        left = np.arange(n - 1)
-        start = np.clip(left - 1, 0, n - order)
-        stencil = first + start[:, None] + np.arange(order)
-        width = np.diff(time[first:last])
-        nodes = (time[stencil] - time[first + left][:, None]) / width[:, None]
-        powers = np.arange(order)
-        moments = np.broadcast_to(1 / (powers + 1), (n - 1, order))
-        matrix = nodes[:, None, :] ** powers[None, :, None]
-        share = np.linalg.solve(matrix, moments[:, :, None])[:, :, 0]
-        np.add.at(weights, stencil, share * width[:, None])
-    return weights
 
 
 @dataclass(frozen=True)
@@ -230,6 +104,70 @@ class MotorDuty(Result):
         return tree | {"failed": [check.name for check in self.failed], "checks": checks}
 
 
+class MotorCourse(NamedTuple):
+    """What a cycle asks of a motor, in any number."""
+
+    time: Any
+    speed: Any
+    torque: Any
+    power: Any
+    means: dict[str, Any]  # means over time by the attribute of `MotorDuty`
+    peaks: dict[str, Any]  # curves whose maximum is an attribute
+    inertia_ratio: Any
+
+
+def motor_course(cycle: DriverCycle, at_motor: Any, rotor: Any, gearbox: AxisGearbox) -> MotorCourse:
+    """Speed and torque of a motor over a cycle that is `divided`.
+
+    `at_motor`: inertia of all that turns at the motor's speed; `rotor`: that of the motor alone [kg m²].
+    """
+    speed, acceleration, load = cycle.geared(gearbox)
+    torque = at_motor * acceleration + load
+    power = torque * speed
+    weights, regenerated = cycle.weights(), energy_back(cycle.time, power)
+    others = None if cycle.inertia is None else cycle.inertia / gearbox.ratio**2 + at_motor - rotor
+    means = {
+        "torque_rms": root_mean_square(weights, torque, cycle.period),
+        "speed_mean": np.sum(weights * _size(speed)) / cycle.period,
+        "power_braking_mean": regenerated / cycle.period,
+        "energy_regenerated": regenerated,
+    }
+    peaks = {
+        "torque_peak": _size(torque),
+        "speed_peak": _size(speed),
+        "power_peak": positive_part(power),
+        "power_braking_peak": positive_part(-power),
+    }
+    ratio = others / rotor if others is not None and rotor > 0 else None
+    return MotorCourse(cycle.time, speed, torque, power, means, peaks, ratio)
+
+
+def root_mean_square(weights: Any, values: Any, period: Any) -> Any:
+    """Root of the mean square over a cycle; weights of rounding may make it negative."""
+    return sqrt(max(np.sum(weights * values**2) / period, 0.0))
+
+
+def energy_back(time: Any, power: Any) -> Any:
+    """Energy [J] while a power is negative; pieces are divided where it changes its sign."""
+    time, power = sign_changes(time, power).among([time, power])
+    return np.sum(integration_weights(time) * positive_part(-power))
+
+
+def positive_part(values: Any) -> Any:
+    """The values, and zero where they are negative."""
+    return np.where(primal(values) > 0, values, 0.0 * values)
+
+
+def _size(values: Any) -> Any:
+    """The values without their signs; what rests has no derivative to lose."""
+    return np.sign(primal(values)) * values
+
+
+def inertia_at_motor(motor: ServoMotor, gearbox: AxisGearbox, coupling: Any) -> Any:
+    """Inertia of all that turns at the motor's speed [kg m²]."""
+    return motor.rotor + coupling + gearbox.inertia
+
+
 def motor_duty(
     cycle: DriverCycle,
     motor: ServoMotor,
@@ -246,43 +184,33 @@ def motor_duty(
     """
     gearbox = gearbox or AxisGearbox()
     cycle = cycle.divided()
-    speed, acceleration, load = cycle.geared(gearbox)
-    own = motor.rotor
-    at_motor = own + coupling + gearbox.inertia
-    torque = at_motor * acceleration + load
-    weights, period = cycle.weights(), cycle.period
-
-    def mean(values: Floats) -> float:
-        return float(weights @ values) / period
-
-    power = torque * speed
-    braking = np.maximum(-power, 0.0)
-    others = None if cycle.inertia is None else cycle.inertia / gearbox.ratio**2 + at_motor - own
+    course = motor_course(cycle, inertia_at_motor(motor, gearbox, coupling), motor.rotor, gearbox)
     duty = MotorDuty(
-        time=cycle.time,
-        speed=speed,
-        torque=torque,
-        power=power,
-        torque_rms=math.sqrt(max(mean(torque**2), 0.0)),
-        torque_peak=float(np.max(np.abs(torque))),
-        speed_mean=mean(np.abs(speed)),
-        speed_peak=float(np.max(np.abs(speed))),
-        power_peak=float(np.max(np.maximum(power, 0.0))),
-        power_braking_peak=float(np.max(braking)),
-        power_braking_mean=max(mean(braking), 0.0),
-        energy_regenerated=max(mean(braking), 0.0) * period,
-        inertia_ratio=others / own if others is not None and own > 0 else None,
+        time=course.time,
+        speed=course.speed,
+        torque=course.torque,
+        power=course.power,
+        inertia_ratio=course.inertia_ratio,
         checks=(),
+        **{name: float(mean) for name, mean in course.means.items()},
+        **{name: float(np.max(curve)) for name, curve in course.peaks.items()},
     )
+    torque = np.abs(cycle.torque)
+    output = float(torque.max()), root_mean_square(cycle.weights(), torque, cycle.period)
     checks = (
         *_motor_checks(duty, motor),
         _inertia_check(duty, cycle.inertia, inertia_ratio),
-        *_gearbox_checks(
-            duty, gearbox, float(np.max(np.abs(cycle.torque))), math.sqrt(mean(cycle.torque**2))
-        ),
+        *_gearbox_checks(duty, gearbox, *output),
         *_resistor_checks(duty, resistor),
     )
     return MotorDuty(**{**vars(duty), "checks": checks})
+
+
+def start_checks(duty: MotorDuty, when: str) -> Iterator[Check]:
+    """Checks of a start or stop, each saying so, such as "while the master starts"."""
+    for check in duty.checks:
+        if check.name in OF_STARTS:
+            yield replace(check, note=f"{check.note}, {when}" if check.note else when)
 
 
 def _at_most(name: str, value: float, limit: float, unit: str, note: str = "") -> Check:

@@ -23,7 +23,7 @@ from typing import Annotated
 
 import numpy as np
 
-from linkwright.axes.duty import DriverCycle
+from linkwright.axes.driver_cycle import DriverCycle
 from linkwright.axes.model.axis_catalogue import CatalogueServo
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.axes.model.servo_motor import ServoMotor

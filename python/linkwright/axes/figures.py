@@ -23,10 +23,10 @@ _MASTER = "master angle φ [°]"
 
 # Panels of the timing diagram, and their words.
 _PANELS = {
-    "position": "position\nover its range",
-    "velocity": "velocity\nover its peak",
-    "acceleration": "acceleration\nover its peak",
-    "torque": "torque or force\nover its peak",
+    "position": "position, as a\nshare of its range",
+    "velocity": "velocity, as a\nshare of its peak",
+    "acceleration": "acceleration, as a\nshare of its peak",
+    "torque": "torque or force, as\na share of its peak",
 }
 
 
@@ -94,8 +94,10 @@ def axis_figures(axes: Sequence[ServoAxis]) -> Iterator[CaptionedFigure]:
             f"{quantity(axis.motor.speed_mean, 'rad/s')}."
         )
         if axis.axis.motor is not None:
-            words += " Dashed lines show peak torque and continuous torque; the cross is the root mean "
-            words += "square torque."
+            words += (
+                " Dashed lines show the peak and the continuous torque; the cross is the root mean square "
+                "torque."
+            )
         yield CaptionedFigure(
             f"axis_{axis.name}", f"Axis {axis.name}: torque over speed", words, loop_figure(axis)
         )

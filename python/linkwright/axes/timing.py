@@ -7,13 +7,12 @@ from typing import Annotated
 
 import numpy as np
 
-from linkwright.axes.axis import driver_motion, driver_torque
+from linkwright.axes.axis import driver_motion, driver_torque, turns_about
 from linkwright.axes.cycle import AxesCycle, axes_cycle
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.linkages.model.element import Crank, LinearDriver
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import axis_drivers
 from linkwright.machine.program.compiled import compile_machine
@@ -35,7 +34,7 @@ class Track(Result):
         Floats, Label("torque or force", "M_q", "N m or N", "Of a cam the torque on its shaft.")
     ]
     name: Annotated[str, About("Of the axis, or of the driver.")]
-    driver: Annotated[str, About("Crank, linear driver or cam.")]
+    driver: Annotated[str, About("Crank, linear driver, cylinder or cam.")]
     turns: Annotated[bool, About("Whether it turns; else it moves along a line.")]
     has_shaft: Annotated[bool, About("Whether the torque is that on a camshaft.")]
 
@@ -49,13 +48,13 @@ class Track(Result):
 
 def moved_drivers(machine: Machine) -> tuple[str, ...]:
     """Drivers with a law of their own: cams, axes, formulas; not what rotates with the master."""
-    mechanism, own = machine.linkage, axis_drivers(machine)
-    drivers: dict[str, Crank | LinearDriver] = {**mechanism.cranks, **mechanism.linear_drivers}
-    return tuple(
+    mechanism, own = machine.mechanism, axis_drivers(machine)
+    moved = (
         name
-        for name, driver in drivers.items()
-        if name in own or driver.follows() is not None or driver.law is not None
+        for name, driver in mechanism.drivers().items()
+        if name in own or driver.law is not None or getattr(driver, "flow", None) is not None
     )
+    return (*moved, *mechanism.cams)
 
 
 @public
@@ -89,14 +88,10 @@ def tracks_of(machine: Machine, cycle: AxesCycle) -> tuple[Track, ...]:
         angle, position, velocity, acceleration, torque = (
             curve[within] for curve in (cycle.angle, *motion, driver_torque(machine, driver, cycle))
         )
-        turns = machine.mechanism.cams[driver].is_oscillating if is_cam else _turns(machine, driver)
+        turns = machine.mechanism.cams[driver].is_oscillating if is_cam else turns_about(machine, driver)
         name = names.get(driver, driver)
         found.append(Track(angle, position, velocity, acceleration, torque, name, driver, turns, is_cam))
     return tuple(found)
-
-
-def _turns(machine: Machine, driver: str) -> bool:
-    return driver not in machine.mechanism.linear_drivers
 
 
 def _follower(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
@@ -104,4 +99,5 @@ def _follower(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, 
     compiled, motion = compile_machine(machine), cycle.forces.motion
     (rows,) = compiled.motion([Channel.Slide(compiled.slides[f"{driver}.lift"])], motion.crank_angle)
     lift, d1, d2 = rows
+    lift = lift + d1 * (cycle.angle - motion.crank_angle)
     return lift, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration

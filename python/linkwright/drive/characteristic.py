@@ -11,7 +11,7 @@ from typing import Annotated
 
 import numpy as np
 
-from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor, Motor
+from linkwright.drive.model.motor import ConstantSpeedMotor, Motor
 from linkwright.drive.reduction import Reduction, mean_laws, reduction
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
@@ -73,16 +73,6 @@ def characteristic(
 
 
 def _points(motor: Motor) -> dict[str, float | None]:
-    named: dict[str, float | None] = {
-        "speed_no_load": None,
-        "speed_breakdown": None,
-        "torque_breakdown": None,
-    }
-    match motor:
-        case InductionMotor():
-            named["speed_no_load"] = motor.speed_synchronous
-            named["speed_breakdown"] = motor.speed_breakdown
-            named["torque_breakdown"] = motor.torque_breakdown
-        case DcMotor():
-            named["speed_no_load"] = motor.speed_no_load
-    return {**named, "speed_rated": motor.speed_rated, "torque_rated": motor.torque_rated}
+    given = ("speed_breakdown", "torque_breakdown", "speed_rated", "torque_rated")
+    no_load = motor.speed_without_load if motor.no_load_word else None
+    return {"speed_no_load": no_load} | {name: getattr(motor, name, None) for name in given}

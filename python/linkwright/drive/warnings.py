@@ -302,14 +302,11 @@ def _generator(drive: Drive, steady: SteadyState) -> Iterator[str]:
 
 def _beyond(drive: Drive, steady: SteadyState) -> str:
     fastest = steady.speed_max * drive.gearbox.ratio
-    match drive.motor:
-        case InductionMotor(speed_synchronous=float(limit)):
-            word = "synchronous"
-        case DcMotor(speed_no_load=limit):
-            word = "no-load"
-        case _:
-            return ""
-    return f", up to {fastest:.4g} rad/s, beyond its {word} speed of {limit:.4g} rad/s"
+    motor = drive.motor
+    if motor is None or not motor.no_load_word:
+        return ""
+    limit = f"{motor.no_load_word} speed of {motor.speed_without_load:.4g} rad/s"
+    return f", up to {fastest:.4g} rad/s, beyond its {limit}"
 
 
 def _held(drive: Drive, steady: SteadyState) -> Iterator[str]:

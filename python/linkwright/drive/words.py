@@ -6,11 +6,8 @@ from collections.abc import Iterator
 
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import (
-    ConstantSpeedMotor,
-    ConstantTorqueMotor,
-    DcMotor,
     InductionMotor,
-    TableMotor,
+    Motor,
 )
 from linkwright.drive.tables_in_time import methods_sentence
 from linkwright.kernel.page.formulas import Formula
@@ -125,16 +122,10 @@ def _motor(drive: Drive) -> Iterator[str]:
     match drive.motor:
         case InductionMotor() as motor:
             yield from _induction(motor)
-        case DcMotor() as motor:
-            yield "The motor torque falls linearly from standstill to the no-load speed."
-            if motor.torque_max is not None:
-                yield f"The limit of the current holds it within ±{quantity(motor.torque_max, 'N m')}."
-        case TableMotor():
-            yield "The motor torque is linear between the given speeds and constant outside them."
-        case ConstantTorqueMotor():
-            yield "The motor gives the same torque at any speed."
-        case ConstantSpeedMotor():
-            yield "The motor keeps its speed under any load; the driving torque follows from the motion."
+        case Motor() as motor:
+            yield motor.sentence
+            if (most := getattr(motor, "torque_max", None)) is not None:
+                yield f"The limit of the current holds it within ±{quantity(most, 'N m')}."
     if drive.motor is not None:
         yield "The motor follows its static characteristic, without electrical transients."
 

@@ -97,25 +97,24 @@ def law_jumps(machine: Machine) -> list[LawJump]:
 
 def _jumps_of_axes(machine: Machine) -> Iterator[LawJump]:
     """Jumps where sections of axes, or pieces of their laws, meet."""
-    mechanism, cams = machine.linkage, machine.mechanism.cams
-    for table, is_angle in ((mechanism.cranks, True), (mechanism.linear_drivers, False)):
-        for name, driver in table.items():
-            programme = None if name in cams else driver.follows()
-            if programme is None:
-                continue
-            lift = programme.lift.primal
-            places = np.array(lift.breaks[:-1])
-            ends = np.append(lift.breaks[-1], places[1:])
-            for order in (1, 2):
-                before, after = lift.at(ends, order, "before"), lift.at(places, order, "after")
-                least = 0.1 * _DIFFERS * max(abs(lift.peak(order).value), 1e-12)
-                for k in np.flatnonzero(np.abs(after - before) > least):
-                    angle = float(programme.phase + places[k]) % (2 * np.pi)
-                    # The even advance is part of the velocity.
-                    rate = float(programme.advance) / (2 * np.pi) if order == 1 else 0.0
-                    # What is rounding beside the jump is zero.
-                    low, high = (round(float(side[k]) + rate, 12) + 0.0 for side in (before, after))
-                    yield LawJump(name, "", order, angle, low, high, is_angle)
+    own, cams = axis_drivers(machine), machine.mechanism.cams
+    for name, driver in machine.linkage.drivers().items():
+        programme = driver.follows() if name in own and name not in cams else None
+        if programme is None:
+            continue
+        lift = programme.lift.primal
+        places = np.array(lift.breaks[:-1])
+        ends = np.append(lift.breaks[-1], places[1:])
+        for order in (1, 2):
+            before, after = lift.at(ends, order, "before"), lift.at(places, order, "after")
+            least = 0.1 * _DIFFERS * max(abs(lift.peak(order).value), 1e-12)
+            for k in np.flatnonzero(np.abs(after - before) > least):
+                angle = float(programme.phase + places[k]) % (2 * np.pi)
+                # The even advance is part of the velocity.
+                rate = float(programme.advance) / (2 * np.pi) if order == 1 else 0.0
+                # What is rounding beside the jump is zero.
+                low, high = (round(float(side[k]) + rate, 12) + 0.0 for side in (before, after))
+                yield LawJump(name, "", order, angle, low, high, isinstance(driver, Crank))
 
 
 def require_finite_accelerations(machine: Machine) -> None:

@@ -256,7 +256,9 @@ def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:
 
 
 def _faults_of_axes(machine: object) -> Iterator[InitErrorDetails]:
-    if keys(look(machine, "axes")) or keys(look(look(machine, "mechanism"), "linear_drivers")):
+    mechanism = look(machine, "mechanism")
+    moved = (look(mechanism, table) for table in ("linear_drivers", "cylinders"))
+    if any(map(keys, (look(machine, "axes"), *moved))):
         from linkwright.axes.model.axis_faults import axes_faults
 
         yield from axes_faults(machine)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from linkwright.drive.model.drive import Drive
 from linkwright.kernel.errors import FindingError
 from linkwright.machine.machine import Machine
 from linkwright.machine.whole_mechanism import topology_of
@@ -22,9 +23,18 @@ def axis_drivers(machine: Machine) -> dict[str, str]:
     return {axis.driver or name: name for name, axis in machine.axes.items()}
 
 
-def on_crankshaft(machine: Machine) -> Machine:
-    """The machine without bodies and loads that axes alone move, if a motor drives its crankshaft."""
-    if not machine.axes or machine.drive is None or machine.drive.motor is None:
+def without_drive(machine: Machine) -> Machine:
+    """The machine without what its drive is made of; its speed still says how long a cycle is."""
+    drive = None if machine.drive is None else Drive(speed=machine.drive.speed)
+    return machine.with_entries({"drive": drive})
+
+
+def on_crankshaft(machine: Machine, *, has_motor: bool = False) -> Machine:
+    """The machine without bodies and loads that axes alone move, if a motor drives its crankshaft.
+
+    `has_motor`: also where that motor is still to be chosen.
+    """
+    if not machine.axes or not (has_motor or (machine.drive and machine.drive.motor)):
         return machine
     own = set(axis_drivers(machine))
     felt = {

@@ -37,6 +37,7 @@ from linkwright.kernel.units.marks import Bound, Quantity
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.whole_cycle import force_turns, over_whole_cycle
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.sizing.motor_change import with_flywheel
@@ -210,8 +211,8 @@ def classical_flywheel(machine: Machine, unevenness: float) -> tuple[float, floa
 def constant_inertia(machine: Machine) -> float:
     """Inertia at the crank [kg m²] of drive and bodies that turn in a constant ratio to it."""
     total = 0.0 if machine.drive is None else float(drive_inertia(machine.drive))
-    for name, body in machine.bodies.items():
-        alone = machine.with_entries({"drive": None, "loads": {}, "bodies": {name: body}})
+    for name, body in on_crankshaft(machine, has_motor=True).bodies.items():
+        alone = without_drive(machine).with_entries({"loads": {}, "bodies": {name: body}})
         compiled = compile_machine(alone)
         J = compiled.reductions(turn_angles(_ANGLES, force_turns(compiled))).inertia
         total += float(J.max()) if np.ptp(J) <= _CONSTANT * J.max() else 0.0

@@ -20,6 +20,7 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import axis_drivers, on_crankshaft
 from linkwright.machine.program.compiled import compile_machine
 
 
@@ -91,8 +92,14 @@ def required_power(machine: Machine) -> RequiredPower:
             f"{machine.name}: a turning-moment diagram has no motor; `linkwright run` sizes its flywheel, "
             "also for another δ: --set turning_moment.unevenness=0.02"
         )
+    if machine.axes and set(machine.linkage.drivers()) <= set(axis_drivers(machine)):
+        raise InputError(
+            f"{machine.name}: its drivers have motors of their own: `linkwright axes FILE --catalogue "
+            "motors.csv` chooses them"
+        )
     if drive is None or drive.speed is None:
         raise InputError(f'{machine.name}: sizing needs the design speed; add speed = "… rad/s" to [drive]')
+    machine = on_crankshaft(machine, has_motor=True)
     compiled = compile_machine(machine, motor=False)
     require_full_turn(compiled, machine)
     compiled = over_whole_cycle(compiled)

@@ -69,19 +69,22 @@ class Axis(Description):
     """A servo axis: a driver of the mechanism with a motor of its own."""
 
     driver: str | None = Field(
-        None, description="Crank, linear driver or cam that it drives. Default: the name of the axis."
+        None,
+        description="Crank, linear driver, cylinder or cam that it drives. Default: the name of the axis.",
     )
     sections: tuple[AxisSection, ...] = Field(
         (),
-        description="Motion over a cycle, as that of cams: `swing` for a crank, `lift` for a linear driver; "
-        "over an `angle` of the master or a `time`. The rest of the cycle is a dwell. Default: the driver's "
+        description="Motion over a cycle, as that of cams: `swing` for a crank, `lift` for a linear driver "
+        "or cylinder; over an `angle` of the master or a `time`. The rest of the cycle is a dwell. Default: the driver's "
         "own motion.",
     )
     phase: Angle = Field(0.0, description="Angle of the master at which the first section begins.")
     advance: Angle = Field(
         0.0, description="Advance of a crank per cycle: index steps add up. Default: it returns."
     )
-    travel: Length = Field(0.0, description="Advance of a linear driver per cycle. Default: it returns.")
+    travel: Length = Field(
+        0.0, description="Advance of a linear driver or cylinder per cycle. Default: it returns."
+    )
     motor: ServoMotor | None = Field(None, description="Servo motor.")
     gearbox: AxisGearbox = Field(
         default_factory=AxisGearbox, description="Gearbox between motor and driver. Default: a direct drive."

@@ -96,6 +96,9 @@ def _own_faults(machine: Any, axis: Axis, driver: str) -> Iterator[InitErrorDeta
         found, remedy = axis.gearbox.per_turn, "remove it"
         yield fault("gearbox", "per_turn", found=found, expected="nothing for a crank", remedy=remedy)
     if not axis.sections:
+        if "sections" in axis.model_fields_set:
+            remedy = f"without the key {driver} follows its own motion"
+            yield fault("sections", found="an empty list", expected="at least one section", remedy=remedy)
         if axis.advance or axis.travel:
             remedy = f"a formula says it beside its law: advance of {driver}"
             yield fault(key, found=getattr(axis, key), expected="sections that advance", remedy=remedy)

@@ -209,6 +209,10 @@ class MotionLaw:
         """A periodic law over its whole stretch, starting ``by`` later and going on at its start."""
         by = np.remainder(_real("by", by), self.length)
         cut = self.end - by
+        beside = min(self.primal.breaks, key=lambda place: abs(place - cut))
+        if abs(beside - cut) <= _SAME * self.length:
+            # Rounding makes no piece of its own.
+            cut, by = beside, self.end - beside
         if not self.start < cut < self.end:
             return self
         tail, head = self.stretch(cut, self.end), self.stretch(self.start, cut)

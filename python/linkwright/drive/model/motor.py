@@ -20,8 +20,8 @@ goes through :math:`(s_n, M_n)`, with :math:`\lambda = M_k/M_n`, for the larger 
 Entries that follow from others are completed when a motor is made; what was given is never changed.
 """
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -35,6 +35,9 @@ from linkwright.kernel.units.kinds import INERTIA, POWER, RATIO, SPEED, TORQUE
 from linkwright.kernel.units.marks import Speeds, Torque, Torques, not_negative, positive
 
 Values = dict[str, Any]
+
+# Speeds [rad/s], torques [N m], and whether the line goes on beyond its ends.
+Polyline = tuple[Sequence[Any], Sequence[Any], bool]
 PositiveSpeed = Annotated[float, positive(SPEED)]
 PositiveTorque = Annotated[float, positive(TORQUE)]
 PositivePower = Annotated[float, positive(POWER)]
@@ -53,6 +56,20 @@ class Motor(Description):
     power_rated: PositivePower | None = Field(None, description="Rated power at the shaft.")
     speed_rated: PositiveSpeed | None = Field(None, description="Speed at the rated point.")
     torque_rated: PositiveTorque | None = Field(None, description="Torque at the rated point.")
+
+    # What the speed at zero torque is called; empty for a motor that has none.
+    no_load_word: ClassVar[str] = ""
+    # A sentence on its characteristic, for the assumptions of a report.
+    sentence: ClassVar[str] = ""
+
+    @property
+    def speed_without_load(self) -> Any:
+        """Speed of zero torque, or the one that the motor keeps [rad/s]; None if it has none."""
+        return None
+
+    def polyline(self) -> Polyline | None:
+        """Its characteristic as straight lines, constant outside or endless; None where it is curved."""
+        return None
 
     @model_validator(mode="before")
     @classmethod
@@ -157,6 +174,7 @@ class InductionMotor(Motor):
     """Three-phase induction motor with a cage rotor, by Kloss's formula."""
 
     kind: Literal["induction"]
+    no_load_word: ClassVar[str] = "synchronous"
     catalogue: CatalogueName | None = Field(
         None,
         description="Type in the catalogue of motors; its data supply missing entries. A missing "
@@ -182,6 +200,11 @@ class InductionMotor(Motor):
     resistance_ratio: Annotated[float, not_negative(RATIO)] = Field(
         0.0, description="Ratio of stator to referred rotor resistance; 0 gives Kloss's simplified formula."
     )
+
+    @property
+    def speed_without_load(self) -> Any:
+        """Synchronous speed [rad/s]."""
+        return self.speed_synchronous
 
     @property
     def breakdown_is_minimum(self) -> bool:
@@ -335,6 +358,8 @@ class DcMotor(Motor):
     """
 
     kind: Literal["dc"]
+    no_load_word: ClassVar[str] = "no-load"
+    sentence: ClassVar[str] = "The motor torque falls linearly from standstill to the no-load speed."
     speed_no_load: PositiveSpeed = Field(description="Speed at zero torque.")
     torque_stall: PositiveTorque | None = Field(
         None, description="Stall torque. Default: from the rated point."
@@ -344,16 +369,22 @@ class DcMotor(Motor):
         description="Maximum torque by the current limit, driving or braking. Default: no limit.",
     )
 
-    def limited(self) -> tuple[tuple[float, float], ...]:
-        """Ends of the straight part of a characteristic with a limit: speeds [rad/s] and torques [N m].
+    @property
+    def speed_without_load(self) -> Any:
+        """Speed of zero torque [rad/s]."""
+        return self.speed_no_load
 
-        The first speed is negative where the limit exceeds the stall torque.
+    def polyline(self) -> Polyline:
+        """From standstill to no load and on; held at both ends where the current has a limit.
+
+        The first speed is then negative where the limit exceeds the stall torque.
         """
-        assert self.torque_max is not None
         assert self.torque_stall is not None
+        if self.torque_max is None:
+            return (0.0, self.speed_no_load), (self.torque_stall, 0.0), True
         share = self.torque_max / self.torque_stall
-        ends = (1 - share, self.torque_max), (1 + share, -self.torque_max)
-        return tuple((self.speed_no_load * at, torque) for at, torque in ends)
+        speeds = (self.speed_no_load * (1 - share), self.speed_no_load * (1 + share))
+        return speeds, (self.torque_max, -self.torque_max), False
 
     @classmethod
     def _completed(cls, given: Values) -> Values:
@@ -385,8 +416,13 @@ class TableMotor(Motor):
     """Motor whose torque is given at some speeds; linear between them and constant outside."""
 
     kind: Literal["table"]
+    sentence: ClassVar[str] = "The motor torque is linear between the given speeds and constant outside them."
     speed: Speeds = Field(description="Speeds of the motor shaft, increasing.")
     torque: Torques = Field(description="Torque at each speed.")
+
+    def polyline(self) -> Polyline:
+        """The given points."""
+        return self.speed, self.torque, False
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
@@ -397,14 +433,27 @@ class ConstantTorqueMotor(Motor):
     """Motor that gives the same torque at any speed."""
 
     kind: Literal["constant_torque"]
+    sentence: ClassVar[str] = "The motor gives the same torque at any speed."
     torque: Torque = Field(description="Torque at the motor shaft.")
+
+    def polyline(self) -> Polyline:
+        """One torque at all speeds."""
+        return (0.0,), (self.torque,), False
 
 
 class ConstantSpeedMotor(Motor):
     """Motor that keeps its speed under any load."""
 
     kind: Literal["constant_speed"]
+    sentence: ClassVar[str] = (
+        "The motor keeps its speed under any load; the driving torque follows from the motion."
+    )
     speed: PositiveSpeed = Field(description="Speed of the motor shaft.")
+
+    @property
+    def speed_without_load(self) -> Any:
+        """The speed that it keeps [rad/s]."""
+        return self.speed
 
 
 AnyMotor = Annotated[

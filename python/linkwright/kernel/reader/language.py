@@ -118,7 +118,7 @@ class Language:
             return ", ".join(map(self, _filled(key, numbers, []).split(", ")))
         places = [place for place, letter in enumerate(key) if letter == "#"]
         spans = [match.span(n + 1) for n in range(form.groups)]
-        held: list[list[str]] = [[] for _ in (*spans, "the text")]
+        held: list[list[str]] = [[] for _ in range(len(spans) + 1)]
         for place, number in zip(places, numbers, strict=True):
             held[next((n for n, (a, b) in enumerate(spans) if a <= place < b), -1)].append(number)
         names = [self(_filled(key[a:b], own, [])) for (a, b), own in zip(spans, held, strict=False)]

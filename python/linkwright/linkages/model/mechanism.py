@@ -137,11 +137,14 @@ class Mechanism(Description):
             links[f"{name}.rod"] = Link("piston rod", name, *ends[::-1], cylinder.rod_length or 0.0)
         return links
 
+    def drivers(self) -> dict[str, Crank | LinearDriver | Cylinder]:
+        """What is moved over the crank angle: cranks, linear drivers, and cylinders that are drivers."""
+        cylinders = {name: cylinder for name, cylinder in self.cylinders.items() if cylinder.drives}
+        return {**self.cranks, **self.linear_drivers, **cylinders}
+
     def laws(self) -> dict[str, Crank | LinearDriver | Cylinder]:
         """Drivers that follow a formula, by name."""
-        drivers: dict[str, Crank | LinearDriver | Cylinder] = {**self.cranks, **self.linear_drivers}
-        drivers |= self.cylinders
-        return {name: driver for name, driver in drivers.items() if driver.law is not None}
+        return {name: driver for name, driver in self.drivers().items() if driver.law is not None}
 
     def steps(self) -> list[Step]:
         """The steps in which the mechanism is built."""

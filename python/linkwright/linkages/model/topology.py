@@ -296,19 +296,20 @@ class Topology:
                 name,
                 found="one constraint too many",
                 expected="two bars or guides for each joint",
-                remedy=self._too_many(name),
+                remedy=self._too_many(name, is_bar=kinds[name].table == "bars"),
             )
 
-    def _too_many(self, name: str) -> str:
+    def _too_many(self, name: str, *, is_bar: bool) -> str:
         drivers = self._drivers(name)
+        redundant = ", or write redundant = true to have its length checked" if is_bar else ""
         if len(drivers) > 1:
             return (
                 f"the drivers {' and '.join(drivers)} both move the points that it connects; one suffices; "
-                f"remove {name} or a driver, or write redundant = true to have its length checked"
+                f"remove {name} or a driver{redundant}"
             )
         return (
             "over-constrained: the mechanism is locked unless the length fits exactly at every angle; "
-            "remove it, or write redundant = true to have its length checked"
+            f"remove it{redundant}"
         )
 
     def _needs(self) -> dict[str, list[str]]:

@@ -9,14 +9,7 @@ import numpy as np
 
 from linkwright import _core
 from linkwright.drive.model.drive import Drive, Gears
-from linkwright.drive.model.motor import (
-    ConstantSpeedMotor,
-    ConstantTorqueMotor,
-    DcMotor,
-    InductionMotor,
-    TableMotor,
-)
-from linkwright.kernel.errors import ShapeError
+from linkwright.drive.model.motor import InductionMotor
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.loads import table_of
 from linkwright.machine.program.mechanism import MechanismProgram
@@ -48,30 +41,19 @@ def drive_of(machine: Machine, program: MechanismProgram, *, motor: bool) -> _co
 
 def _motor(machine: Machine, program: MechanismProgram, motor: Any) -> _core.Motor | None:
     """A described motor has all its entries filled in."""
-    match motor:
-        case ConstantTorqueMotor():
-            return _core.Motor.Constant(torque=program.slot(motor.torque))
-        case DcMotor(torque_max=most) if most is not None:
-            return _core.Motor.Table(table=_limited(program, motor))
-        case DcMotor(torque_stall=stall, speed_no_load=no_load):
-            return _core.Motor.Line(torque=program.slot(stall), inverse_speed=program.slot(1.0 / no_load))
-        case InductionMotor():
-            return _induction(program, motor)
-        case TableMotor():
-            return _core.Motor.Table(table=table_of(machine, program, motor.speed, motor.torque))
-    # No motor, or one of constant speed: nothing that answers to the load.
-    return None
-
-
-def _limited(program: MechanismProgram, motor: DcMotor) -> _core.Table:
-    """A straight characteristic between its ends, constant beyond them. Raises ShapeError: they vary."""
-    speeds, torques = zip(*motor.limited(), strict=True)
-    if any(np.ndim(value) for value in (*speeds, *torques)):
-        raise ShapeError(
-            "drive.motor: a characteristic with torque_max cannot vary from machine to machine in a batch; "
-            "compute machines with others one by one"
-        )
-    return program.table(speeds, torques)
+    if isinstance(motor, InductionMotor):
+        return _induction(program, motor)
+    line = None if motor is None else motor.polyline()
+    if line is None:
+        # No motor, or one of constant speed: nothing that answers to the load.
+        return None
+    speeds, torques, is_endless = line
+    if is_endless:
+        stall, no_load = torques[0], speeds[-1]
+        return _core.Motor.Line(torque=program.slot(stall), inverse_speed=program.slot(1.0 / no_load))
+    if len(speeds) == 1:
+        return _core.Motor.Constant(torque=program.slot(torques[0]))
+    return _core.Motor.Table(table=table_of(machine, program, speeds, torques))
 
 
 def _induction(program: MechanismProgram, motor: Any) -> _core.Motor:
@@ -131,12 +113,11 @@ def drive_inertia(drive: Drive) -> Any:
 
 def speed_guess(drive: Drive) -> Any:
     """Crank speed without load, as far as the motor has one; else the design speed [rad/s]."""
-    match drive.motor:
-        case InductionMotor(speed_synchronous=speed) if speed is not None:
-            return speed / drive.gearbox.ratio
-        case DcMotor(speed_no_load=speed) | ConstantSpeedMotor(speed=speed):
-            return speed / drive.gearbox.ratio
-        case TableMotor(speed=speeds, torque=torques):
-            driving = [speed for speed, torque in zip(speeds, torques, strict=True) if torque > 0]
-            return max([*driving, 0.1 * speeds[-1]]) / drive.gearbox.ratio
+    motor = drive.motor
+    if motor is not None and motor.speed_without_load is not None:
+        return motor.speed_without_load / drive.gearbox.ratio
+    line = None if motor is None else motor.polyline()
+    if line is not None and len(line[0]) > 1:
+        driving = [speed for speed, torque in zip(*line[:2], strict=True) if torque > 0]
+        return max([*driving, 0.1 * line[0][-1]]) / drive.gearbox.ratio
     return _SPEED_UNKNOWN if drive.speed is None else drive.speed

@@ -45,7 +45,8 @@ def _body(program: MechanismProgram, carrier: str, body: Body, length: Any) -> _
 def table_of(machine: Machine, program: MechanismProgram, x: Sequence[Any], y: Sequence[Any]) -> _core.Table:
     """A table of the description. Raises ShapeError: they vary from machine to machine."""
     if any(np.ndim(value) for value in (*x, *y)):
-        points = ", ".join(join(place) for place, _ in arrays(machine) if place[-1].isdecimal())
+        places = [join(place) for place, _ in arrays(machine) if place[-1].isdecimal()]
+        points = ", ".join(places or ["drive.motor"])
         raise ShapeError(
             f"{points}: the points of a table cannot vary from machine to machine in a batch; "
             "compute machines with others one by one"
@@ -112,6 +113,10 @@ class Loads:
                 | loads.FormulaLoad(force=None)
             ):
                 return _core.At.Link(link=self.links[load.on])
+        cylinder = self.machine.mechanism.cylinders.get(load.on)
+        if cylinder is not None:
+            # The rod slides in the barrel: trunnion and eye move apart.
+            return _core.At.Between(start=self.points[cylinder.start], end=self.points[cylinder.end])
         point = self.points[load.on]
         along, direction = getattr(load, "along", None), getattr(load, "direction", None)
         if along is not None:

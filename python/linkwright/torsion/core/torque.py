@@ -27,7 +27,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkwright.drive.model.drive import Drive
-from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.drive.model.motor import Motor
 from linkwright.kernel.core.curve import Curve, smooth, straight
 from linkwright.kernel.core.periodic_table import PeriodicTable
 from linkwright.linkages.model.element import Crank
@@ -125,21 +125,13 @@ def short_circuit(
 _POINTS = 4001
 
 
-def motor_curve(motor: InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor) -> Curve:
+def motor_curve(motor: Motor) -> Curve:
     """Torque [N m] over speed [rad/s]; of induction motors held below rest and beyond twice synchronous."""
-    match motor:
-        case ConstantTorqueMotor():
-            return straight([0.0], [motor.torque])
-        case DcMotor(torque_max=most) if most is not None:
-            ends = motor.limited()
-            return straight([speed for speed, _ in ends], [torque for _, torque in ends])
-        case DcMotor(speed_no_load=no_load, torque_stall=stall):
-            assert stall is not None
-            return straight([0.0, no_load], [stall, 0.0], beyond="straight")
-        case TableMotor():
-            return straight(motor.speed, motor.torque)
-    assert motor.speed_synchronous is not None
-    speeds = np.linspace(0.0, 2 * motor.speed_synchronous, _POINTS)
+    line = motor.polyline()
+    if line is not None:
+        return straight(*line[:2], beyond="straight" if line[2] else "held")
+    assert motor.speed_without_load is not None
+    speeds = np.linspace(0.0, 2 * motor.speed_without_load, _POINTS)
     # The torque is the core's own, that of a machine with nothing but this motor.
     bare = Machine(
         format=1,

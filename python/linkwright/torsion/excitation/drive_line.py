@@ -41,6 +41,7 @@ from linkwright.kernel.units.marks import positive
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
+from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.torsion.excitation.harmonics import Source
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
@@ -168,7 +169,7 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
 
 def mechanism_alone(machine: Machine) -> CompiledMachine:
     """The mechanism without its drive, if its revolutions can be determined. In the core's terms."""
-    alone = machine.with_entries({"drive": None})
+    alone = without_drive(on_crankshaft(machine))
     compiled = compile_machine(alone)
     require_same_turns(alone)
     require_full_turn(compiled, alone)

@@ -1,0 +1,178 @@
+r"""Speed and torque at a driver over a cycle, piece by piece, and their means over time.
+
+Each piece is integrated for itself, with cubics through neighbouring samples: means are exact for a law of
+pieces. It is divided where the power changes its sign, since losses jump there. Samples may carry tangents;
+their instants then move with the ends of the pieces.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from linkwright.axes.model.axis_gearbox import AxisGearbox
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import primal, zeros_for
+from linkwright.machine.program.drive_line import reverse_factor
+
+# Share of the peak speed or torque below which a sample counts as rest, or as no load: rounding.
+_REST = 1e-9
+
+
+class Ends(NamedTuple):
+    """Where pieces are divided: between samples, at a share of the interval, and at samples."""
+
+    after: Any  # (m,) places of samples
+    share: Any  # (m,) of the interval behind each
+    own: Any  # places of samples that end a piece themselves
+
+    def among(self, columns: list[Any]) -> list[Any]:
+        """Columns with both sides of every end; between two samples values are those on straight lines."""
+        at, n = self.after, len(primal(columns[0]))
+        place = np.concatenate([np.arange(n), np.repeat(at, 2) + 0.5, self.own])
+        order = np.argsort(place, kind="stable")
+        return [
+            np.concatenate([column, *self._between(column), column[self.own]])[order] for column in columns
+        ]
+
+    def _between(self, column: Any) -> list[Any]:
+        """Values at the ends between samples, once for each side, in turn."""
+        first = column[self.after]
+        crossing = first + self.share * (column[self.after + 1] - first)
+        return [crossing[np.repeat(np.arange(len(self.after)), 2)]]
+
+
+def sign_changes(time: Any, value: Any) -> Ends:
+    """Where a value changes its sign between samples."""
+    sign, step = np.sign(primal(value)), np.diff(primal(time))
+    at = np.flatnonzero((sign[:-1] * sign[1:] < 0) & (step > 0))
+    first, last = value[at], value[at + 1]
+    return Ends(at, first / (first - last), _rests(sign, step))
+
+
+def _rests(sign: Floats, step: Floats) -> Any:
+    """Samples without power between two of opposite sign."""
+    inner = np.arange(1, len(sign) - 1)
+    own = inner[(sign[inner] == 0) & (sign[inner - 1] * sign[inner + 1] < 0)]
+    return own[(step[own - 1] > 0) & (step[own] > 0)]
+
+
+@dataclass(frozen=True)
+class DriverCycle:
+    """Speed and torque at a driver that turns, over one cycle; a time that occurs twice ends a piece.
+
+    There, the first sample belongs to the piece before and the second to that behind, so that torques may
+    jump.
+    """
+
+    time: Any  # from 0, not decreasing [s]
+    speed: Any  # [rad/s]
+    acceleration: Any  # [rad/s²]
+    torque: Any  # that the drive gives to the driver; positive in the sense of the speed [N m]
+    # Mean inertia of the mechanism at the driver; None if it is not known [kg m²].
+    inertia: Any = None
+    turns: bool = True  # else along a line, in m/s, N and kg: no screw or pinion is known
+
+    @classmethod
+    def of_line(
+        cls,
+        time: Any,
+        velocity: Any,
+        acceleration: Any,
+        force: Any,
+        per_turn: Any,
+        mass: Any = None,
+    ) -> Self:
+        """Of a driver that moves along a line by `per_turn` [m] per revolution of its screw or pinion.
+
+        `mass`: mean mass of the mechanism at the driver [kg].
+        """
+        lead = per_turn / (2 * math.pi)
+        inertia = None if mass is None else mass * lead * lead
+        return cls(time, velocity / lead, acceleration / lead, force * lead, inertia)
+
+    @property
+    def period(self) -> Any:
+        """Time of a cycle [s]."""
+        return self.time[-1] - self.time[0]
+
+    @property
+    def power_sign(self) -> Floats:
+        """1 where the drive drives the mechanism, −1 where the mechanism drives it, 0 at rest."""
+        speed, torque = (_without_specks(primal(values)) for values in (self.speed, self.torque))
+        return np.sign(speed) * np.sign(torque)
+
+    def ends(self) -> Ends:
+        """Where the power changes its sign, and losses jump; between two samples on straight lines."""
+        sign, step = self.power_sign, np.diff(primal(self.time))
+        at = np.flatnonzero((sign[:-1] * sign[1:] < 0) & (step > 0))
+        speed = primal(self.speed)
+        turns_back = speed[at] * speed[at + 1] < 0
+        first, last = (np.where(turns_back, self.speed[k], self.torque[k]) for k in (at, at + 1))
+        return Ends(at, first / (first - last), _rests(sign, step))
+
+    def divided(self, ends: Ends | None = None) -> Self:
+        """The same cycle with pieces that end where the power changes its sign, or at other places."""
+        columns = [self.time, self.speed, self.acceleration, self.torque]
+        time, speed, acceleration, torque = (self.ends() if ends is None else ends).among(columns)
+        return replace(self, time=time, speed=speed, acceleration=acceleration, torque=torque)
+
+    def geared(self, gearbox: AxisGearbox) -> tuple[Any, Any, Any]:
+        """Speed and acceleration at the motor, and the torque there that the driver asks for.
+
+        [rad/s, rad/s², N m]; of a cycle that is `divided`.
+        """
+        ratio, back = gearbox.ratio, reverse_factor(gearbox)
+        sign = self._side_of_power()
+        factor = np.where(sign > 0, 1 / gearbox.efficiency, np.where(sign < 0, 1 / back, 1.0))
+        if gearbox.locks:
+            factor = np.where(sign > 0, factor, 0.0)
+        return self.speed * ratio, self.acceleration * ratio, self.torque / ratio * factor
+
+    def _side_of_power(self) -> Floats:
+        """The sign of the power about each sample: at an instant of rest, that of its neighbour."""
+        sign, ends = self.power_sign, np.diff(primal(self.time)) == 0
+        left = np.concatenate([[0.0], np.where(ends, 0.0, sign[:-1])])
+        right = np.concatenate([np.where(ends, 0.0, sign[1:]), [0.0]])
+        return np.where(sign == 0, np.where(right != 0, right, left), sign)
+
+    def weights(self) -> Any:
+        """Weights of the samples in an integral over the time of a cycle [s]."""
+        return integration_weights(self.time)
+
+    def mean(self, values: Any) -> Any:
+        """Mean of values over the time of a cycle."""
+        return np.sum(self.weights() * values) / self.period
+
+
+def _without_specks(values: Floats) -> Floats:
+    """The values with zero for what is rounding beside the largest."""
+    return np.where(np.abs(values) <= _REST * np.max(np.abs(values), initial=0.0), 0.0, values)
+
+
+def integration_weights(time: Any) -> Any:
+    """Weights of samples in an integral over time, each piece between equal times for itself.
+
+    Over each interval the cubic through its four nearest samples of the piece is integrated.
+    """
+    weights = zeros_for((time,), (len(primal(time)),))
+    ends = np.flatnonzero(np.diff(primal(time)) == 0) + 1
+    for first, last in zip([0, *ends], [*ends, len(primal(time))], strict=True):
+        n = last - first
+        if n < 2:
+            continue
+        order = min(4, n)
+        left = first + np.arange(n - 1)
+        stencil = np.clip(left - 1, first, last - order)[:, None] + np.arange(order)
+        width = time[left + 1] - time[left]
+        nodes = (time[stencil] - time[left][:, None]) / width[:, None]
+        moments = 1 / (np.arange(order) + 1)
+        matrix = np.stack([nodes**power for power in range(order)], axis=1)
+        share = np.linalg.solve(primal(matrix), np.broadcast_to(moments, (n - 1, order))[:, :, None])[:, :, 0]
+        share = solution_along(share, np.einsum("nij,nj->ni", matrix, share) - moments, primal(matrix))
+        np.add.at(weights, stencil, share * width[:, None])
+    return weights
