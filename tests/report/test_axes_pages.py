@@ -10,6 +10,7 @@ from tests.axes.test_servo_axes import CARRIAGE, PACKAGING, changed
 import linkwright as lw
 from linkwright.app.report.page import content
 from linkwright.kernel.page.formulas import with_index
+from linkwright.kernel.page.typeset import document
 
 CAM = """
 format = 1
@@ -63,6 +64,13 @@ def test_a_page_has_the_timing_figure_in_place_of_its_letters() -> None:
     assert "timing" in _figures(PACKAGING)
     assert "timing" not in _tables(PACKAGING)
     assert not re.search("[▁▂▃▅▆▇]", str(_tables(PACKAGING)))
+
+
+def test_heads_in_print_are_as_large_as_their_columns() -> None:
+    """A table that is set smaller to fit the page has smaller heads too."""
+    printed = document(content(lw.study(lw.loads(PACKAGING))))
+    assert 'head[#"peak velocity";]' in printed
+    assert "#let head(body) = text(fill: soft, body)" in printed
 
 
 def test_axes_without_losses_take_no_power_on_average() -> None:

@@ -46,7 +46,7 @@ def test_the_timing_diagram_has_every_section_with_its_entry(tab: Tab) -> None:
 
 
 def test_motor_and_bus_follow_while_a_section_is_held(tab: Tab) -> None:
-    """Rms torque of the motor and peak of the bus are in the answer to what is held, as servo_axis has them."""
+    """Rms torque of the motor and peak of the bus in the answer to what is held are those of servo_axis."""
     tab.ask(ask="compute", text=CARRIAGE)
     held = {"axes.A.sections.0.angle": 2.6, "axes.A.sections.1.angle": 2 * 3.141592653589793 - 2.6}
     answer = tab.ask(ask="compute", held=True, set=held)

@@ -34,7 +34,7 @@ def timing_figures(tracks: Sequence[Track]) -> Iterator[CaptionedFigure]:
     """The timing diagram with the size of every curve."""
     if not tracks:
         return
-    peaks = "; ".join(f"{track.name} {_sizes(track)}" for track in tracks)
+    peaks = "; ".join(f"{track.name}: {_sizes(track)}" for track in tracks)
     yield CaptionedFigure(
         "timing",
         "Timing of cams and axes",

@@ -16,6 +16,7 @@ No mechanics is computed here: the studio asks the rooms of the subjects, and th
 | `shown` | Results for the page, from declared quantities |
 | `drawing` | The drawing with rates, forces and handles |
 | `views` | Pictures beside it: trains in their modes, the knife of a topper; what the gallery shows |
+| `timing` | The timing diagram of cams and axes, with the entries that move ends of sections |
 | `drag` | Which lengths bring a point to a place, and where the linkage no longer closes |
 | `building` | Elements that are added, links that are drawn |
 | `design` | What entries do to a result, and which entries bring it to a value |

@@ -274,8 +274,13 @@ class Session:
             raw = tomllib.loads(self.text)
         except (ValueError, RecursionError):
             raw = None
+        try:
+            path = base(self.folder, self.place, self.name)
+        except InputError:
+            # silent: the machine has been refused for its name
+            path = ""
         return {
-            "controls": None if raw is None else controls(raw, base(self.folder, self.place, self.name)),
+            "controls": None if raw is None else controls(raw, path),
             "chips": [] if machine is None else chips(machine),
             "lanes": [] if machine is None else lanes(machine),
             "units": None if machine is None else units_of(machine),

@@ -97,3 +97,55 @@ test("arrow keys and an exact angle move the end of a cam's section; the next gi
   assert.match(await text(), /phase = "110 deg"/);
   assert.deepEqual(faults, []);
 });
+
+test("an axis and its motor are added to a crank; rms torque of the motor and peak of the bus stand at the head, the loop among the diagrams", async () => {
+  await write('format = 1\nname = "Carriage"\n[mechanism.cranks.A]\nradius = "120 mm"\n[mechanism.sliders.S]\ncrank = "A"\nrod = "400 mm"\n[bodies.S]\nmass = "12 kg"\n');
+  await page.getByText("Add an element").click();
+  await page.locator('[data-kind="axes"]').click();
+  await studio.known(page);
+  await page.locator('[data-kind="servo motor"]').click();
+  await studio.complete(page);
+  assert.match(await text(), /\[axes\.A\.motor\]/);
+  for (const name of ["Servo axes", "DC bus", "Timing diagram"]) await page.locator(".chip.ready", { hasText: name }).waitFor();
+  await shows(() => page.locator(".head [data-name]").evaluateAll((all) => all.map((each) => each.dataset.name)), (names) => ["torque_rms", "torque_peak", "power_max"].every((name) => names.includes(name)));
+  await page.getByRole("tab", { name: "Diagrams" }).click();
+  await page.getByRole("heading", { name: "Axis A: torque over speed" }).waitFor();
+  await page.getByRole("tab", { name: "Plots" }).click();
+});
+
+test("a driving cylinder is drawn with its boom, and a passive one beside it; force and pressure are told", async () => {
+  await write('format = 1\nname = "Boom"\n[loads.weight]\nkind = "gravity"\n');
+  await page.getByText("Add an element").waitFor();
+  await page.locator("#draw-driving").click();
+  const box = await page.locator(".stage canvas").boundingBox();
+  const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
+  const draw = async (from, to) => {
+    await page.mouse.move(...at(...from));
+    await page.mouse.down();
+    await page.mouse.move(...at(...to), { steps: 3 });
+    await page.mouse.up();
+    await studio.known(page);
+  };
+  await draw([0.6, 0.8], [0.7, 0.3]);
+  await page.getByText("has one link: draw a second from it").waitFor();
+  await page.locator("#draw").click();
+  await draw([0.7, 0.3], [0.35, 0.7]);
+  await shows(text, (now) => /\[mechanism\.cylinders\.Z1\]/.test(now) && /\[mechanism\.bars\.B1\]/.test(now));
+  await page.locator("#draw-passive").click();
+  await draw([0.85, 0.8], [0.7, 0.3]);
+  await shows(text, (now) => /damping = "1000 N s\/m"/.test(now));
+  await page.locator("#draw-passive").click();
+  await studio.complete(page);
+  // Its joint is dragged; the cylinder's length follows.
+  const before = await text();
+  const [x, y] = await studio.grip(page, "J1");
+  await page.mouse.move(x + 15, y - 10, { steps: 3 });
+  await page.mouse.up();
+  await studio.known(page);
+  const length = (words) => /start_length = "([\d.]+)/.exec(words)[1];
+  assert.notEqual(length(await text()), length(before));
+  await studio.complete(page);
+  await page.locator(".chip.ready", { hasText: "Cylinders" }).waitFor();
+  assert.ok(Number.isFinite(await scalar("cylinder.Z1.force_max")));
+  assert.deepEqual(faults, []);
+});

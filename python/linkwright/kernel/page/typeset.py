@@ -134,7 +134,7 @@ def _box(title: str, texts: Sequence[str], colour: str) -> str:
 def _table(table: Table) -> str:
     """A table that repeats title and heads on each page; one that is too wide is set smaller, or across."""
     n = len(table.heads)
-    heads = ", ".join(f"note[{_text(head, indices=True)}]" for head in table.heads)
+    heads = ", ".join(f"head[{_text(head, indices=True)}]" for head in table.heads)
     cells = ", ".join(
         f"[{_text(cell, indices=place == 1)}]" for row in table.rows for place, cell in enumerate(row)
     )
@@ -259,6 +259,8 @@ _STYLE = """#set document(title: {title}, date: none)
 #show raw: set text(font: "DejaVu Sans Mono", size: 7pt)
 #let emph-if(wanted, body) = if wanted {{ emph(body) }} else {{ body }}
 #let note(body) = text(8.5pt, fill: soft, body)
+// Of a column: no larger than what stands below.
+#let head(body) = text(fill: soft, body)
 #let code(text) = block(width: 100%, fill: rgb("#f4f6f8"), inset: 6pt, radius: 3pt, raw(text, block: true))
 #let notice(colour, body) = block(width: 100%, stroke: (left: 3pt + colour), inset: (x: 8pt, y: 4pt), body)
 // A cell, not a block: those of one row are of one height.

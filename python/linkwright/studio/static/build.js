@@ -28,13 +28,14 @@ const DRAWN = [["link", "draw", "Draw links"], ["driving", "draw-driving", "Draw
 function Links() {
   const is = state.drawing.value;
   return html`
-    <p class="sets">${DRAWN.map(([kind, id, words]) => html`<button key=${id} id=${id} class=${is === kind ? "main" : ""} aria-pressed=${is === kind} onClick=${() => {
+    <p class="kinds">${DRAWN.map(([kind, id, words]) => html`<button key=${id} id=${id} class=${is === kind ? "main" : ""} aria-pressed=${is === kind} onClick=${() => {
       // Links and cylinders may wait for each other.
       if (!is || is === kind) {
         state.draft.value = [];
         state.waits.value = "";
       }
       state.playing.value = false;
+      state.seen.value = "mechanism";
       state.drawing.value = is === kind ? "" : kind;
     }}>${words}</button>`)}</p>
     ${is && is !== "link" ? html`<p class="about">Press on its trunnion, a joint or a place in the plane, drag, and release at its eye. A driving cylinder moves what it is joined to; a passive one is a spring or damper between two points.</p>` : null}

@@ -52,7 +52,8 @@ function Scrub() {
     }} />`;
 }
 
-export function Playbar() {
+/** @param {{ isDrawing?: boolean }} props whether a drawing has what can be left out */
+export function Playbar({ isDrawing = true }) {
   if (!state.isDrawn.value) return null;
   const points = movers();
   return html`
@@ -64,9 +65,9 @@ export function Playbar() {
       <output id="instant"></output>
       <${Speed} />
     </div>
-    <fieldset class="layers"><legend class="hidden">What is drawn</legend>
+    ${isDrawing ? html`<fieldset class="layers"><legend class="hidden">What is drawn</legend>
       ${LAYERS.map(([key, word]) => html`<label key=${key}><input type="checkbox" checked=${state.layers.value[key]}
         onChange=${({ target }) => (state.layers.value = { ...state.layers.value, [key]: target.checked })} /><i class="dot ${key}"></i>${word}</label>`)}
       <label>Trails <${Choice} id="trails" value="" choose=${trail} options=${[["", state.trails.value.length || "–"], ["*", state.trails.value.length ? "none" : "all points"], ...points.map((name) => [name, `${state.trails.value.includes(name) ? "✓ " : ""}${name}`, true])]} /></label>
-    </fieldset>`;
+    </fieldset>` : null}`;
 }

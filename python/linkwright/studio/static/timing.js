@@ -109,7 +109,7 @@ export function Timing({ view }) {
       const wanted = read(target.value) * factor;
       if (Number.isFinite(wanted)) place(own, wanted - own.angle);
     }} /> ${unit}</label></div>` : null}
-    <${Playbar} />`;
+    <${Playbar} isDrawing=${false} />`;
 }
 
 /** @param {Paper} paper @param {{ angles: Float64Array, tracks: Track[] }} view @param {number} instant */
@@ -169,7 +169,7 @@ function paint({ ctx, width, height, ink, series }, { angles, tracks }, instant)
       const scale = peak ? (isRange ? size : size / 2) / peak : 0;
       line(ctx, Array.from(values, (value, k) => [X(angles[k]), zero - (value - (isRange ? least : 0)) * scale]));
       stroke(ctx, series[row % series.length], 1.6);
-      const head = `${name} ${isRange ? "" : "± "}${number(peak / factor, 4)} ${unit}`;
+      const head = `${name} ${isRange ? "" : "± "}${number(peak / factor, 4)}${unit === "°" ? "" : " "}${unit}`;
       ctx.fillStyle = series[row % series.length];
       if (x < width - RIGHT) ctx.fillText(head, x, y + HEAD / 2 + 2);
       x += ctx.measureText(head).width + 14;
