@@ -10,8 +10,15 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
-from linkwright.axes.driver_cycle import DriverCycle
-from linkwright.axes.duty import MotorDuty, motor_duty
+from linkwright.axes.driver_cycle import DriverCycle, Peak
+from linkwright.axes.duty import (
+    MotorDuty,
+    Numbers,
+    inertia_at_motor,
+    motor_course,
+    motor_duty,
+    root_mean_square,
+)
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
 from linkwright.axes.model.follower import family_of
@@ -23,6 +30,7 @@ from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import Channel
@@ -69,24 +77,25 @@ class ServoAxis(Result):
     @property
     def torque_max(self) -> Annotated[float, Label("peak torque at the driver", "M_q,max", "N m or N")]:
         """With its sign."""
-        return _peak(self.torque)
+        return Peak(self.time, self.torque).value
 
     @property
     def torque_max_angle(self) -> Annotated[float, Label("master angle of the peak torque", "", "rad")]:
         """Of the first, if there are several."""
-        return float(self.crank_angle[np.nanargmax(np.abs(self.torque))])
+        time = Peak(self.time, self.torque).places(0.0)[0].time
+        return float(np.interp(time, self.time, self.crank_angle))
 
     @property
     def velocity_max(self) -> Annotated[float, Label("peak velocity of the driver", "", "rad/s or m/s")]:
         """With its sign."""
-        return _peak(self.velocity)
+        return Peak(self.time, self.velocity).value
 
     @property
     def acceleration_max(
         self,
     ) -> Annotated[float, Label("peak acceleration of the driver", "", "rad/s² or m/s²")]:
         """With its sign."""
-        return _peak(self.acceleration)
+        return Peak(self.time, self.acceleration).value
 
     @property
     def advance(self) -> Annotated[float, Label("advance per cycle", "h", "rad or m")]:
@@ -130,11 +139,6 @@ class ServoAxis(Result):
         )
 
 
-def _peak(values: Floats) -> float:
-    """The value that is largest in size, with its sign."""
-    return float(values[np.nanargmax(np.abs(values))])
-
-
 def _of_start(duty: MotorDuty | None, when: str) -> Iterator[Check]:
     """Checks of a start or stop, each saying so."""
     for check in () if duty is None else duty.checks:
@@ -168,8 +172,8 @@ def servo_axis(machine: Machine, name: str | None = None, *, speed: float | None
 
     Notes
     -----
-    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are those of
-    720 angles a revolution and of both sides of all ends of sections.
+    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are found
+    between 720 angles a revolution, and on both sides of all ends of sections.
     """
     name = the_axis(machine, name)
     return servo_axes(machine, speed=speed, names=(name,))[name]
@@ -239,15 +243,14 @@ def _axis(
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
     torque = driver_torque(machine, driver, cycle)
-    asked = _driver_cycle(axis, turns, cycle.time, velocity, acceleration, torque, inertia)
+    asked = driver_cycle(axis, cycle.time, velocity, acceleration, torque, inertia)
     duties = [
         None
         if start is None
         else _duty(
             axis,
-            _driver_cycle(
+            driver_cycle(
                 axis,
-                turns,
                 start.time,
                 *driver_motion(machine, driver, start)[1:],
                 driver_torque(machine, driver, start),
@@ -256,7 +259,6 @@ def _axis(
         )
         for start in starts
     ]
-    weights = asked.weights()
     return ServoAxis(
         crank_angle=cycle.angle,
         time=cycle.time,
@@ -265,7 +267,7 @@ def _axis(
         acceleration=acceleration,
         torque=torque,
         power=torque * velocity,
-        torque_rms=math.sqrt(max(float(weights @ torque**2) / asked.period, 0.0)),
+        torque_rms=float(root_mean_square(asked.weights(), torque, asked.period)),
         inertia_mean=inertia,
         name=name,
         driver=driver,
@@ -278,17 +280,35 @@ def _axis(
     )
 
 
-def _driver_cycle(
-    axis: Axis,
-    turns: bool,
-    time: Floats,
-    velocity: Floats,
-    acceleration: Floats,
-    torque: Floats,
-    inertia: float | None,
+def axis_inertia(axis: Axis) -> Any:
+    """Inertia of all that turns at the speed of the motor [kg m²]."""
+    coupling = 0.0 if axis.coupling is None else axis.coupling.inertia
+    return inertia_at_motor(axis.motor or _NO_MOTOR, axis.gearbox, coupling)
+
+
+def axis_numbers(
+    axis: Axis, time: Any, velocity: Any, acceleration: Any, torque: Any, inertia: Any
+) -> Numbers:
+    """Means and peaks of an axis and its motor by the attribute of the result, in any number.
+
+    All but the time are those of the driver.
+    """
+    asked = driver_cycle(axis, time, velocity, acceleration, torque, inertia)
+    rotor = 0.0 if axis.motor is None else axis.motor.rotor
+    course = motor_course(asked.divided(), axis_inertia(axis), rotor, axis.gearbox)
+    own = {"torque_max": torque, "velocity_max": velocity, "acceleration_max": acceleration}
+    means = {f"motor.{name}": mean for name, mean in course.means.items()}
+    means |= {"motor.inertia_ratio": course.inertia_ratio, "inertia_mean": inertia}
+    means |= {"torque_rms": root_mean_square(asked.weights(), torque, asked.period)}
+    peaks = {name: Peak(asked.time, curve) for name, curve in own.items()}
+    return Numbers(means, peaks | {f"motor.{name}": peak for name, peak in course.peaks.items()})
+
+
+def driver_cycle(
+    axis: Axis, time: Any, velocity: Any, acceleration: Any, torque: Any, inertia: Any
 ) -> DriverCycle:
     """What a driver asks of its drive, referred to the pinion or screw where it moves along a line."""
-    if turns or axis.gearbox.per_turn is None:
+    if axis.gearbox.per_turn is None:
         return DriverCycle(time, velocity, acceleration, torque, inertia)
     return DriverCycle.of_line(time, velocity, acceleration, torque, axis.gearbox.per_turn, inertia)
 
@@ -313,17 +333,29 @@ def turns_about(machine: Machine, driver: str) -> bool:
     return family_of(machine.mechanism, driver) != "lift"
 
 
+def slide_of(machine: Machine, driver: str) -> int | None:
+    """Place of a driver's position in the program; None for what turns with the master."""
+    slides = compile_machine(machine).slides
+    if driver in machine.mechanism.cams:
+        return None
+    return slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
+
+
 def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a driver; a camshaft turns with the master."""
-    compiled, motion = compile_machine(machine), cycle.forces.motion
-    slide = compiled.slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
-    if driver in machine.mechanism.cams or slide is None:
+    compiled, motion, slide = compile_machine(machine), cycle.forces.motion, slide_of(machine, driver)
+    if slide is None:
         crank = machine.mechanism.cranks.get(driver)
         start = 0.0 if crank is None else float(crank.phase)
         return cycle.angle + start, motion.speed, motion.acceleration
     (rows,) = compiled.motion([Channel.Slide(slide)], motion.crank_angle)
     position, d1, d2 = rows
-    return position, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
+    return (position, *rates_in_time(d1, d2, motion))
+
+
+def rates_in_time(d1: Any, d2: Any, motion: Motion) -> tuple[Any, Any]:
+    """Velocity and acceleration by the derivatives over the master angle."""
+    return d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
 
 
 def driver_torque(machine: Machine, driver: str, cycle: AxesCycle) -> Floats:
