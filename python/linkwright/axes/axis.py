@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
+from linkwright.axes.cycle import AxesCycle, axes_cycle, continued, start_cycle
 from linkwright.axes.driver_cycle import DriverCycle, Peak
 from linkwright.axes.duty import (
     MotorDuty,
@@ -242,7 +242,7 @@ def _axis(
     turns = turns_about(machine, driver)
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
-    torque = driver_torque(machine, driver, cycle)
+    torque = continued(cycle.angle, velocity, driver_torque(machine, driver, cycle))
     asked = driver_cycle(axis, cycle.time, velocity, acceleration, torque, inertia)
     duties = [
         None

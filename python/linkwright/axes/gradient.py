@@ -30,7 +30,7 @@ from linkwright.axes.axis import (
     the_axis,
 )
 from linkwright.axes.bus import bus_numbers, bus_power, dc_bus
-from linkwright.axes.cycle import AxesCycle, axes_cycle
+from linkwright.axes.cycle import AxesCycle, axes_cycle, continued
 from linkwright.axes.driver_cycle import Peak
 from linkwright.axes.duty import Numbers
 from linkwright.axes.inertia import inertia_angles, inertias_in
@@ -56,6 +56,9 @@ from linkwright.machine.tangents import Derivatives, Directions, directions
 
 # Samples of a smooth piece by which its slope at each is found, and how near an end is to its cause [rad].
 _STENCIL, _NEAR = 7, 1e-7
+
+# How far inside its piece an end is looked at [rad].
+_OFF = 1e-8
 
 # A peak below this share of the torques or powers of all axes is rounding.
 _NOTHING = 1e-12
@@ -118,7 +121,7 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
     cycle = axes_cycle(machine)
     # At the end of a cycle of the crankshaft its time is the period.
     of_speed = cycle_of(machine)
-    inside = cycle.forces.motion.crank_angle
+    inside = _off_ends(cycle.angle)
     drives = drives_along(machine, variables, np.append(inside, of_speed))
     program, along = drives.program, drives.scene.machine
     n, motion = len(program.variables), drives.scene.motion
@@ -141,6 +144,7 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
             (rows,) = compiled.motion([Channel.Slide(slide)], inside, program.values)
             rates = rates_in_time(rows.d1, rows.d2, motion)
         velocity, bend = (lifted(rate, n) for rate in rates)
+        torque = continued(cycle.angle, velocity.value, torque)
         slope = bend.value / cycle.forces.motion.speed
         drivers[name] = moved.along(velocity, slope), moved.along(bend), moved.along(torque)
     scene = unit_scene_along(machine, program.variables, inertia_angles(round(cycle.angle[-1] / (2 * math.pi))))
@@ -149,6 +153,15 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
         *(program, along, cycle, moved.along(time, 1 / cycle.forces.motion.speed)),
         *(drivers, inertias, drives.lost),
     )
+
+
+def _off_ends(angle: Floats) -> Floats:
+    """Angles of a cycle with the ends of pieces inside them: the core has one side of a kink that it is on."""
+    ends = np.flatnonzero(np.diff(angle) == 0)
+    inside = angle.copy()
+    inside[[0, *(ends + 1)]] += _OFF
+    inside[[*ends, -1]] -= _OFF
+    return inside
 
 
 @dataclass(frozen=True)
