@@ -12,6 +12,7 @@ AXIS = Analysis(
     applies=has_axes,
     parts=axis_names,
     part="axis",
+    mark=of("axes.axis:mark_of"),
     obstacle=of("axes.study:no_axes"),
     make=of("axes.study:made_axes"),
     tangents=of("axes.gradient:axis_tangents"),

@@ -115,6 +115,16 @@ class ServoAxis(Result):
         )
 
     @property
+    def utilisation(self) -> Annotated[float | None, Label("utilisation", "", "")]:
+        """Largest share of a limit over all checks: at most 1 if the axis passes.
+
+        None without a motor, or where a check cannot be made.
+        """
+        if not self.checks or any(check.passed is None for check in self.checks):
+            return None
+        return max(check.utilisation or 0.0 for check in self.checks)
+
+    @property
     def passes(self) -> bool | None:
         """Whether all checks are made and passed; None without a motor."""
         return None if self.axis.motor is None else all(check.passed for check in self.checks)
@@ -122,13 +132,12 @@ class ServoAxis(Result):
     @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: that of an angle, or of a driver that moves along a line."""
-        both = super().unit_of(name).split(" or ")
-        return both[0 if self.turns else -1]
+        return _unit(super().unit_of(name), self.turns)
 
     @public
     def word_of(self, name: str, word: str) -> str:
         """A driver that moves along a line is pushed by a force."""
-        return word if self.turns else word.replace("torque", "force").replace("inertia", "mass")
+        return _word(word, self.turns)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars, what the motor stands, and the checks, ready for JSON."""
@@ -137,6 +146,23 @@ class ServoAxis(Result):
         return (
             super().to_dict(curves=curves) | duties | {"checks": [check.to_dict() for check in self.checks]}
         )
+
+
+def _unit(unit: str, turns: bool) -> str:
+    """Of the units of a driver that turns, and of one that moves along a line, that of this one."""
+    return unit.split(" or ")[0 if turns else -1]
+
+
+def _word(word: str, turns: bool) -> str:
+    return word if turns else word.replace("torque", "force").replace("inertia", "mass")
+
+
+def mark_of(machine: Machine, name: str | None, mark: Label) -> Label:
+    """A quantity with the word and the unit that it has for an axis."""
+    name = name or next(iter(machine.axes), None)
+    axis = machine.axes.get(name or "")
+    turns = axis is None or turns_about(machine, axis.driver or str(name))
+    return mark._replace(word=_word(mark.word, turns), unit=_unit(mark.unit, turns))
 
 
 def _of_start(duty: MotorDuty | None, when: str) -> Iterator[Check]:
