@@ -35,7 +35,6 @@ def study(machine: lw.Machine) -> dict[str, float]:
 
 def figure(machine: lw.Machine):
     """Q over the radius of the fillets, with what the rule asks for."""
-    from linkwright.kernel.figure.legends import legend_above
     from linkwright.kernel.figure.style import INK, LINES, panels, styled
 
     @styled

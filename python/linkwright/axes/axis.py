@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 
-from linkwright.axes.cycle import AxesCycle, axes_cycle, start_cycle
-from linkwright.axes.driver_cycle import DriverCycle
-from linkwright.axes.duty import MotorDuty, motor_duty, start_checks
+from linkwright.axes.cycle import AxesCycle, axes_cycle, continued, start_cycle
+from linkwright.axes.driver_cycle import DriverCycle, Peak
+from linkwright.axes.duty import (
+    MotorDuty,
+    Numbers,
+    inertia_at_motor,
+    motor_course,
+    motor_duty,
+    root_mean_square,
+    start_checks,
+)
 from linkwright.axes.inertia import driver_inertias
 from linkwright.axes.model.axis import Axis
 from linkwright.axes.model.follower import family_of
@@ -22,6 +29,7 @@ from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
+from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.core import Channel
@@ -71,24 +79,25 @@ class ServoAxis(Result):
     @property
     def torque_max(self) -> Annotated[float, Label("peak torque at the driver", "M_q,max", "N m or N")]:
         """With its sign."""
-        return _peak(self.torque)
+        return Peak(self.time, self.torque).value
 
     @property
     def torque_max_angle(self) -> Annotated[float, Label("master angle of the peak torque", "", "rad")]:
         """Of the first, if there are several."""
-        return float(self.crank_angle[np.nanargmax(np.abs(self.torque))])
+        time = Peak(self.time, self.torque).places(0.0)[0].time
+        return float(np.interp(time, self.time, self.crank_angle))
 
     @property
     def velocity_max(self) -> Annotated[float, Label("peak velocity of the driver", "", "rad/s or m/s")]:
         """With its sign."""
-        return _peak(self.velocity)
+        return Peak(self.time, self.velocity).value
 
     @property
     def acceleration_max(
         self,
     ) -> Annotated[float, Label("peak acceleration of the driver", "", "rad/s² or m/s²")]:
         """With its sign."""
-        return _peak(self.acceleration)
+        return Peak(self.time, self.acceleration).value
 
     @property
     def advance(self) -> Annotated[float, Label("advance per cycle", "h", "rad or m")]:
@@ -110,6 +119,16 @@ class ServoAxis(Result):
         return (*self.motor.checks, *starts)
 
     @property
+    def utilisation(self) -> Annotated[float | None, Label("utilisation", "", "")]:
+        """Largest share of a limit over all checks: at most 1 if the axis passes.
+
+        None without a motor, or where a check cannot be made.
+        """
+        if not self.checks or any(check.passed is None for check in self.checks):
+            return None
+        return max(check.utilisation or 0.0 for check in self.checks)
+
+    @property
     def passes(self) -> bool | None:
         """Whether all checks are made and passed; None without a motor."""
         return None if self.axis.motor is None else all(check.passed for check in self.checks)
@@ -117,13 +136,12 @@ class ServoAxis(Result):
     @public
     def unit_of(self, name: str) -> str:
         """SI unit of an attribute: that of an angle, or of a driver that moves along a line."""
-        both = super().unit_of(name).split(" or ")
-        return both[0 if self.turns else -1]
+        return _unit(super().unit_of(name), self.turns)
 
     @public
     def word_of(self, name: str, word: str) -> str:
         """A driver that moves along a line is pushed by a force."""
-        return word if self.turns else word.replace("torque", "force").replace("inertia", "mass")
+        return _word(word, self.turns)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Scalars, what the motor stands, and the checks, ready for JSON."""
@@ -134,9 +152,21 @@ class ServoAxis(Result):
         )
 
 
-def _peak(values: Floats) -> float:
-    """The value that is largest in size, with its sign."""
-    return float(values[np.nanargmax(np.abs(values))])
+def _unit(unit: str, turns: bool) -> str:
+    """Of the units of a driver that turns, and of one that moves along a line, that of this one."""
+    return unit.split(" or ")[0 if turns else -1]
+
+
+def _word(word: str, turns: bool) -> str:
+    return word if turns else word.replace("torque", "force").replace("inertia", "mass")
+
+
+def mark_of(machine: Machine, name: str | None, mark: Label) -> Label:
+    """A quantity with the word and the unit that it has for an axis."""
+    name = name or next(iter(machine.axes), None)
+    axis = machine.axes.get(name or "")
+    turns = axis is None or turns_about(machine, axis.driver or str(name))
+    return mark._replace(word=_word(mark.word, turns), unit=_unit(mark.unit, turns))
 
 
 @public
@@ -165,8 +195,8 @@ def servo_axis(machine: Machine, name: str | None = None, *, speed: float | None
 
     Notes
     -----
-    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are those of
-    720 angles a revolution and of both sides of all ends of sections.
+    Kinetostatics with one unknown for each driver, by the exact derivatives of the laws; peaks are found
+    between 720 angles a revolution, and on both sides of all ends of sections.
     """
     name = the_axis(machine, name)
     return servo_axes(machine, speed=speed, names=(name,))[name]
@@ -235,22 +265,21 @@ def _axis(
     turns = turns_about(machine, driver)
     inertia = inertias.get(driver)
     position, velocity, acceleration = driver_motion(machine, driver, cycle)
-    torque = driver_torque(machine, driver, cycle)
-    asked = _driver_cycle(axis, turns, cycle.time, velocity, acceleration, torque, inertia)
+    torque = continued(cycle.angle, velocity, driver_torque(machine, driver, cycle))
+    asked = driver_cycle(axis, cycle.time, velocity, acceleration, torque, inertia, turns)
     started = {
-        when: _driver_cycle(
+        when: driver_cycle(
             axis,
-            turns,
             start.time,
             *driver_motion(machine, driver, start)[1:],
             driver_torque(machine, driver, start),
             inertia,
+            turns,
         )
         for when, start in zip(_STARTS, starts, strict=True)
         if start is not None
     }
     duties = [_duty(axis, started[when]) if when in started else None for when in _STARTS]
-    weights = asked.weights()
     return ServoAxis(
         crank_angle=cycle.angle,
         time=cycle.time,
@@ -259,7 +288,7 @@ def _axis(
         acceleration=acceleration,
         torque=torque,
         power=torque * velocity,
-        torque_rms=math.sqrt(max(float(weights @ torque**2) / asked.period, 0.0)),
+        torque_rms=float(root_mean_square(asked.weights(), torque, asked.period)),
         inertia_mean=inertia,
         name=name,
         driver=driver,
@@ -273,14 +302,32 @@ def _axis(
     )
 
 
-def _driver_cycle(
-    axis: Axis,
-    turns: bool,
-    time: Floats,
-    velocity: Floats,
-    acceleration: Floats,
-    torque: Floats,
-    inertia: float | None,
+def axis_inertia(axis: Axis) -> Any:
+    """Inertia of all that turns at the speed of the motor [kg m²]."""
+    coupling = 0.0 if axis.coupling is None else axis.coupling.inertia
+    return inertia_at_motor(axis.motor or _NO_MOTOR, axis.gearbox, coupling)
+
+
+def axis_numbers(
+    axis: Axis, time: Any, velocity: Any, acceleration: Any, torque: Any, inertia: Any
+) -> Numbers:
+    """Means and peaks of an axis and its motor by the attribute of the result, in any number.
+
+    All but the time are those of the driver.
+    """
+    asked = driver_cycle(axis, time, velocity, acceleration, torque, inertia)
+    rotor = 0.0 if axis.motor is None else axis.motor.rotor
+    course = motor_course(asked.divided(), axis_inertia(axis), rotor, axis.gearbox)
+    own = {"torque_max": torque, "velocity_max": velocity, "acceleration_max": acceleration}
+    means = {f"motor.{name}": mean for name, mean in course.means.items()}
+    means |= {"motor.inertia_ratio": course.inertia_ratio, "inertia_mean": inertia}
+    means |= {"torque_rms": root_mean_square(asked.weights(), torque, asked.period)}
+    peaks = {name: Peak(asked.time, curve) for name, curve in own.items()}
+    return Numbers(means, peaks | {f"motor.{name}": peak for name, peak in course.peaks.items()})
+
+
+def driver_cycle(
+    axis: Axis, time: Any, velocity: Any, acceleration: Any, torque: Any, inertia: Any, turns: bool = False
 ) -> DriverCycle:
     """What a driver asks of its drive, referred to the pinion or screw where it moves along a line."""
     if turns or axis.gearbox.per_turn is None:
@@ -308,18 +355,30 @@ def turns_about(machine: Machine, driver: str) -> bool:
     return family_of(machine.mechanism, driver) != "lift"
 
 
+def slide_of(machine: Machine, driver: str) -> int | None:
+    """Place of a driver's position in the program; None for what turns with the master."""
+    slides = compile_machine(machine).slides
+    if driver in machine.mechanism.cams:
+        return None
+    return slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
+
+
 def driver_motion(machine: Machine, driver: str, cycle: AxesCycle) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a driver; a camshaft turns with the master."""
-    compiled, motion = compile_machine(machine), cycle.forces.motion
-    slide = compiled.slides.get(angle_name(driver) if turns_about(machine, driver) else driver)
-    if driver in machine.mechanism.cams or slide is None:
+    compiled, motion, slide = compile_machine(machine), cycle.forces.motion, slide_of(machine, driver)
+    if slide is None:
         crank = machine.mechanism.cranks.get(driver)
         start = 0.0 if crank is None else float(crank.phase)
         return cycle.angle + start, motion.speed, motion.acceleration
     (rows,) = compiled.motion([Channel.Slide(slide)], motion.crank_angle)
     position, d1, d2 = rows
     position = position + d1 * (cycle.angle - motion.crank_angle)  # both sides of an end are one position
-    return position, d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
+    return (position, *rates_in_time(d1, d2, motion))
+
+
+def rates_in_time(d1: Any, d2: Any, motion: Motion) -> tuple[Any, Any]:
+    """Velocity and acceleration by the derivatives over the master angle."""
+    return d1 * motion.speed, d2 * motion.speed**2 + d1 * motion.acceleration
 
 
 def driver_torque(machine: Machine, driver: str, cycle: AxesCycle) -> Floats:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from linkwright.axes.axis import ServoAxis, driver_motion, driver_torque, servo_axes
+from linkwright.axes.axis import ServoAxis, axis_inertia, driver_motion, driver_torque, servo_axes
 from linkwright.axes.cycle import AxesCycle, axes_cycle
-from linkwright.axes.driver_cycle import integration_weights
+from linkwright.axes.driver_cycle import DriverCycle, Peak, integration_weights, joined, running_integral
+from linkwright.axes.duty import Numbers, energy_back, motor_torque
+from linkwright.axes.model.axis import Axis
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -18,6 +21,9 @@ from linkwright.machine.machine import Machine
 
 # Share of the peak power that the integration of the mean leaves.
 _ROUNDING = 1e-9
+
+
+_EXTREMES: tuple[Literal["max", "min"], ...] = ("max", "min")
 
 
 @dataclass(frozen=True)
@@ -98,45 +104,55 @@ def dc_bus(machine: Machine, *, speed: float | None = None) -> DcBus:
 
 def bus_of(machine: Machine, axes: dict[str, ServoAxis], cycle: AxesCycle) -> DcBus:
     """The bus of axes that are known."""
-    weights = integration_weights(cycle.time)
-    period = float(cycle.time[-1] - cycle.time[0])
-    powers = {name: motor_power(axis) for name, axis in axes.items()}
-    power: Floats = np.sum(list(powers.values()), axis=0)
-    mean = float(weights @ power) / period
+    asked = {name: axis.cycle for name, axis in axes.items()}
+    time, powers, power = bus_power(machine, asked)
+    means, peaks = bus_numbers(time, powers, power)
     # Axes without losses take nothing on average, but for the integration.
-    mean = mean if abs(mean) > _ROUNDING * float(np.max(np.abs(power))) else 0.0
-    back = float(weights @ np.maximum(-power, 0.0))
-    alone = sum(float(weights @ np.maximum(-each, 0.0)) for each in powers.values())
-    stored = _running(cycle.time, power - mean)
+    if abs(means["power_mean"]) <= _ROUNDING * float(np.max(np.abs(power))):
+        means["power_mean"] = 0.0
     return DcBus(
-        crank_angle=cycle.angle,
-        time=cycle.time,
+        crank_angle=np.interp(time, cycle.time, cycle.angle),
+        time=time,
         power=power,
-        power_max=float(power.max()),
-        power_min=float(power.min()),
-        power_mean=mean,
-        energy_regenerated=back,
-        energy_shared=max(alone - back, 0.0),
-        energy_swing=float(np.ptp(stored)),
         power_residual=power_residual(machine, cycle),
         powers=powers,
+        **{name: float(mean) for name, mean in means.items()},
+        **{name: peak.value for name, peak in peaks.items()},
     )
 
 
-def motor_power(axis: ServoAxis) -> Floats:
-    """Power at the motor shaft of an axis at the samples of its cycle."""
-    speed, acceleration, load = axis.cycle.geared(axis.axis.gearbox)
-    own = axis.axis
-    inertia = own.gearbox.inertia + (0.0 if own.coupling is None else own.coupling.inertia)
-    inertia += 0.0 if own.motor is None else own.motor.rotor
-    power: Floats = (inertia * acceleration + load) * speed
-    return power
+def bus_power(machine: Machine, asked: Mapping[str, DriverCycle]) -> tuple[Any, dict[str, Any], Any]:
+    """Times, power of each axis at its motor shaft, and of all, in any number.
+
+    Pieces end where the power of any driver changes its sign, and losses jump.
+    """
+    ends = joined([cycle.ends() for cycle in asked.values()])
+    divided = {name: cycle.divided(ends) for name, cycle in asked.items()}
+    powers = {name: motor_power(machine.axes[name], cycle) for name, cycle in divided.items()}
+    first = next(iter(divided.values()))
+    return first.time, powers, sum(powers.values())
 
 
-def _running(time: Floats, power: Floats) -> Floats:
-    """Energy from the start on."""
-    steps = 0.5 * (power[1:] + power[:-1]) * np.diff(time)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+def bus_numbers(time: Any, powers: Mapping[str, Any], power: Any) -> Numbers:
+    """Means and peaks of the bus, in any number."""
+    mean = np.sum(integration_weights(time) * power) / (time[-1] - time[0])
+    back = energy_back(time, power)
+    alone = sum(energy_back(time, each) for each in powers.values())
+    stored = running_integral(time, power - mean)
+    high, low = (Peak(time, stored, end).places(0.0)[0].value for end in _EXTREMES)
+    means = {
+        "power_mean": mean,
+        "energy_regenerated": back,
+        "energy_shared": max(alone - back, 0.0),
+        "energy_swing": high - low,
+    }
+    return Numbers(means, {f"power_{end}": Peak(time, power, end) for end in _EXTREMES})
+
+
+def motor_power(axis: Axis, cycle: DriverCycle) -> Any:
+    """Power at the motor shaft of an axis over a cycle that is divided."""
+    speed, torque = motor_torque(cycle, axis_inertia(axis), axis.gearbox)
+    return speed * torque
 
 
 def power_residual(machine: Machine, cycle: AxesCycle) -> float:

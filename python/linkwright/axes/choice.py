@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from linkwright.axes.driver_cycle import DriverCycle
+from linkwright.axes.driver_cycle import DriverCycle, Peak
 from linkwright.axes.duty import INERTIA_RATIO, OF_STARTS, MotorDuty, motor_duty, start_checks
 from linkwright.axes.model.axis_catalogue import CatalogueGearbox, CatalogueServo
 from linkwright.axes.model.servo_motor import TorqueCurve
@@ -251,7 +251,8 @@ def _utilisations(
     top = np.array([servo.motor.top_speed or np.nan for servo in servos])
     means = cycle.weights() / cycle.period
     speed_mean = float(means @ np.abs(cycle.speed))
-    speed_peak, torque_peak = (float(np.max(np.abs(x))) for x in (cycle.speed, cycle.torque))
+    speed_peak = Peak(cycle.time, np.abs(cycle.speed), "max").value
+    torque_peak = float(np.max(np.abs(cycle.torque)))
     torque_rms = float(np.sqrt(means @ cycle.torque**2))
     ratios = np.array([each.gearbox.ratio for each in gears])
     continuous = np.array([_beyond(servo.motor.continuous, speed_mean * ratios) for servo in servos])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -38,6 +39,9 @@ _STARTING = 120
 # By how much an end of a piece is looked at inside the piece [rad], and pieces shorter than that are none.
 _INSIDE, _SHORT = 1e-10, 1e-8
 
+# Share of its peak below which a velocity is rest, and weights of even samples in the value before them.
+_REST, _CONTINUE = 1e-9, (6.0, -15.0, 20.0, -15.0, 6.0, -1.0)
+
 # Accuracy of the steady motion of a crankshaft that is the master.
 _ACCURACY = 1e-10
 
@@ -53,6 +57,24 @@ class AxesCycle:
     def time(self) -> Floats:
         """From the start of the cycle [s]."""
         return self.forces.time
+
+
+def continued(angle: Floats, velocity: Floats, torque: Any) -> Any:
+    """The torque of a driver, at rest at the end of a piece that moves as the piece leads to it.
+
+    Friction there has no sense of its own; the polynomial through the next samples has.
+    """
+    rests = np.abs(velocity) <= _REST * np.max(np.abs(velocity), initial=0.0)
+    bounds = [0, *(np.flatnonzero(np.diff(angle) == 0) + 1), len(angle)]
+    torque = torque.copy()
+    for first, last in pairwise(bounds):
+        for end, step in ((first, 1), (last - 1, -1)):
+            inside = end + step * np.arange(1, len(_CONTINUE) + 1)
+            if last - first > len(_CONTINUE) and rests[end] and not rests[inside[0]]:
+                torque[end] = sum(
+                    share * torque[int(at)] for share, at in zip(_CONTINUE, inside, strict=True)
+                )
+    return torque
 
 
 def axes_cycle(machine: Machine, speed: float | None = None) -> AxesCycle:

@@ -1,15 +1,16 @@
 r"""Speed and torque at a driver over a cycle, piece by piece, and their means over time.
 
-Each piece is integrated for itself, with cubics through neighbouring samples: means are exact for a law of
-pieces. It is divided where the power changes its sign, since losses jump there. Samples may carry tangents;
+Each piece is integrated for itself, with polynomials through neighbouring samples, and so are extremes found
+between these: means and peaks are exact for a law of pieces. It is divided where the power changes its sign, since losses jump there. Samples may carry tangents;
 their instants then move with the ends of the pieces.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Self
+from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
 
@@ -22,6 +23,18 @@ from linkwright.machine.program.drive_line import reverse_factor
 # Share of the peak speed or torque below which a sample counts as rest, or as no load: rounding.
 _REST = 1e-9
 
+# Samples through which a curve is laid to integrate it over an interval.
+_ORDER = 6
+
+# Samples through which a curve is laid beside its peak, and of which it takes that many; rounds of Newton.
+_STENCIL, _TURNS, _ROUNDS = 7, 4, 6
+
+# How far a rival may seem to stay below the peak, as a share of the range, and how many are compared.
+_DOUBT, _COMPARED = 1e-2, 24
+
+# An end between two samples is told apart from these by this share of the interval.
+_INSIDE = 1e-9
+
 
 class Ends(NamedTuple):
     """Where pieces are divided: between samples, at a share of the interval, and at samples."""
@@ -33,7 +46,8 @@ class Ends(NamedTuple):
     def among(self, columns: list[Any]) -> list[Any]:
         """Columns with both sides of every end; between two samples values are those on straight lines."""
         at, n = self.after, len(primal(columns[0]))
-        place = np.concatenate([np.arange(n), np.repeat(at, 2) + 0.5, self.own])
+        inside = np.clip(primal(self.share), _INSIDE, 1 - _INSIDE)
+        place = np.concatenate([np.arange(n), np.repeat(at + inside, 2), self.own])
         order = np.argsort(place, kind="stable")
         return [
             np.concatenate([column, *self._between(column), column[self.own]])[order] for column in columns
@@ -44,6 +58,12 @@ class Ends(NamedTuple):
         first = column[self.after]
         crossing = first + self.share * (column[self.after + 1] - first)
         return [crossing[np.repeat(np.arange(len(self.after)), 2)]]
+
+
+def joined(ends: Sequence[Ends]) -> Ends:
+    """All of several ends."""
+    own = np.array(sorted({int(place) for each in ends for place in each.own}), dtype=np.intp)
+    return Ends(*(np.concatenate([each[part] for each in ends]) for part in (0, 1)), own)
 
 
 def sign_changes(time: Any, value: Any) -> Ends:
@@ -157,22 +177,112 @@ def _without_specks(values: Floats) -> Floats:
 def integration_weights(time: Any) -> Any:
     """Weights of samples in an integral over time, each piece between equal times for itself.
 
-    Over each interval the cubic through its four nearest samples of the piece is integrated.
+    Over each interval the polynomial through its six nearest samples of the piece is integrated.
     """
     weights = zeros_for((time,), (len(primal(time)),))
+    for _, stencil, share in _intervals(time):
+        np.add.at(weights, stencil, share)
+    return weights
+
+
+def running_integral(time: Any, values: Any) -> Any:
+    """Integral of values from the start up to each sample."""
+    steps = zeros_for((time, values), (len(primal(time)),))
+    for behind, stencil, share in _intervals(time):
+        steps[behind] = np.sum(share * values[stencil], axis=-1)
+    return np.cumsum(steps)
+
+
+def _intervals(time: Any) -> Iterator[tuple[Any, Any, Any]]:
+    """Samples at the ends of the intervals of each piece, those that each integral takes, and their weights."""
     ends = np.flatnonzero(np.diff(primal(time)) == 0) + 1
     for first, last in zip([0, *ends], [*ends, len(primal(time))], strict=True):
         n = last - first
         if n < 2:
             continue
-        order = min(4, n)
+        order = min(_ORDER, n)
         left = first + np.arange(n - 1)
-        stencil = np.clip(left - 1, first, last - order)[:, None] + np.arange(order)
+        stencil = np.clip(left - order // 2 + 1, first, last - order)[:, None] + np.arange(order)
         width = time[left + 1] - time[left]
         nodes = (time[stencil] - time[left][:, None]) / width[:, None]
-        moments = 1 / (np.arange(order) + 1)
+        moments = np.broadcast_to(1 / (np.arange(order) + 1), (n - 1, order))
         matrix = np.stack([nodes**power for power in range(order)], axis=1)
-        share = np.linalg.solve(primal(matrix), np.broadcast_to(moments, (n - 1, order))[:, :, None])[:, :, 0]
+        share = np.linalg.solve(primal(matrix), moments[:, :, None])[:, :, 0]
         share = solution_along(share, np.einsum("nij,nj->ni", matrix, share) - moments, primal(matrix))
-        np.add.at(weights, stencil, share * width[:, None])
-    return weights
+        yield left + 1, stencil, share * width[:, None]
+
+
+class Place(NamedTuple):
+    """Where a curve turns back."""
+
+    time: float  # [s]
+    value: Any
+
+
+class Peak(NamedTuple):
+    """A curve of which one value is wanted: the largest in size, with its sign, the maximum or the minimum."""
+
+    time: Any
+    curve: Any
+    kind: Literal["size", "max", "min"] = "size"
+
+    @property
+    def value(self) -> float:
+        """The peak."""
+        return float(primal(self.places(0.0)[0].value))
+
+    def places(self, tie: float) -> list[Place]:
+        """The peak, and all that is as high but for a share of the range.
+
+        Between samples it is that of the polynomial through the nearest of its piece.
+        """
+        time, plain = primal(self.time), primal(self.curve)
+        height = {"size": np.abs(plain), "max": plain, "min": -plain}[self.kind]
+        known = np.isfinite(height)
+        if not known.all():
+            height = np.where(known, height, -np.inf)
+        top, span = float(height.max()), float(np.ptp(height[known]))
+        step = np.diff(time) > 0
+        rises = np.append(True, ~step | (height[1:] >= height[:-1]))
+        falls = np.append(~step | (height[:-1] >= height[1:]), True)
+        high = np.flatnonzero(rises & falls & (height >= top - _DOUBT * span))
+        # Of a curve that is level some places stand for all.
+        high = high[np.argsort(-height[high], kind="stable")]
+        high = np.append(high[:1], high[1 :: max(1, len(high) // _COMPARED)])
+        places = [self._near(int(k)) for k in high]
+        heights = [abs(primal(p.value)) if self.kind == "size" else primal(p.value) for p in places]
+        if self.kind == "min":
+            heights = [-height for height in heights]
+        best = int(np.argmax(heights))
+        order = sorted(range(len(places)), key=lambda k: (k != best, -heights[k]))
+        return [places[k] for k in order if heights[k] >= heights[best] - tie * span]
+
+    def _near(self, k: int) -> Place:
+        """Where the curve turns back beside its sample `k`."""
+        time, plain = primal(self.time), primal(self.curve)
+        ends = np.flatnonzero(np.diff(time) == 0) + 1
+        first = int(max(ends[ends <= k], default=0))
+        last = int(min(ends[ends > k], default=len(time)))
+        start = int(np.clip(k - _STENCIL // 2, first, max(first, last - _STENCIL)))
+        stencil = np.arange(start, min(start + _STENCIL, last))
+        sides = time[max(k - 1, first)], time[min(k + 1, last - 1)]
+        if len(stencil) < _TURNS or not np.isfinite(plain[stencil]).all():
+            return Place(float(time[k]), self.curve[k])
+        width = (sides[1] - sides[0]) / 2
+        x = (time[stencil] - time[k]) / width
+        line = np.polynomial.Polynomial(np.linalg.solve(np.vander(x, increasing=True), plain[stencil]))
+        slope = line.deriv()
+        sense = math.copysign(1.0, plain[k]) if self.kind == "size" else 1.0 if self.kind == "max" else -1.0
+        low, high = ((side - time[k]) / width for side in sides)
+        at = 0.0
+        for _ in range(_ROUNDS):
+            bend = float(slope.deriv()(at))
+            if sense * bend >= 0:
+                return Place(float(time[k]), self.curve[k])
+            at -= float(slope(at)) / bend
+        if not low < at < high or sense * line(at) < sense * plain[k]:
+            return Place(float(time[k]), self.curve[k])
+        # At a fixed time: samples that move have the slope there taken off.
+        shares = np.linalg.solve(np.vander(x, increasing=True).T, at ** np.arange(len(x)))
+        there = self.curve[stencil] - slope(x) / width * (self.time[stencil] - time[stencil])
+        return Place(float(time[k] + at * width), np.sum(shares * there))

@@ -18,7 +18,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from linkwright.axes.driver_cycle import DriverCycle, integration_weights, sign_changes
+from linkwright.axes.driver_cycle import DriverCycle, Peak, integration_weights, sign_changes
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.axes.model.servo_motor import ServoMotor, TorqueCurve
 from linkwright.kernel.arrays import Floats
@@ -104,6 +104,13 @@ class MotorDuty(Result):
         return tree | {"failed": [check.name for check in self.failed], "checks": checks}
 
 
+class Numbers(NamedTuple):
+    """Quantities by the attribute of a result, in any number."""
+
+    means: dict[str, Any]
+    peaks: dict[str, Peak]
+
+
 class MotorCourse(NamedTuple):
     """What a cycle asks of a motor, in any number."""
 
@@ -112,8 +119,14 @@ class MotorCourse(NamedTuple):
     torque: Any
     power: Any
     means: dict[str, Any]  # means over time by the attribute of `MotorDuty`
-    peaks: dict[str, Any]  # curves whose maximum is an attribute
+    peaks: dict[str, Peak]
     inertia_ratio: Any
+
+
+def motor_torque(cycle: DriverCycle, at_motor: Any, gearbox: AxisGearbox) -> tuple[Any, Any]:
+    """Speed and torque of a motor over a cycle that is `divided`; `at_motor` as in `motor_course`."""
+    speed, acceleration, load = cycle.geared(gearbox)
+    return speed, at_motor * acceleration + load
 
 
 def motor_course(cycle: DriverCycle, at_motor: Any, rotor: Any, gearbox: AxisGearbox) -> MotorCourse:
@@ -121,8 +134,7 @@ def motor_course(cycle: DriverCycle, at_motor: Any, rotor: Any, gearbox: AxisGea
 
     `at_motor`: inertia of all that turns at the motor's speed; `rotor`: that of the motor alone [kg m²].
     """
-    speed, acceleration, load = cycle.geared(gearbox)
-    torque = at_motor * acceleration + load
+    speed, torque = motor_torque(cycle, at_motor, gearbox)
     power = torque * speed
     weights, regenerated = cycle.weights(), energy_back(cycle.time, power)
     others = None if cycle.inertia is None else cycle.inertia / gearbox.ratio**2 + at_motor - rotor
@@ -133,10 +145,10 @@ def motor_course(cycle: DriverCycle, at_motor: Any, rotor: Any, gearbox: AxisGea
         "energy_regenerated": regenerated,
     }
     peaks = {
-        "torque_peak": _size(torque),
-        "speed_peak": _size(speed),
-        "power_peak": positive_part(power),
-        "power_braking_peak": positive_part(-power),
+        "torque_peak": Peak(cycle.time, _size(torque), "max"),
+        "speed_peak": Peak(cycle.time, _size(speed), "max"),
+        "power_peak": Peak(cycle.time, power, "max"),
+        "power_braking_peak": Peak(cycle.time, -power, "max"),
     }
     ratio = others / rotor if others is not None and rotor > 0 else None
     return MotorCourse(cycle.time, speed, torque, power, means, peaks, ratio)
@@ -193,7 +205,7 @@ def motor_duty(
         inertia_ratio=course.inertia_ratio,
         checks=(),
         **{name: float(mean) for name, mean in course.means.items()},
-        **{name: float(np.max(curve)) for name, curve in course.peaks.items()},
+        **{name: peak.value for name, peak in course.peaks.items()},
     )
     torque = np.abs(cycle.torque)
     output = float(torque.max()), root_mean_square(cycle.weights(), torque, cycle.period)

@@ -30,7 +30,7 @@ def cylinder_tangents(machine: Machine, name: str, variables: Sequence[str]) -> 
         curves["pressure_max"] = np.maximum(known.pressure_bore, known.pressure_rod)
     places = {key: int(np.nanargmax(curve)) for key, curve in curves.items()}
     angles = np.unique(known.crank_angle[list(places.values())])
-    program, scene, drives, lost, kinks = drives_along(machine, variables, angles)
+    program, scene, drives, _, lost, kinks = drives_along(machine, variables, angles)
     cylinder, slide = scene.machine.mechanism.cylinders[name], scene.kinematics.slides[name]
     velocity = slide.d1 * scene.motion.speed
     force = drives[name] if cylinder.drives else force_of(cylinder, slide.position, velocity)

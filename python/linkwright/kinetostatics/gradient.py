@@ -29,6 +29,7 @@ from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.forces import acting, solved
 from linkwright.kinetostatics.motion import Motion, motion_at, over_turns
+from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
 from linkwright.linkages.closure import closure_of
@@ -120,6 +121,7 @@ class DrivesAlong(NamedTuple):
     program: Directions  # the entries that have some
     scene: Scene  # machine and motion
     forces: dict[str, Any]  # of drives and cams by name, (n,) each
+    shaft_torques: dict[str, Any]  # the same referred to the shaft that all follow
     lost: dict[str, float]  # entries by which the motion is lost
     kinks: Kinks
 
@@ -137,7 +139,23 @@ def drives_along(machine: Machine, variables: Sequence[str], angles: Floats) -> 
         motion = _read(machine, solution, angles)
     along, lost, _ = _motion_along(machine, motion, entries, solution)
     scene = _SceneAlong(machine, along, entries)
-    return DrivesAlong(program, scene, _collected(scene).drives(), lost, kinks_of(machine, program))
+    of = _collected(scene)
+    return DrivesAlong(program, scene, of.drives(), of.shaft_torques(), lost, kinks_of(machine, program))
+
+
+def unit_scene_along(machine: Machine, variables: Sequence[str], angles: Floats) -> Scene:
+    """A machine at crank angles at unit speed, with derivatives by some entries that have some."""
+    motion = Motion(angles, np.ones(len(angles)), np.zeros(len(angles)), angles)
+    return _SceneAlong(machine, motion, _entries(machine, variables))
+
+
+def unknowns_along(scene: Scene, models: list[PairModel], columns: Mapping[str, AppliedLoad]) -> Any:
+    """Forces of pairs and drives under each of several loads alone, (n, unknowns, columns)."""
+    listed = []
+    for load in columns.values():
+        system, found = solved(scene, models, {"": load})
+        listed.append(_along(system, found, load).x[:, :, 0])
+    return np.stack(listed, axis=-1)
 
 
 def drive_torque_along(

@@ -97,6 +97,7 @@ class Analysis:
     applies: Callable[[Machine], bool] = _always
     parts: Callable[[Machine], tuple[str, ...]] | None = None  # names of parts, of an analysis of several
     part: str = ""  # what a part is called, such as "cam"
+    mark: Of | None = None  # of machine, part and `Label` of a quantity: word and unit that it has there
     obstacle: Of | None = None
     is_of_study: bool = True  # whether a study has it
     is_motion: bool = False  # whether its tables and figures belong to the report's part on motion

@@ -14,6 +14,7 @@
 | ``topper.…`` | closed forms, and conditions of the worst head (`linkwright.topping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
 | ``cam_force.CAM.…`` | the same, and Hertz' formula (`linkwright.cam.dynamics.gradient`) |
+| ``axis.AXIS.…``, ``dc_bus.…`` | the equilibrium at samples that move (`linkwright.axes.gradient`) |
 | ``linkage.ELEMENT.…`` | the motion at fixed crank angles (`linkwright.linkages.gradient`) |
 | ``forces.…``, ``forces.reaction_max.PAIR`` | the equilibrium (`linkwright.kinetostatics.gradient`) |
 """
@@ -111,8 +112,9 @@ def chosen(listed: Collection[str], asked: str) -> list[str]:
     if asked in listed:
         return [asked]
     first, _, rest = asked.partition(".")
+    parts = {name: name.split(".", 2) for name in listed}
     below = [name for name in listed if name.startswith(f"{asked}.")]
-    return below or [name for name in listed if rest and name.split(".")[::2] == [first, rest]]
+    return below or [name for name in listed if rest and parts[name][::2] == [first, rest]]
 
 
 def analysis_of(response: str) -> str:

@@ -103,6 +103,9 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
     if wants_curve and not is_array(owner, quantity):
         raise wrong(name, key, f"{text}, which is a number", "a curve", f'write "{text}" alone')
     mark = known[quantity]
+    of_part = ANALYSES[first].mark
+    if of_part is not None and not inner:
+        mark = of_part(machine, ".".join(of) or None, mark)
     axes = tuple(axis.strip() for axis in mark.shape.strip("()").split(",") if axis.strip())
     _require_part(
         machine, first, of, axes, lambda remedy: wrong(name, key, text, "a name that there is", remedy)
@@ -157,8 +160,12 @@ def _asked_for(first: str, owner: type, rest: list[str], response: Response) -> 
 
 def _within(owner: type, rest: list[str]) -> tuple[type, str, list[str]]:
     """The result within a result that names lead to, its name there, and what is left of them."""
-    kind = result_within(owner, rest[0]) if len(rest) > 1 else None
-    return (owner, "", rest) if kind is None else (kind, rest[0], rest[1:])
+    for at in range(min(2, len(rest) - 1)):
+        # After the name of a part, if there is one.
+        kind = result_within(owner, rest[at])
+        if kind is not None:
+            return kind, rest[at], [*rest[:at], *rest[at + 1 :]]
+    return owner, "", rest
 
 
 def require_place(machine: Machine, response: StudyResponse) -> None:

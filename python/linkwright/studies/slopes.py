@@ -216,7 +216,7 @@ def _address(asked: StudyResponse) -> str:
     inner = (asked.inner,) if asked.inner else ()
     if asked.analysis in ("forces", "free_vibration", "forced_vibration"):
         return ".".join((asked.analysis, asked.quantity, *place, *asked.of))
-    return ".".join((_analysis(asked), *inner, *asked.of, asked.quantity, *place))
+    return ".".join((_analysis(asked), *asked.of, *inner, asked.quantity, *place))
 
 
 def _is_over_speeds(asked: StudyResponse) -> bool:

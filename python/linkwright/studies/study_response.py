@@ -27,7 +27,7 @@ LINKAGE = "linkage"
 CYCLE = "cycle_motion"
 
 # Analyses of one part of the machine, by its name.
-OF_ONE_PART = ("cam", "cam_check", "cam_force", "cylinder")
+OF_ONE_PART = ("cam", "cam_check", "cam_force", "cylinder", "axis")
 
 # Parts of a train that a list of curves has a row for.
 PARTS = ("discs", "shafts")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,6 +14,7 @@ from linkwright.cam.model.motion_section import Family, MotionSection, programme
 from linkwright.drive.model.drive import Drive, design_speed
 from linkwright.kernel.description.place import arrays, join
 from linkwright.kernel.errors import ShapeError
+from linkwright.kernel.numerics.tangent import total
 from linkwright.linkages.model.cylinder import Cylinder
 from linkwright.linkages.model.element import Crank, LinearDriver
 
@@ -74,8 +74,8 @@ def cycle_time_of(master: Master | None, drive: Drive | None) -> float | None:
 def whole_sections(axis: Axis, cycle_time: float | None) -> tuple[MotionSection, ...]:
     """The sections of a cycle over angles of the master, with the dwell that is left of it."""
     given = tuple(section.over(cycle_time) for section in axis.sections)
-    left = TURN - math.fsum(section.angle for section in given)
-    return (*given, MotionSection(angle=left)) if left > CLOSES * TURN else given
+    left = TURN - total(section.angle for section in given)
+    return (*given, MotionSection.model_construct(angle=left)) if left > CLOSES * TURN else given
 
 
 def family_of(mechanism: object, driver: str) -> Family | None:
