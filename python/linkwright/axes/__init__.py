@@ -14,6 +14,7 @@
 | `export/` | Laws as cam tables of motion controllers, read back and compared |
 | `feasibility` | Accelerating factor and load factor: which ratios are feasible for a motor |
 | `figures` | Timing diagram, torque over speed, power of the bus |
+| `gradient` | Derivatives of axes and bus |
 | `inertia` | Inertia at each driver, all others held |
 | `study` | Axes in the study of a machine |
 | `tables` | A row an axis, checks, bus, timing |
