@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
@@ -17,11 +18,14 @@ import numpy as np
 from linkwright.axes.model.axis_gearbox import AxisGearbox
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.implicit import solution_along
-from linkwright.kernel.numerics.tangent import primal, zeros_for
+from linkwright.kernel.numerics.tangent import Tangent, primal, zeros_for
 from linkwright.machine.program.drive_line import reverse_factor
 
 # Share of the peak speed or torque below which a sample counts as rest, or as no load: rounding.
 _REST = 1e-9
+
+# Nodes that differ by less from even ones are even.
+_EVEN = 1e-9
 
 # Samples through which a curve is laid to integrate it over an interval.
 _ORDER = 6
@@ -63,7 +67,8 @@ class Ends(NamedTuple):
 def joined(ends: Sequence[Ends]) -> Ends:
     """All of several ends."""
     own = np.array(sorted({int(place) for each in ends for place in each.own}), dtype=np.intp)
-    return Ends(*(np.concatenate([each[part] for each in ends]) for part in (0, 1)), own)
+    after, share = (np.concatenate([each[part] for each in ends]) for part in (0, 1))
+    return Ends(after, share, own)
 
 
 def sign_changes(time: Any, value: Any) -> Ends:
@@ -205,11 +210,39 @@ def _intervals(time: Any) -> Iterator[tuple[Any, Any, Any]]:
         stencil = np.clip(left - order // 2 + 1, first, last - order)[:, None] + np.arange(order)
         width = time[left + 1] - time[left]
         nodes = (time[stencil] - time[left][:, None]) / width[:, None]
-        moments = np.broadcast_to(1 / (np.arange(order) + 1), (n - 1, order))
-        matrix = np.stack([nodes**power for power in range(order)], axis=1)
-        share = np.linalg.solve(primal(matrix), moments[:, :, None])[:, :, 0]
-        share = solution_along(share, np.einsum("nij,nj->ni", matrix, share) - moments, primal(matrix))
-        yield left + 1, stencil, share * width[:, None]
+        yield left + 1, stencil, _shares(nodes, left - stencil[:, 0]) * width[:, None]
+
+
+def _shares(nodes: Any, place: Any) -> Any:
+    """Weights of samples at nodes, (n, order), in an integral from 0 to 1; `place`: of the node at 0."""
+    order = nodes.shape[1]
+    shares = _even_shares(order)[place]
+    # Beside an end that was put between two samples these are not even.
+    even = np.abs(primal(nodes) - (np.arange(order) - place[:, None])).max(axis=1) < _EVEN
+    if isinstance(nodes, Tangent):
+        even[:] = False
+    if not even.all():
+        solved = _solved_shares(nodes[~even])
+        shares = solved if not even.any() else shares
+        if even.any():
+            shares[~even] = solved
+    return shares
+
+
+def _solved_shares(nodes: Any) -> Any:
+    """Such weights by the integrals of powers."""
+    order = nodes.shape[1]
+    moments = np.broadcast_to(1 / (np.arange(order) + 1), nodes.shape)
+    matrix = np.stack([nodes**power for power in range(order)], axis=1)
+    share = np.linalg.solve(primal(matrix), moments[:, :, None])[:, :, 0]
+    return solution_along(share, np.einsum("nij,nj->ni", matrix, share) - moments, primal(matrix))
+
+
+@cache
+def _even_shares(order: int) -> Floats:
+    """Such weights for even nodes, by the place of the node at 0."""
+    shares: Floats = _solved_shares(np.arange(float(order)) - np.arange(float(order))[:, None])
+    return shares
 
 
 class Place(NamedTuple):
@@ -270,19 +303,22 @@ class Peak(NamedTuple):
             return Place(float(time[k]), self.curve[k])
         width = (sides[1] - sides[0]) / 2
         x = (time[stencil] - time[k]) / width
-        line = np.polynomial.Polynomial(np.linalg.solve(np.vander(x, increasing=True), plain[stencil]))
-        slope = line.deriv()
+        powers = np.vander(x)
+        line = np.linalg.solve(powers, plain[stencil])
+        slope, bends = np.polyder(line), np.polyder(line, 2)
         sense = math.copysign(1.0, plain[k]) if self.kind == "size" else 1.0 if self.kind == "max" else -1.0
         low, high = ((side - time[k]) / width for side in sides)
         at = 0.0
         for _ in range(_ROUNDS):
-            bend = float(slope.deriv()(at))
+            bend = float(np.polyval(bends, at))
             if sense * bend >= 0:
                 return Place(float(time[k]), self.curve[k])
-            at -= float(slope(at)) / bend
-        if not low < at < high or sense * line(at) < sense * plain[k]:
+            at -= float(np.polyval(slope, at)) / bend
+        if not low < at < high or sense * np.polyval(line, at) < sense * plain[k]:
             return Place(float(time[k]), self.curve[k])
         # At a fixed time: samples that move have the slope there taken off.
-        shares = np.linalg.solve(np.vander(x, increasing=True).T, at ** np.arange(len(x)))
-        there = self.curve[stencil] - slope(x) / width * (self.time[stencil] - time[stencil])
+        shares = np.linalg.solve(powers.T, np.vander([at], len(x))[0])
+        there = self.curve[stencil]
+        if isinstance(there, Tangent):
+            there = there - np.polyval(slope, x) / width * (self.time[stencil] - time[stencil])
         return Place(float(time[k] + at * width), np.sum(shares * there))

@@ -130,7 +130,8 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
     time = time + np.round((cycle.time - time.value) / period.value) * period
     # Both sides of an end are at one time.
     time = Tangent(cycle.time, time.d)
-    motion = replace(motion, crank_angle=inside, speed=speed[:-1], acceleration=acceleration[:-1])
+    followed: dict[str, Any] = {"speed": speed[:-1], "acceleration": acceleration[:-1]}
+    motion = replace(motion, crank_angle=inside, **followed)
     moved = _Samples.of(machine, along, cycle, program)
     compiled, drivers = compile_machine(machine), {}
     for name, axis in machine.axes.items():

@@ -81,6 +81,14 @@ def shaft_of_laws(machine: Machine) -> Iterator[str]:
 
 def law_jumps(machine: Machine) -> list[LawJump]:
     """Jumps of the laws over a revolution, those of the velocity first; empty without laws."""
+    kept = compile_machine(machine).kept
+    if "law_jumps" not in kept:
+        kept["law_jumps"] = _law_jumps(machine)
+    known: list[LawJump] = kept["law_jumps"]
+    return known
+
+
+def _law_jumps(machine: Machine) -> list[LawJump]:
     laws = drivers_with_laws(machine)
     of_axes = [*_jumps_of_axes(machine)] if machine.axes else []
     if not laws:

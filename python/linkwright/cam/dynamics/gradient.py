@@ -41,7 +41,7 @@ def cam_force_tangents(machine: Machine, name: str, variables: Sequence[str]) ->
     loaded = loaded_cam(machine, profile)
     places = {key: at for key, of in _PLACES.items() if (at := getattr(loaded, of)) is not None}
     angles = np.unique(list(places.values()))
-    program, _, drives, lost, kinks = drives_along(machine, variables, angles)
+    program, _, drives, _, lost, kinks = drives_along(machine, variables, angles)
     force = lifted(drives[name], len(program.variables))
     at = {key: int(np.searchsorted(angles, x)) for key, x in places.items()}
     slopes = {key: force.d[row] for key, row in at.items()}
