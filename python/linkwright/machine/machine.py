@@ -256,7 +256,9 @@ def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:
 
 
 def _faults_of_axes(machine: object) -> Iterator[InitErrorDetails]:
-    if keys(look(machine, "axes")) or keys(look(look(machine, "mechanism"), "linear_drivers")):
+    mechanism = look(machine, "mechanism")
+    along_a_line = (keys(look(mechanism, table)) for table in ("linear_drivers", "cylinders"))
+    if keys(look(machine, "axes")) or any(along_a_line):
         from linkwright.axes.model.axis_faults import axes_faults
 
         yield from axes_faults(machine)

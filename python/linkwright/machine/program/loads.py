@@ -112,8 +112,9 @@ class Loads:
                 | loads.FormulaLoad(force=None)
             ):
                 return _core.At.Link(link=self.links[load.on])
-        point = self.points[load.on]
         along, direction = getattr(load, "along", None), getattr(load, "direction", None)
+        # A cylinder, on which friction acts, slides without a point of its own; only formulas read the point.
+        point = self.points.get(load.on, 0) if load.on in self.slides else self.points[load.on]
         if along is not None:
             towards = self._direction(0.0 if direction is None else direction)
             return _core.At.Along(point=point, link=self.links[along], **towards)
