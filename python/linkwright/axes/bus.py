@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from linkwright.axes.axis import ServoAxis, driver_motion, driver_torque, servo_axes
+from linkwright.axes.axis import ServoAxis, driver_motion, driver_torque, require_axes, servo_axes
 from linkwright.axes.cycle import AxesCycle, axes_cycle
 from linkwright.axes.driver_cycle import integration_weights
 from linkwright.kernel.arrays import Floats
@@ -93,6 +93,7 @@ def dc_bus(machine: Machine, *, speed: float | None = None) -> DcBus:
     -------
     DcBus
     """
+    require_axes(machine)
     return bus_of(machine, servo_axes(machine, speed=speed), axes_cycle(machine, speed))
 
 
