@@ -547,3 +547,28 @@ def test_gears_that_gain_energy_in_reverse_are_warned_of() -> None:
     axis = lw.servo_axis(gains)
     returned = np.trapezoid(np.maximum(-axis.power, 0), axis.time)
     assert f"factor 0.5 (axes.A.gearbox.reverse) gives the motor {returned:.3g}"[:-1] in said
+
+
+def test_a_law_that_does_not_repeat_is_a_finding() -> None:
+    """phi² turns ever faster; a law over two revolutions repeats after these."""
+    text = """
+format = 1
+name = "Shaft"
+[master]
+cycle_time = "0.5 s"
+[axes.A]
+[mechanism.cranks.A]
+radius = "0.1 m"
+law = "LAW"
+[bodies]
+A = { mass = "1 kg" }
+"""
+    with pytest.raises(lw.FindingError, match=r"does not repeat: its slope is .* and 12\.57 at its end"):
+        lw.servo_axis(lw.loads(text.replace("LAW", "phi^2")))
+    repeats = lw.servo_axis(lw.loads(text.replace("LAW", "0.3*sin(phi/2)")))
+    assert repeats.crank_angle[-1] == pytest.approx(4 * np.pi)
+
+
+def test_a_bus_without_axes_is_wrong_input() -> None:
+    with pytest.raises(lw.InputError, match="no axis"):
+        lw.dc_bus(lw.loads(PRESS.split("[axes.feed]")[0].replace("[mechanism.linear_drivers.feed]", "")))

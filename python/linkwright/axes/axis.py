@@ -202,10 +202,15 @@ def servo_axis(machine: Machine, name: str | None = None, *, speed: float | None
     return servo_axes(machine, speed=speed, names=(name,))[name]
 
 
-def the_axis(machine: Machine, name: str | None) -> str:
-    """Name of an axis, which may be left out if there is one."""
+def require_axes(machine: Machine) -> None:
+    """Raise InputError for a machine without axes."""
     if not machine.axes:
         raise InputError("the machine has no axis: give a driver one as [axes.NAME]")
+
+
+def the_axis(machine: Machine, name: str | None) -> str:
+    """Name of an axis, which may be left out if there is one."""
+    require_axes(machine)
     if name is None and len(machine.axes) > 1:
         raise InputError(f"the machine has several axes: name one of {', '.join(machine.axes)}")
     chosen = next(iter(machine.axes)) if name is None else name

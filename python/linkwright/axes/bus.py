@@ -8,7 +8,14 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from linkwright.axes.axis import ServoAxis, axis_inertia, driver_motion, driver_torque, servo_axes
+from linkwright.axes.axis import (
+    ServoAxis,
+    axis_inertia,
+    driver_motion,
+    driver_torque,
+    require_axes,
+    servo_axes,
+)
 from linkwright.axes.cycle import AxesCycle, axes_cycle
 from linkwright.axes.driver_cycle import DriverCycle, Peak, integration_weights, joined, running_integral
 from linkwright.axes.duty import Numbers, energy_back, motor_torque
@@ -99,6 +106,7 @@ def dc_bus(machine: Machine, *, speed: float | None = None) -> DcBus:
     -------
     DcBus
     """
+    require_axes(machine)
     return bus_of(machine, servo_axes(machine, speed=speed), axes_cycle(machine, speed))
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from linkwright.drive.steady_state import solved_state
 from linkwright.drive.study import has_motor
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units.kinds import SPEED
 from linkwright.kernel.units.marks import positive
@@ -25,16 +25,20 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import law_jumps, require_finite_accelerations
-from linkwright.linkages.whole_cycle import over_known_cycle
+from linkwright.linkages.whole_cycle import TURNS_MAX, over_known_cycle
 from linkwright.machine.machine import Machine
-from linkwright.machine.own_motors import without_drive
+from linkwright.machine.own_motors import axis_drivers, without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.machine.program.core import Channel
 
 # Intervals of a revolution of the master, at least of a piece, and at most of a cycle of many revolutions.
 _INTERVALS, _LEAST, _MOST = 720, 8, 8640
 
 # Revolutions of a start or stop that so many intervals can show.
 _STARTING = 120
+
+# How far the slope of a formula at the end of a cycle may differ from that at its start, as a share.
+_REPEATS = 1e-6
 
 # By how much an end of a piece is looked at inside the piece [rad], and pieces shorter than that are none.
 _INSIDE, _SHORT = 1e-10, 1e-8
@@ -101,7 +105,7 @@ def _cycle(machine: Machine, speed: float | None) -> AxesCycle:
     if speed is not None:
         in_range(speed=(speed, positive(SPEED)))
     whole = _with_all_loads(machine, compiled)
-    turns = over_known_cycle(whole).turns
+    turns = _law_turns(machine, compiled, over_known_cycle(whole).turns)
     angle, inside = _sampled(machine, whole, turns)
     if speed is not None:
         still = np.zeros_like(angle)
@@ -109,6 +113,32 @@ def _cycle(machine: Machine, speed: float | None) -> AxesCycle:
     else:
         motion = _steady_motion(machine, angle, inside)
     return AxesCycle(angle, forces(machine, motion, contributions=False))
+
+
+def _law_turns(machine: Machine, compiled: CompiledMachine, turns: int) -> int:
+    """Revolutions, a multiple of `turns`, after which formulas of axes have the slopes of their start.
+
+    Raises FindingError if there are none.
+    """
+    corners = {jump.name for jump in law_jumps(machine) if jump.order == 1}
+    own = set(axis_drivers(machine)) - corners
+    ends = 2 * math.pi * turns * np.arange(1 + TURNS_MAX // turns) - _INSIDE
+    ends[0] = _INSIDE
+    repeats = np.full(len(ends) - 1, True)
+    for name, driver in machine.linkage.laws().items():
+        if name not in own or driver.advance is not None:
+            continue
+        law = Channel.Slide(compiled.slides[f"{name}.law"])
+        ((_, slope, _),) = compiled.motion([law], ends)
+        ((_, within, _),) = compiled.motion([law], np.linspace(0.0, ends[1], _LEAST * turns))
+        repeats &= np.abs(slope[1:] - slope[0]) <= _REPEATS * np.abs(within).max()
+        if not repeats.any():
+            raise FindingError(
+                f'the law of {name}, "{driver.law}", does not repeat: its slope is {slope[0]:.4g} at the '
+                f"start of a cycle and {slope[1]:.4g} at its end; write a law that repeats, or advance, by "
+                "which it restarts in every cycle"
+            )
+    return turns * (1 + int(np.argmax(repeats)))
 
 
 def master_speed(machine: Machine) -> float:
