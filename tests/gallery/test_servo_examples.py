@@ -150,7 +150,8 @@ def test_a_servo_press_by_virtual_work() -> None:
     np.testing.assert_allclose(axis.torque, torque, atol=1e-6 * np.abs(torque).max())
     slow = (axis.time > 0.3501) & (axis.time < 0.8499)
     np.testing.assert_allclose(omega[slow], np.radians(100.0), rtol=1e-9)
-    assert axis.motor.speed_peak == pytest.approx(20 * np.abs(omega).max(), rel=1e-12)
+    # The peak lies between two samples.
+    assert axis.motor.speed_peak == pytest.approx(20 * np.abs(omega).max(), rel=2e-5)
     assert axis.passes
 
 

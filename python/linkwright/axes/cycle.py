@@ -17,6 +17,7 @@ from linkwright.drive.steady_state import solved_state
 from linkwright.drive.study import has_motor
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.public.in_range import in_range
 from linkwright.kernel.units.kinds import SPEED
 from linkwright.kernel.units.marks import positive
@@ -62,6 +63,9 @@ class AxesCycle:
         """From the start of the cycle [s]."""
         return self.forces.time
 
+# Difference from it that is friction, as a share of the peak torque; less is the error of the polynomial.
+_FRICTION = 1e-5
+
 
 def continued(angle: Floats, velocity: Floats, torque: Any) -> Any:
     """The torque of a driver, at rest at the end of a piece that moves as the piece leads to it.
@@ -70,14 +74,14 @@ def continued(angle: Floats, velocity: Floats, torque: Any) -> Any:
     """
     rests = np.abs(velocity) <= _REST * np.max(np.abs(velocity), initial=0.0)
     bounds = [0, *(np.flatnonzero(np.diff(angle) == 0) + 1), len(angle)]
-    torque = torque.copy()
+    torque, least = torque.copy(), _FRICTION * np.max(np.abs(primal(torque)), initial=0.0)
     for first, last in pairwise(bounds):
         for end, step in ((first, 1), (last - 1, -1)):
             inside = end + step * np.arange(1, len(_CONTINUE) + 1)
             if last - first > len(_CONTINUE) and rests[end] and not rests[inside[0]]:
-                torque[end] = sum(
-                    share * torque[int(at)] for share, at in zip(_CONTINUE, inside, strict=True)
-                )
+                led = sum(share * torque[int(at)] for share, at in zip(_CONTINUE, inside, strict=True))
+                if abs(primal(led) - primal(torque[end])) > least:
+                    torque[end] = led
     return torque
 
 
