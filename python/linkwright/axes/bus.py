@@ -27,7 +27,7 @@ from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
 # Share of the peak power that the integration of the mean leaves.
-_ROUNDING = 1e-9
+_ROUNDING = 1e-7
 
 
 _EXTREMES: tuple[Literal["max", "min"], ...] = ("max", "min")
