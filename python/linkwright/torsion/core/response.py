@@ -44,7 +44,9 @@ def in_order(tree: Tree, rows: NDArray[Any]) -> NDArray[Any]:
 
 
 def tree_of(referred: ReferredTrain) -> Tree | None:
-    """The masses as a tree, shafts in parallel taken together; None if there are loops."""
+    """The masses as a tree, parallel shafts taken together; None with loops, or with gears on carriers."""
+    if referred.twist is not None:
+        return None
     ends = [tuple(sorted(pair)) for pair in referred.ends.tolist()]
     about: dict[int, list[int]] = {n: [] for n in range(HELD, len(referred.inertia))}
     for a, b in dict.fromkeys(ends):
@@ -240,6 +242,8 @@ def shaft_torques(
     # Amplitudes at a resonance without damping are not finite, nor are torques. Shafts one by one stay
     # in the cache.
     with np.errstate(invalid="ignore", over="ignore"):
+        if referred.twist is not None:
+            return stiffness * np.einsum("sm,omw->osw", referred.joins, q)
         for s, (first, second) in enumerate(referred.ends.tolist()):
             twist = (q[:, first] if first != HELD else 0.0) - (q[:, second] if second != HELD else 0.0)
             np.multiply(stiffness[:, s], twist, out=torques[:, s])

@@ -185,7 +185,7 @@ def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
 def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
     """Torques on discs as torques on masses, (…, masses, speeds)."""
     on_masses = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
-    for disc, (mass, n) in enumerate(zip(referred.mass, referred.speed, strict=True)):
+    for disc, (mass, n) in enumerate(zip(referred.mass, referred.scale, strict=True)):
         on_masses[:, mass] += n * torques[:, disc]
     return on_masses
 
@@ -195,7 +195,8 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     M = _onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:
         # What is left over speeds the train up as a whole.
-        M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
+        surplus = (referred.rigid @ M) / referred.rigid_inertia
+        M = M - (referred.inertia * referred.rigid)[:, None] * surplus
     # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
     k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
     tree = tree_of(referred)
@@ -221,5 +222,5 @@ def _operating(
             s = referred.shafts.index(name)
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
-    np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
+    np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
     return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))

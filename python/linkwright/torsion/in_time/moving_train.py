@@ -64,6 +64,11 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
+    if referred.twist is not None:
+        name = next(name for name, gear in expanded.gears.items() if gear.carrier)
+        remedy = "leave [train.transient] out; modes and forced vibration have such stages"
+        expected = "gears on fixed bearings in a motion in time"
+        raise MachineError([Problem("train.transient", f"the mesh {name} on a carrier", expected, remedy)])
     place = {name: k for k, name in enumerate(expanded.discs)}
     own = np.array([disc.inertia for disc in expanded.discs.values()])
     inertias = [

@@ -31,7 +31,9 @@ from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveSti
 class Coupling(CheckedDescription):
     """An elastic coupling between two discs."""
 
-    between: tuple[str, str] = Field(description="The two discs that it connects.")
+    between: tuple[str, str] = Field(
+        description='The two discs that it connects; one end may be "ground" (fixed).'
+    )
     stiffness: PositiveStiffness | None = Field(
         None, description="Torsional stiffness for vibration: torque per angle of twist."
     )

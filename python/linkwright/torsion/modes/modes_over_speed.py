@@ -143,7 +143,7 @@ class _OfMachine(ModesAt):
         # Σ J q² = 1, with the inertia of shafts.
         ratio = (ω * (q @ train.damping_matrix @ q) + q @ train.loss_matrix @ q) / (2 * ω**2)
         ratio += sum(_of_rod(train, rod, ω) for rod in (modes.exact[mode].rods if modes.exact else ()))
-        θ = train.speed * q[train.mass]
+        θ = train.scale * q[train.mass]
         size = np.abs(θ).max()
         return ω, θ / size, float(ω**2 / size**2), float(ratio)
 

@@ -163,7 +163,7 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
         orders=orders,
         discs=referred.discs,
         shafts=referred.shafts,
-        amplitudes=referred.speed[:, None] * q[:, referred.mass],
+        amplitudes=referred.scale[:, None] * q[:, referred.mass],
         shaft_torques=torques,
         mean_torques=at.mean_torques,
         torque_greatest=greatest,
@@ -333,19 +333,19 @@ def _modal_heat(at: ExcitedTrain, omega: Floats, q: Complexes) -> Floats:
 def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
     """δ of every disc: in all, as a whole, and torsional."""
     referred = at.referred
-    J = referred.inertia
+    J, rigid = referred.inertia, referred.rigid
     # Referred, δ of a mass is that of its discs: speed and mean speed both count n times.
     speed = 1j * orders.values[:, None, None] * q
-    common = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
+    common = np.einsum("m,omw->ow", J * rigid, speed)[:, None] / referred.rigid_inertia
     if not referred.is_free:
         common = np.zeros_like(common)
     deltas = []
-    for part in (speed, np.broadcast_to(common, speed[:, :1].shape), speed - common):
+    for part in (speed, common, speed - common * rigid[:, None]):
         greatest, least = span(orders, part)
         deltas.append(greatest - least)
-    total, rigid, torsional = deltas
+    total, whole, torsional = deltas
     mass = referred.mass
-    return total[mass], np.repeat(rigid, len(mass), axis=0), torsional[mass]
+    return total[mass], (whole * rigid[:, None])[mass], torsional[mass]
 
 
 def angular_deflection(forced: ForcedVibration, disc: str) -> tuple[Floats, Floats]:
