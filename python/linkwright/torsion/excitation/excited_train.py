@@ -221,6 +221,9 @@ def _operating(
         if coupling.twist is not None:
             s = referred.shafts.index(name)
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
+    for name, pendulum in ({} if train is None else train.pendulums).items():
+        s = referred.shafts.index(name)
+        stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
     np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
     return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))

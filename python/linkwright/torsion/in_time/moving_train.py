@@ -64,6 +64,10 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
+    if train.pendulums:
+        found, expected = f"the pendulum {next(iter(train.pendulums))}", "none in a motion in time"
+        remedy = "leave [train.transient] out; forced vibration has pendulums"
+        raise MachineError([Problem("train.transient", found, expected, remedy)])
     if referred.twist is not None:
         name = next(name for name, gear in expanded.gears.items() if gear.carrier)
         remedy = "leave [train.transient] out; modes and forced vibration have such stages"

@@ -35,7 +35,7 @@ from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
 from linkwright.kernel.units.marks import Bound, Quantity, QuantityList, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
-from linkwright.torsion.model.coupling import Coupling, Damper
+from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.shaft_limit import ShaftLimit
@@ -412,6 +412,9 @@ class Train(Description):
     )
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    pendulums: dict[Name, Pendulum] = Field(
+        default_factory=dict, description="Centrifugal pendulum absorbers by name; they need [train.run]."
+    )
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="Driven machines, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Pulsating torques, by name."

@@ -21,7 +21,7 @@ from linkwright.torsion.model.whole_train import Contradiction, RodShaft, parts_
 _TABLES = ("shafts", "couplings", "gears")
 _MEMBERS = ("sun", "ring", "carrier")
 _NUMBERS = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
-_ON = ("dampers", "loads", "excitations", "drivers")
+_ON = ("dampers", "pendulums", "loads", "excitations", "drivers")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -41,6 +41,12 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         remedy = "it is the name of the fixed frame"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
         return
+    if keys(look(train, "pendulums")) and look(train, "run") is None:
+        remedy = "give [train.run] speed_min and speed_max"
+        yield fault(
+            "train", "pendulums", expected="speeds, which set the stiffness of pendulums", remedy=remedy
+        )
+        return
     wrong = [*_same_names(train), *_name_faults(train, discs), *_engine_faults(train)]
     yield from wrong
     if wrong:
@@ -56,14 +62,14 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
             yield _no_throw(error)
             return
         yield from _speed_faults(train, expanded)
-        yield from transient_faults(train, (*discs, *train.dampers))
+        yield from transient_faults(train, (*discs, *train.dampers, *train.pendulums))
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
     cranks = [name for engine, throws in _engines(train) for name in crank_names(throws, engine)]
     for tables, taken in (
-        (("shafts", "couplings", "dampers", "gears"), [*cranks, *_mesh_names(train)]),
-        (("discs", "dampers"), (*_throw_names(train), *_planet_names(train))),
+        (("shafts", "couplings", "dampers", "pendulums", "gears"), [*cranks, *_mesh_names(train)]),
+        (("discs", "dampers", "pendulums"), (*_throw_names(train), *_planet_names(train))),
     ):
         seen = {name: "engine" if "throw" in name or "crank" in name else "planetaries" for name in taken}
         for table in tables:

@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from linkwright.kernel.numerics.tangent import plain, primal
-from linkwright.torsion.model.coupling import Coupling, Damper
+from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces
 from linkwright.torsion.model.train import GROUND, Disc, Shaft, ShaftInertia, Train, TrainGear
@@ -24,9 +24,13 @@ from linkwright.torsion.model.train_torques import InstalledEngine
 
 
 def whole_train(train: Train) -> Train:
-    """A train of discs, then rings of dampers; shafts, then couplings, then what holds the rings."""
+    """A train of discs, then rings of dampers; shafts, then couplings, then what holds the rings.
+
+    Pendulums are rings, too, with the stiffness that they have at the speed of service.
+    """
     heavy = any(shaft.is_heavy for shaft in train.shafts.values())
-    if not (train.couplings or train.dampers or train.installed or train.planetaries or heavy):
+    parts = (train.couplings, train.dampers, train.pendulums, train.installed, train.planetaries)
+    if not (any(parts) or heavy):
         return train
     throws: dict[str, Disc] = {}
     cranks: dict[str, Shaft] = {}
@@ -35,13 +39,12 @@ def whole_train(train: Train) -> Train:
         throws |= discs
         cranks |= shafts
     # All that is made here is unchecked: it was checked where it is described.
-    rings = {
-        name: Disc.model_construct(inertia=damper.ring_inertia) for name, damper in train.dampers.items()
-    }
+    ringed: dict[str, Damper | Pendulum] = {**train.dampers, **train.pendulums}
+    rings = {name: Disc.model_construct(inertia=ring.ring_inertia) for name, ring in ringed.items()}
     planets, meshes = _planets(train)
     couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
-    held = {name: _spring(name, damper) for name, damper in train.dampers.items()}
-    return train.model_copy(
+    held = {name: _spring(name, ring) for name, ring in ringed.items()}
+    expanded = train.model_copy(
         update={
             "discs": _loaded({**throws, **train.discs, **planets, **rings}, train.shafts),
             "shafts": {**cranks, **_light(train), **couplings, **held},
@@ -51,8 +54,22 @@ def whole_train(train: Train) -> Train:
             "engines": {},
             "couplings": {},
             "dampers": {},
+            "pendulums": {},
         }
     )
+    return _at_service(train, expanded) if train.pendulums else expanded
+
+
+def _at_service(train: Train, expanded: Train) -> Train:
+    """A train whose pendulums have the stiffness of the speed of service."""
+    service, turning = 0.0 if train.run is None else train.run.service, speeds(expanded).discs
+    swinging = {
+        name: expanded.shafts[name].model_copy(
+            update={"stiffness": pendulum.stiffness(service * turning[pendulum.on])}
+        )
+        for name, pendulum in train.pendulums.items()
+    }
+    return expanded.model_copy(update={"shafts": {**expanded.shafts, **swinging}})
 
 
 def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
@@ -126,13 +143,14 @@ def _coupling(coupling: Coupling) -> Shaft:
     )
 
 
-def _spring(name: str, damper: Damper) -> Shaft:
+def _spring(name: str, ring: Damper | Pendulum) -> Shaft:
+    sprung = isinstance(ring, Damper)
     # No shaft of a file has the stiffness 0, which a fluid has.
     return Shaft.model_construct(
-        between=(damper.on, name),
-        stiffness=damper.stiffness or 0.0,
-        damping=damper.damping,
-        loss_factor=damper.loss_factor,
+        between=(ring.on, name),
+        stiffness=(ring.stiffness or 0.0) if sprung else 0.0,
+        damping=ring.damping,
+        loss_factor=ring.loss_factor if sprung else 0.0,
     )
 
 

@@ -111,6 +111,8 @@ class _OfMachine(ModesAt):
     @cached_property
     def _curved(self) -> bool:
         train = self.machine.train
+        if train is not None and train.pendulums:
+            return True
         return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
 
     @cached_property

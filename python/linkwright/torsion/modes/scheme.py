@@ -158,7 +158,8 @@ def _kind(machine: Machine, train: Train, name: str) -> Kind:
     described = machine.train
     if described is not None and name in described.couplings:
         return "coupling"
-    return "damper" if described is not None and name in described.dampers else "shaft"
+    rings = {} if described is None else {**described.dampers, **described.pendulums}
+    return "damper" if name in rings else "shaft"
 
 
 def _rigid(train: Train) -> Iterator[Connection]:
