@@ -443,9 +443,10 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
     yield from _about_the_ends(study, forced)
-    rest = forced.orders[~forced.together.together]
+    rest = np.flatnonzero(~forced.together.together)
     if len(rest):
-        listed = ", ".join(f"{order:.5g}" for order in rest[:4])
+        lines = forced.lines
+        listed = ", ".join(lines[n] if forced.offsets[n] else f"{forced.orders[n]:.5g}" for n in rest[:4])
         yield f"Orders {listed} have no common base with the others: their amplitudes are added."
 
 

@@ -60,7 +60,7 @@ class ExcitedTrain:
         """What it is where orders excite it, if inertia of shafts is distributed; else None."""
         if not self.referred.rods:
             return None
-        return dynamic_orders(self.referred, self.operating, self.torques.orders)
+        return dynamic_orders(self.referred, self.operating, self.torques.omega)
 
     @cached_property
     def referred_harmonics(self) -> Complexes:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import lcm
@@ -46,6 +46,27 @@ class Torques:
     # (speeds,) mean torque at the first disc beyond what the loads take off, which accelerates a free train
     # [N m].
     surplus: Floats
+    # (orders,) ω₀ of lines with a fixed frequency, behind all others [rad/s]; empty for none.
+    fixed: Floats = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def offsets(self) -> Floats:
+        """ω₀ of every line, (orders,) [rad/s]."""
+        return self.fixed if len(self.fixed) else np.zeros(len(self.orders))
+
+    @property
+    def omega(self) -> Floats:
+        """|νΩ + ω₀| of every line, (orders, speeds) [rad/s]."""
+        return np.abs(np.outer(self.orders, self.speeds) + self.offsets[:, None])
+
+    @property
+    def together(self) -> Orders:
+        """How the orders add up."""
+        return orders_together(self.orders, self.offsets)
+
+    def is_of(self, order: float) -> Bools:
+        """Which lines are of an order alone, (orders,)."""
+        return (np.abs(self.orders - order) <= _EQUAL * order) & (self.offsets == 0)
 
 
 @dataclass(frozen=True)
@@ -56,6 +77,7 @@ class Source:
     orders: Floats  # (orders,) cycles per revolution of the first disc
     harmonics: Complexes  # (orders, speeds) [N m]
     mean: Floats | None = None  # (speeds,) driving positive [N m]
+    fixed: float = 0.0  # ω₀ of all of them [rad/s]
 
 
 def torques_of(
@@ -100,15 +122,24 @@ def torques_of(
             ]
             mean = mean + _summed(given, len(place), speeds)
     every += _load_harmonics(train, place, turning, speeds, factor)
-    orders = _orders(torque.orders for torque in every)
+    own = _orders(torque.orders for torque in every if not torque.fixed)
+    lines = sorted({(float(torque.orders[0]), torque.fixed) for torque in every if torque.fixed})
+    orders = np.append(own, [order for order, _ in lines])
     shape = (len(orders), len(place), len(speeds))
     harmonics = zeros_for([torque.harmonics for torque in every], shape, complex)
     for torque in every:
-        at = np.abs(orders[:, None] - torque.orders).argmin(axis=0)
+        if torque.fixed:
+            n = len(own) + lines.index((float(torque.orders[0]), torque.fixed))
+            # A motion of negative frequency is the conjugate one of its size.
+            back = torque.orders[0] * speeds + torque.fixed < 0
+            harmonics[n, torque.disc] += np.where(back, torque.harmonics[0].conj(), torque.harmonics[0])
+            continue
+        at = np.abs(own[:, None] - torque.orders).argmin(axis=0)
         np.add.at(harmonics, (at, torque.disc), torque.harmonics)
-    own = of_loads if damping is None else of_loads + damping
+    damped = of_loads if damping is None else of_loads + damping
     surplus = _powers(turning, mean - resistance) if is_free else np.zeros(len(speeds))
-    return Torques(speeds, orders, harmonics, mean - resistance, own, factor, surplus)
+    fixed = np.append(np.zeros(len(own)), [offset for _, offset in lines]) if lines else np.empty(0)
+    return Torques(speeds, orders, harmonics, mean - resistance, damped, factor, surplus, fixed)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
@@ -117,8 +148,17 @@ def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: F
         n = turning[place[excitation.on]]
         size = numbers([wave.torque * np.exp(1j * wave.phase) for wave in excitation.harmonics])
         factor = _at(excitation.factor, n * speeds)
-        orders = n * np.array([wave.order for wave in excitation.harmonics])
-        sources.append(Source(place[excitation.on], orders, size[:, None] * factor))
+        lines = [wave.line for wave in excitation.harmonics]
+        waves = [k for k, (_, fixed) in enumerate(lines) if not fixed]
+        orders = n * np.array([lines[k][0] for k in waves])
+        if waves:
+            sources.append(Source(place[excitation.on], orders, size[waves, None] * factor))
+        for k, (order, fixed) in enumerate(lines):
+            if fixed:
+                alone = n * np.array([order])
+                sources.append(
+                    Source(place[excitation.on], alone, size[k : k + 1, None] * factor, fixed=fixed)
+                )
     return sources
 
 
@@ -195,9 +235,16 @@ class Orders:
         return self.harmonic > 0
 
 
-def orders_together(values: Floats) -> Orders:
-    """Common base of orders (orders,) above zero, cycles per revolution, of as many as have one."""
-    return _together(tuple(values.tolist()))
+def orders_together(values: Floats, fixed: Floats | None = None) -> Orders:
+    """Common base of orders (orders,) above zero, cycles per revolution, of as many as have one.
+
+    Lines that are `fixed` (orders,), of a frequency that does not follow the speed, have none.
+    """
+    if fixed is None or not fixed.any():
+        return _together(tuple(values.tolist()))
+    count = int((fixed == 0).sum())
+    own = _together(tuple(values[:count].tolist()))
+    return Orders(values, own.turns, np.append(own.harmonic, np.zeros(len(values) - count, np.int64)))
 
 
 @lru_cache(maxsize=32)
@@ -231,13 +278,24 @@ def _counted(values: Floats, unit: float) -> Orders:
     return Orders(values, turns / unit, harmonic)
 
 
+def line_words(order: float, fixed: float) -> str:
+    """An order as a number, a line of a fixed frequency [rad/s] with it."""
+    if not fixed:
+        return f"{order:.4g}"
+    frequency = f"{abs(fixed) / (2 * math.pi):.4g} Hz"
+    if not order:
+        return frequency
+    return f"{order:.4g} {'−' if fixed < 0 else '+'} {frequency}"
+
+
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Maximum and minimum value of what harmonics add up to.
 
     Gives `greatest`, `least`: with the amplitudes of orders without a common base added to both sides.
     `amplitudes`: (orders, ...). A wave that is not finite has no extremes: NaN.
     """
-    if len(amplitudes) == 1:
+    if len(amplitudes) == 1 or not orders.together.any():
+        amplitudes = np.abs(amplitudes).sum(axis=0, keepdims=True)
         size = np.abs(amplitudes[0])
         size = np.where(np.isfinite(size), size, np.nan)
         return mean + size, mean - size

@@ -62,6 +62,11 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         raise InputError(
             "forced vibration with train.modal_damping has no derivatives: give dampings or loss factors"
         )
+    waves = [wave for excitation in machine.train.excitations.values() for wave in excitation.harmonics]
+    if any(wave.frequency for wave in waves):
+        raise InputError(
+            "forced vibration under a fixed frequency has no derivatives: leave out its harmonics"
+        )
     refused = _refused(variables)
     train, referred, d = train_tangents(machine, variables, refused)
     _refuse_moved(d, refused)

@@ -165,7 +165,7 @@ _ANGLES = 1024
 
 # A time before the start [s]: laws over time are what they are there, and nothing has set in that begins
 # with it.
-BEFORE = -1.0
+BEFORE = -1e6
 
 # Twist by which stiffnesses are found [rad], and Newton's steps.
 _STEP = 1e-7

@@ -172,7 +172,7 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
 def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     """Torques of the gear stages of a train of which the vibration is there."""
     gears = at.train.gears
-    omega = response.orders[:, None, None] * response.speeds
+    omega = response.omega
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
     theta = response.amplitudes
     inertia, shafts = (J, response.shaft_torques) if at.distributed is None else _rods(at, J, theta)
@@ -218,7 +218,7 @@ def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Co
     # One disc of each mass tells how it moves.
     first = np.unique(referred.mass, return_index=True)[1]
     q = response.amplitudes[:, first] / referred.scale[first, None]
-    velocity = 1j * response.orders[:, None, None] * response.speeds * q
+    velocity = 1j * response.omega * q
     acceleration = at.operating.modal.torques(velocity) / referred.inertia[:, None]
     torques: Complexes = J * referred.scale[:, None] * acceleration[:, referred.mass]
     return torques
