@@ -12,7 +12,7 @@ phase sooner or later: of them the amplitudes add up.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -99,7 +99,7 @@ def torques_of(
     of the first; `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     place = {name: k for k, name in enumerate(train.discs)}
-    every = [*sources, *_excitations(train, place, turning, speeds)]
+    every = [*sources, *_excitations(train, place, turning, speeds), *_joints(train, place, turning, speeds)]
     driving = [(torque.disc, torque.mean) for torque in every if torque.mean is not None]
     driving += [
         (place[driver.on], _at(driver.torque_at, turning[place[driver.on]] * speeds))
@@ -160,6 +160,15 @@ def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: F
                     Source(place[excitation.on], alone, size[k : k + 1, None] * factor, fixed=fixed)
                 )
     return sources
+
+
+def _joints(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> Iterator[Source]:
+    """The orders of Hooke's joints; what they do follows from the mean torque of their shafts."""
+    for shaft in train.shafts.values():
+        if shaft.joint_angle is not None:
+            disc, count = place[shaft.between[0]], len(shaft.joint_harmonics)
+            orders = 2 * turning[disc] * np.arange(1, count + 1)
+            yield Source(disc, orders, np.zeros((count, len(speeds)), complex))
 
 
 def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> tuple[Floats, Floats]:

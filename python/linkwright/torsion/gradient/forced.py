@@ -67,6 +67,8 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         raise InputError(
             "forced vibration under a fixed frequency has no derivatives: leave out its harmonics"
         )
+    if any(shaft.joint_angle is not None for shaft in machine.train.shafts.values()):
+        raise InputError("forced vibration with joints has no derivatives: leave out joint_angle")
     refused = _refused(variables)
     train, referred, d = train_tangents(machine, variables, refused)
     _refuse_moved(d, refused)

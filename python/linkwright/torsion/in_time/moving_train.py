@@ -73,6 +73,11 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
+    for name, shaft in train.shafts.items():
+        if shaft.joint_angle is not None:
+            remedy = "leave [train.transient] out; forced vibration has joints"
+            expected = "no joint in a motion in time"
+            raise MachineError([Problem("train.transient", f"the joint of shaft {name}", expected, remedy)])
     if train.pendulums:
         found, expected = f"the pendulum {next(iter(train.pendulums))}", "none in a motion in time"
         remedy = "leave [train.transient] out; forced vibration has pendulums"

@@ -33,7 +33,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
-from linkwright.kernel.units.marks import Bound, Quantity, QuantityList, not_negative, positive
+from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
@@ -208,6 +208,16 @@ class ElasticShaft(CheckedDescription):
         return place(self.sections, share)
 
 
+# Joints work far below this angle.
+_JOINT = Bound(
+    " above 0 and up to 60°,", {"minimum": 0, "maximum": math.pi / 3}, lambda x: 0 < x <= math.pi / 3
+)
+JointAngle = Annotated[float, Quantity(ANGLE, _JOINT)]
+
+# Share of the twist of the first harmonic of a joint below which further ones do not count.
+_JOINT_HARMONIC = 1e-6
+
+
 class Shaft(ElasticShaft):
     """An elastic shaft between two discs, or between a disc and the ground."""
 
@@ -229,9 +239,20 @@ class Shaft(ElasticShaft):
         description='Inertia of the shaft: "ends" adds half to the disc at each end; "distributed" treats '
         "it exactly along the shaft. Default: that of [train].",
     )
+    joint_angle: JointAngle | None = Field(
+        None,
+        description="Angle of a Hooke's joint at the first end, whose uneven speed ratio excites vibration.",
+    )
+    joint_phase: Angle = Field(
+        0.0, description="Angle of the first fork from the plane of both axes, at the zero of the disc angle."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
+        if self.joint_phase and self.joint_angle is None:
+            yield fault("joint_angle", expected="the angle of the joint whose phase is given")
+        if self.joint_angle is not None and GROUND in self.between:
+            yield fault("between", found=list(self.between), expected="two discs, with a joint between them")
         if self.density is not None and self.sections is None:
             expected = "the sections whose inertia it gives"
             remedy = "leave density out, or give own_inertia beside the stiffness"
@@ -244,6 +265,20 @@ class Shaft(ElasticShaft):
         if self.inertia is not None and not self.is_heavy:
             expected = "an inertia of the shaft: the density of its sections, or own_inertia"
             yield fault("inertia", found=self.inertia, expected=expected)
+
+    @property
+    def joint_harmonics(self) -> tuple[float, ...]:
+        """Amplitudes of sin 2φ, sin 4φ, … by which the joint drives the shaft ahead [rad].
+
+        With tan ψ = tan φ/cos α the angle behind the joint is ψ = φ + Σ tᵏ/k sin 2kφ, t = tan²(α/2).
+        """
+        if self.joint_angle is None:
+            return ()
+        t = math.tan(self.joint_angle / 2) ** 2
+        count = 1
+        while t**count / (count + 1) > _JOINT_HARMONIC:
+            count += 1
+        return tuple(t**k / k for k in range(1, count + 1))
 
     @property
     def is_heavy(self) -> bool:

@@ -248,6 +248,11 @@ def _speed_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:
             if turning[entry.on] == 0:
                 expected = "a disc that turns with the train"
                 yield fault("train", table, name, "on", found=f"{entry.on}, at rest", expected=expected)
+    bent = [name for name, shaft in expanded.shafts.items() if shaft.joint_angle is not None]
+    for name in bent:
+        if isinstance(expanded.shafts[name], RodShaft):
+            expected = 'inertia = "ends" of a shaft with a joint'
+            yield fault("train", "shafts", name, "inertia", found="distributed", expected=expected)
     heavy = [name for name, shaft in expanded.shafts.items() if isinstance(shaft, RodShaft)]
     if heavy and any(gear.carrier for gear in expanded.gears.values()):
         expected = 'inertia = "ends" in a train with gears on a carrier'

@@ -170,13 +170,14 @@ class _OfMachine(ModesAt):
         return self._at(speeds).torques.fixed
 
     def torques(self, speeds: Floats, orders: Floats, fixed: Floats) -> Complexes | None:
-        torques = self._at(speeds).torques
+        at = self._at(speeds)
+        torques = at.torques
         if not len(torques.orders):
             return None
         on_discs = np.zeros((len(speeds), torques.harmonics.shape[1]), complex)
         for n, (order, offset) in enumerate(zip(orders.tolist(), fixed.tolist(), strict=True)):
             same = (np.abs(torques.orders - order) <= _EQUAL * order) & (torques.offsets == offset)
-            on_discs[n] = torques.harmonics[same, :, n].sum(axis=0)
+            on_discs[n] = at.exciting[same, :, n].sum(axis=0)
         return on_discs
 
     def _at(self, speeds: Floats) -> ExcitedTrain:

@@ -84,7 +84,7 @@ def phase_vectors(
         if critical.fixed:
             continue
         same = at.torques.is_of(critical.order)
-        torques = at.torques.harmonics[same, :, n].sum(axis=0)
+        torques = at.exciting[same, :, n].sum(axis=0)
         largest = float(np.abs(torques).max(initial=0.0))
         excited = np.flatnonzero(np.abs(torques) > _ROUNDING * largest)
         if len(excited) < 2:

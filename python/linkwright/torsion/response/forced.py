@@ -236,7 +236,10 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
     if at.operating.modal is not None:
         modal = at.operating.modal.torques(1j * omega[:, None] * q)
         forces, size = forces - modal, size + np.abs(modal)
-    return shaft_torques(at.referred, stiffness, q, forces, size)
+    flow = shaft_torques(at.referred, stiffness, q, forces, size)
+    if at.joint_twists is not None:
+        flow = flow + stiffness * at.joint_twists / at.referred.lead[:, None]
+    return flow
 
 
 def _complex(real: Floats, imaginary: Floats) -> Complexes:
@@ -343,7 +346,7 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
     shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
     omega = shafts.omega
-    theta, M = shafts.amplitudes, at.torques.harmonics
+    theta, M = shafts.amplitudes, at.harmonics
     return ForcedVibration(
         **vars(shafts),
         unevenness=total,
@@ -351,8 +354,17 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
         unevenness_torsional=torsional,
         disc_heat=0.5 * (omega**2 * at.disc_damping * _squared(theta)).sum(axis=0),
         modal_heat=_modal_heat(at, omega, q),
-        power=0.5 * (omega * (M.imag * theta.real - M.real * theta.imag)).sum(axis=(0, 1)),
+        power=0.5 * (omega * (M.imag * theta.real - M.real * theta.imag)).sum(axis=(0, 1))
+        + _joint_power(at, omega, shafts),
     )
+
+
+def _joint_power(at: ExcitedTrain, omega: Floats, shafts: TorsionResponse) -> Floats | float:
+    """Mean power that joints give to the shafts that they twist, (speeds,) [W]."""
+    if at.joint_twists is None:
+        return 0.0
+    power: Floats = 0.5 * (shafts.shaft_torques * (1j * omega * at.joint_twists).conj()).real.sum(axis=(0, 1))
+    return power
 
 
 def _modal_heat(at: ExcitedTrain, omega: Floats, q: Complexes) -> Floats:

@@ -176,7 +176,7 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
     theta = response.amplitudes
     inertia, shafts = (J, response.shaft_torques) if at.distributed is None else _rods(at, J, theta)
-    outside = at.torques.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
+    outside = at.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
     outside = outside - _modal_torques(at, J, response)
     waves = _stage_torques(at, outside, shafts)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real

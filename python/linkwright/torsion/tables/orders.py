@@ -22,7 +22,7 @@ _ROUNDING = 1e-9
 
 def order_files(at: ExcitedTrain, forced: ForcedVibration) -> dict[str, str]:
     """Amplitude of every order over the speed as CSV, by name of file."""
-    torques = at.torques.harmonics
+    torques = at.exciting
     excited = np.flatnonzero(np.abs(torques).max(axis=(0, 2)) > 0)
     names = tuple(at.referred.discs[disc] for disc in excited)
     tables: dict[str, tuple[tuple[str, ...], Complexes, str]] = {
@@ -63,7 +63,7 @@ def order_results(at: ExcitedTrain, forced: ForcedVibration) -> dict[str, Any]:
         "speeds": forced.speeds.tolist(),
         "shaft_torque": listed(forced.shafts, forced.shaft_torques),
         "disc_angle": listed(forced.discs, forced.amplitudes),
-        "excitation": listed(at.referred.discs, at.torques.harmonics),
+        "excitation": listed(at.referred.discs, at.exciting),
     }
 
 
@@ -77,7 +77,7 @@ def manoeuvre_csv(moved: TorsionTransient) -> str:
 
 def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
     """Harmonics of the torques on the discs at one speed. `place`: of the speed."""
-    size = np.abs(at.torques.harmonics[:, :, place])
+    size = np.abs(at.exciting[:, :, place])
     shown = _shown(at, size)
     if not shown:
         return
@@ -87,11 +87,7 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
         (
             f"order {line_words(at.torques.orders[k], at.torques.offsets[k])}",
             "",
-            *(
-                cell
-                for disc in discs
-                for cell in _cells(at.torques.harmonics[k, disc, place], size[:, disc].max())
-            ),
+            *(cell for disc in discs for cell in _cells(at.exciting[k, disc, place], size[:, disc].max())),
         )
         for k in kept
     ]
