@@ -447,7 +447,10 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if len(rest):
         lines = forced.lines
         listed = ", ".join(lines[n] if forced.offsets[n] else f"{forced.orders[n]:.5g}" for n in rest[:4])
-        yield f"Orders {listed} have no common base with the others: their amplitudes are added."
+        yield (
+            f"Orders {listed} have no common base with the others: the peaks of each family are added, an "
+            "upper bound."
+        )
 
 
 def _about_throws(train: Train) -> Iterator[str]:

@@ -5,8 +5,9 @@ r"""Torques on the discs of a train as harmonics of the angle, and what harmonic
 An order of a disc that turns n times as fast as the first is the order nν of the train.
 
 Orders with a common base, as ½, 1, 1½, … of a four-stroke engine, repeat after as many revolutions, and their
-sum has exact extremes. Orders without one, as those of a wheel with 37 teeth on one with 13, meet in every
-phase sooner or later: of them the amplitudes add up.
+sum has exact extremes. Orders without one, as those of a wheel with 67 teeth on one with 41, meet in nearly
+every phase sooner or later. Each family of orders with a common base of its own has exact extremes over its
+period, and those of the families add up: a bound, which is approached in time.
 """
 
 from __future__ import annotations
@@ -237,11 +238,36 @@ class Orders:
     turns: float  # after which those with a common base repeat
     # (orders,) waves of each in that time; 0 of one that has no common base with the others.
     harmonic: NDArray[np.int64]
+    fixed: Floats | None = None  # (orders,) frequencies that do not follow the speed; None for none [rad/s]
 
     @cached_property
     def together(self) -> Bools:
         """Which of them have a common base."""
         return self.harmonic > 0
+
+    @cached_property
+    def families(self) -> tuple[tuple[NDArray[np.intp], Orders], ...]:
+        """Places of orders that go together, and how, the orders with a common base first."""
+        main = np.flatnonzero(self.together)
+        families = [(main, Orders(self.values[main], self.turns, self.harmonic[main]))] if len(main) else []
+        fixed = np.zeros(len(self.values)) if self.fixed is None else self.fixed
+        # Fixed frequencies without an order go together as orders do, over their own period.
+        for kind, values in ((fixed == 0, self.values), (self.values == 0, np.abs(fixed))):
+            rest = np.flatnonzero(kind & ~self.together)
+            while len(rest):
+                own = _counted(values[rest], values[rest].min())
+                family = rest[own.together]
+                families.append((family, Orders(values[family], own.turns, own.harmonic[own.together])))
+                rest = rest[~own.together]
+        return tuple(families)
+
+    @cached_property
+    def alone(self) -> Bools:
+        """Lines of no family: those of an order and a fixed frequency."""
+        alone = np.ones(len(self.values), bool)
+        for places, _ in self.families:
+            alone[places] = False
+        return alone
 
 
 def orders_together(values: Floats, fixed: Floats | None = None) -> Orders:
@@ -253,7 +279,8 @@ def orders_together(values: Floats, fixed: Floats | None = None) -> Orders:
         return _together(tuple(values.tolist()))
     count = int((fixed == 0).sum())
     own = _together(tuple(values[:count].tolist()))
-    return Orders(values, own.turns, np.append(own.harmonic, np.zeros(len(values) - count, np.int64)))
+    harmonic = np.append(own.harmonic, np.zeros(len(values) - count, np.int64))
+    return Orders(values, own.turns, harmonic, fixed)
 
 
 @lru_cache(maxsize=32)
@@ -300,16 +327,20 @@ def line_words(order: float, fixed: float) -> str:
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Maximum and minimum value of what harmonics add up to.
 
-    Gives `greatest`, `least`: with the amplitudes of orders without a common base added to both sides.
+    Gives `greatest`, `least`: of each family of orders, added up.
     `amplitudes`: (orders, ...). A wave that is not finite has no extremes: NaN.
     """
-    if len(amplitudes) == 1 or not orders.together.any():
-        amplitudes = np.abs(amplitudes).sum(axis=0, keepdims=True)
-        size = np.abs(amplitudes[0])
-        size = np.where(np.isfinite(size), size, np.nan)
-        return mean + size, mean - size
-    top, _, bottom, _ = extremes(coefficients(orders, amplitudes, mean))
-    rest = np.abs(amplitudes[~orders.together]).sum(axis=0)
+    top = bottom = np.broadcast_to(np.asarray(mean, float), amplitudes.shape[1:])
+    for places, family in orders.families:
+        if len(places) == 1:
+            size = np.abs(amplitudes[places[0]])
+            # A wave alone that is not finite has no extremes; beside others it has no bound.
+            high = np.where(np.isfinite(size), size, np.nan) if len(amplitudes) == 1 else size
+            low = -high
+        else:
+            high, _, low, _ = extremes(coefficients(family, amplitudes[places]))
+        top, bottom = top + high, bottom + low
+    rest = np.abs(amplitudes[orders.alone]).sum(axis=0)
     return top + rest, bottom - rest
 
 
