@@ -61,7 +61,7 @@ def balanced_start(
     `speed`: at the start [rad/s]; `told`: what was changed, in words; empty where nothing was.
     """
     speed, is_free = manoeuvre.speed, not (moving.tip < 0).any()
-    if not (manoeuvre.balanced and speed and is_free):
+    if not (manoeuvre.balanced and speed and is_free) or manoeuvre.twists:
         return moving, speed, ""
     left = _left(moving, speed, manoeuvre.angle)
     if abs(left) <= _ROUNDING * _size(moving, speed, manoeuvre.angle):
