@@ -101,7 +101,8 @@ def _train(machine: Machine) -> Iterator[Part]:
     if train is None:
         return
     if train.engine is not None:
-        yield from _nested("Engine", machine, ("train", "engine"))
+        word = "Engine" if train.engine.machine == "engine" else "Compressor"
+        yield from _nested(word, machine, ("train", "engine"))
     for table in _TRAIN:
         for name in getattr(train, table):
             yield _part(table.capitalize(), machine, ("train", table, name))

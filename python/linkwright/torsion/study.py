@@ -380,7 +380,7 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if study.transient is not None and study.transient.balance:
         yield f"Manoeuvre: {study.transient.balance}."
     at, train = study.excited, study.machine.train
-    if at is None or train is None or not train.installed or not train.loads:
+    if at is None or train is None or train.is_driven or not train.loads:
         return
     if train.run is not None and train.run.loads_follow:
         least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
@@ -438,7 +438,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The service speed is not among the speeds analysed: the results are those of {near:.5g} rpm."
-    if train is not None and train.installed and at.referred.is_free:
+    if train is not None and not train.is_driven and at.referred.is_free:
         yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)

@@ -165,7 +165,7 @@ def under(
         listed,
         damping,
         is_free=referred.is_free,
-        has_engine=machine.train is not None and bool(machine.train.installed),
+        has_engine=machine.train is not None and not machine.train.is_driven,
         loads_follow=follow,
     )
     return loaded(machine, train, referred, torques)

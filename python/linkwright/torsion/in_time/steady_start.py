@@ -70,7 +70,7 @@ def balanced_start(
         return _with_loads(moving, train, speed, left)
     if any(motor.on_at_start for motor in manoeuvre.motors.values()):
         return _at_steady_speed(moving, manoeuvre)
-    if train.installed:
+    if not train.is_driven:
         return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
         return moving, speed, f"no driving torque at the start: {left:.5g} N m slow the train down"

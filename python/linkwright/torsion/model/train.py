@@ -502,9 +502,14 @@ class Train(Description):
         )
 
     @property
+    def is_driven(self) -> bool:
+        """Whether its drivers give what loads and compressors need: no engine drives."""
+        return all(one.engine.machine == "compressor" for one in self.installed)
+
+    @property
     def shares(self) -> dict[str, float]:
         """Share of each disc that drives in the power that loads need, of all 1; none beside engines."""
-        if self.installed:
+        if not self.is_driven:
             return {}
         sharing = [driver for driver in self.drivers.values() if driver.torque is None]
         if not sharing:

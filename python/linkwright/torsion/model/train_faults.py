@@ -179,7 +179,8 @@ def _member_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDet
 
 def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     driver = look(train, "driver")
-    if isinstance(driver, str) and look(train, "engine") is not None:
+    is_driven = isinstance(train, Train) and train.is_driven
+    if isinstance(driver, str) and look(train, "engine") is not None and not is_driven:
         remedy = (
             "leave it out; a machine that drives beside the engine is one of [train.drivers], with a torque"
         )
@@ -202,7 +203,7 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _driver_faults(train: object) -> Iterator[InitErrorDetails]:
-    if not isinstance(train, Train) or not train.installed:
+    if not isinstance(train, Train) or train.is_driven:
         return
     for name, driver in train.drivers.items():
         if driver.torque is None:

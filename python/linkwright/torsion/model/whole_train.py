@@ -50,6 +50,8 @@ def whole_train(train: Train) -> Train:
             "shafts": {**cranks, **_light(train), **couplings, **held},
             "gears": {**train.gears, **meshes},
             "planetaries": {},
+            # The first disc may be a throw now.
+            "driver": train.driver or (None if train.drivers else next(iter(train.discs), None)),
             "engine": None,
             "engines": {},
             "couplings": {},
