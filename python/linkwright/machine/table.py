@@ -25,7 +25,10 @@ Place = tuple[str, ...]
 _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 
 # Tables of a train, in the order of the report.
-_TRAIN = ("engines", "discs", "shafts", "gears", "couplings", "dampers", "drivers", "loads", "excitations")
+_TRAIN = (
+    *("engines", "discs", "shafts", "gears", "planetaries", "couplings", "dampers", "pendulums"),
+    *("drivers", "loads", "excitations"),
+)
 
 # Significant digits of what a file gives: no fewer than it has, as a rule.
 _GIVEN = 6
@@ -98,7 +101,8 @@ def _train(machine: Machine) -> Iterator[Part]:
     if train is None:
         return
     if train.engine is not None:
-        yield from _nested("Engine", machine, ("train", "engine"))
+        word = "Engine" if train.engine.machine == "engine" else "Compressor"
+        yield from _nested(word, machine, ("train", "engine"))
     for table in _TRAIN:
         for name in getattr(train, table):
             yield _part(table.capitalize(), machine, ("train", table, name))

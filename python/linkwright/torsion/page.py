@@ -155,9 +155,9 @@ def _formulas(study: TorsionStudy) -> Iterator[Formula]:
 
 
 def _balanced(train: Train, at: ExcitedTrain | None) -> str:
-    if at is not None and train.installed and train.drivers and is_balanced(at):
+    if at is not None and not train.is_driven and train.drivers and is_balanced(at):
         return "Mean torques of engines, drivers and loads balance."
-    if not train.installed:
+    if train.is_driven:
         shares = ", ".join(f"{on} {share:.4g}" for on, share in train.shares.items() if share < 1)
         parts = f", by shares of the power: {shares}" if shares else ""
         return (

@@ -380,7 +380,7 @@ def _balance(study: TorsionStudy) -> Iterator[str]:
     if study.transient is not None and study.transient.balance:
         yield f"Manoeuvre: {study.transient.balance}."
     at, train = study.excited, study.machine.train
-    if at is None or train is None or not train.installed or not train.loads:
+    if at is None or train is None or train.is_driven or not train.loads:
         return
     if train.run is not None and train.run.loads_follow:
         least, most = float(at.torques.load_factor.min()), float(at.torques.load_factor.max())
@@ -438,15 +438,19 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
     if run is not None and not run.speed_min <= run.service <= run.speed_max:
         near = min(max(run.service, run.speed_min), run.speed_max) * 30 / np.pi
         yield f"The service speed is not among the speeds analysed: the results are those of {near:.5g} rpm."
-    if train is not None and train.installed and at.referred.is_free:
+    if train is not None and not train.is_driven and at.referred.is_free:
         yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
     yield from _about_the_ends(study, forced)
-    rest = forced.orders[~forced.together.together]
+    rest = np.flatnonzero(~forced.together.together)
     if len(rest):
-        listed = ", ".join(f"{order:.5g}" for order in rest[:4])
-        yield f"Orders {listed} have no common base with the others: their amplitudes are added."
+        lines = forced.lines
+        listed = ", ".join(lines[n] if forced.offsets[n] else f"{forced.orders[n]:.5g}" for n in rest[:4])
+        yield (
+            f"Orders {listed} have no common base with the others: the peaks of each family are added, an "
+            "upper bound."
+        )
 
 
 def _about_throws(train: Train) -> Iterator[str]:

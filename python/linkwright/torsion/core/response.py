@@ -44,7 +44,9 @@ def in_order(tree: Tree, rows: NDArray[Any]) -> NDArray[Any]:
 
 
 def tree_of(referred: ReferredTrain) -> Tree | None:
-    """The masses as a tree, shafts in parallel taken together; None if there are loops."""
+    """The masses as a tree, parallel shafts taken together; None with loops, or with gears on carriers."""
+    if referred.twist is not None:
+        return None
     ends = [tuple(sorted(pair)) for pair in referred.ends.tolist()]
     about: dict[int, list[int]] = {n: [] for n in range(HELD, len(referred.inertia))}
     for a, b in dict.fromkeys(ends):
@@ -103,17 +105,34 @@ def modal_losses(referred: ReferredTrain, stiffness: Floats) -> ModalLosses | No
     return ModalLosses(np.array([train.modal_damping for train in trains]), kind.ravel().astype(np.int32))
 
 
-def respond(referred: ReferredTrain, at: OperatingState, orders: Floats, torques: Complexes) -> Complexes:
+def respond(
+    referred: ReferredTrain,
+    at: OperatingState,
+    orders: Floats,
+    torques: Complexes,
+    fixed: Floats | None = None,
+) -> Complexes:
     """Amplitudes of the masses, (orders, masses, speeds).
 
     q [rad]; not finite at a resonance without any damping. `orders`: (orders,) cycles per revolution of the
-    first disc; `torques`: (orders, masses, speeds) referred [N m].
+    first disc; `torques`: (orders, masses, speeds) referred [N m]; `fixed`: (orders,) ω₀ of a frequency that
+    adds to that of the order [rad/s].
     """
+    if fixed is not None and fixed.any():
+        own = int((fixed == 0).sum())
+        parts = [respond(referred, at, orders[:own], torques[:own])]
+        for n in range(own, len(orders)):
+            # A line as the first order of a train that turns as fast, with what it is at the speed.
+            turning = replace(at, speeds=np.abs(orders[n] * at.speeds + fixed[n]))
+            parts.append(respond(referred, turning, np.ones(1), torques[n : n + 1]))
+        return np.concatenate(parts)
     tree = tree_of(referred)
     if tree is None or at.modal is not None:
         return _whole(referred, at, orders, torques)
     if referred.rods:
-        return _distributed(tree, at, dynamic_orders(referred, at, orders), orders, torques)
+        return _distributed(
+            tree, at, dynamic_orders(referred, at, np.outer(orders, at.speeds)), orders, torques
+        )
     n, speeds = len(referred.inertia), len(at.speeds)
 
     def table(values: Floats) -> Floats:
@@ -149,12 +168,11 @@ class DynamicOrders(NamedTuple):
     second: Complexes
 
 
-def dynamic_orders(referred: ReferredTrain, at: OperatingState, orders: Floats) -> DynamicOrders:
-    """What a train with distributed inertia is where orders excite it."""
-    shape = (-1, len(orders), len(at.speeds))
-    omega = np.outer(orders, at.speeds).ravel()
-    stiffness = np.tile(at.stiffness, len(orders))
-    there = dynamic(referred, stiffness, omega)
+def dynamic_orders(referred: ReferredTrain, at: OperatingState, omega: Floats) -> DynamicOrders:
+    """What a train with distributed inertia is where orders excite it; `omega`: (orders, speeds) [rad/s]."""
+    shape = (-1, *omega.shape)
+    stiffness = np.tile(at.stiffness, len(omega))
+    there = dynamic(referred, stiffness, omega.ravel())
 
     def by_order(rows: Complexes) -> Complexes:
         return np.ascontiguousarray(rows.reshape(shape).transpose(1, 0, 2))
@@ -240,6 +258,8 @@ def shaft_torques(
     # Amplitudes at a resonance without damping are not finite, nor are torques. Shafts one by one stay
     # in the cache.
     with np.errstate(invalid="ignore", over="ignore"):
+        if referred.twist is not None:
+            return stiffness * np.einsum("sm,omw->osw", referred.joins, q)
         for s, (first, second) in enumerate(referred.ends.tolist()):
             twist = (q[:, first] if first != HELD else 0.0) - (q[:, second] if second != HELD else 0.0)
             np.multiply(stiffness[:, s], twist, out=torques[:, s])

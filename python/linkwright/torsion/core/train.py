@@ -7,10 +7,23 @@ Each disc turns n times as fast as the first, θ = n q. With that, inertias and 
 and a shaft carries k_q (q_a − q_b) whatever gears lie elsewhere. Discs behind rigid gears share one q: they
 are one *mass*. Shafts in parallel add up. What is left is a tree, which is the core's, or has loops, as a
 shaft held at both ends has; then the matrices are solved as a whole.
+
+A mesh between gears on a carrier c twists by the motion relative to it,
+
+.. math:: \Delta = (\theta_a - \theta_c) - i\,(\theta_b - \theta_c)
+
+and joins three masses. What rests while the train runs, such as a held ring or a housing on its seat, is
+referred with n = 1.
+
+References
+----------
+.. [1] Lin and Parker, Analytical characterization of the unique properties of planetary gear free vibration,
+   J. Vib. Acoust. 121 (1999) 316-321.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -29,6 +42,10 @@ from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, who
 
 # The mass that is held, in `ReferredTrain.ends`.
 HELD = -1
+
+# Share of the largest frequency below which one is zero but for rounding; share of a twist likewise.
+_ROUNDING = 1e-10
+_EQUAL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -50,20 +67,50 @@ class ReferredTrain:
     ratios: Floats = field(default_factory=lambda: np.empty(0))
     # Shafts whose inertia is distributed; the inertias of the masses count it at the ends.
     rods: tuple[Rod, ...] = ()
+    # (shafts, discs) twist of each shaft at its first end, by the angles of the discs in their own senses;
+    # None where no mesh is on a carrier, so that each joins two masses.
+    twist: Floats | None = None
 
     @property
     def is_free(self) -> bool:
         """Whether it can rotate as a rigid body."""
-        return not bool((self.ends == HELD).any())
+        if self.twist is None:
+            return not bool((self.ends == HELD).any())
+        apart = np.abs(self.joins) @ self.rigid
+        return bool((np.abs(self.joins @ self.rigid) <= _EQUAL * apart).all())
+
+    @property
+    def scale(self) -> Floats:
+        """Angle of each disc over that of its mass, (discs,): its speed, 1 of one at rest."""
+        return self.speed if self.twist is None else np.where(self.speed == 0, 1.0, self.speed)
+
+    @cached_property
+    def rigid(self) -> Floats:
+        """Motion of the masses when it rotates as a rigid body, (masses,): 1, or 0 of what rests."""
+        rigid = np.ones(len(self.inertia))
+        if self.twist is not None:
+            rigid[self.mass[self.speed == 0]] = 0.0
+        return rigid
+
+    @property
+    def rigid_inertia(self) -> float:
+        """Inertia of the train as a rigid body, referred to the first disc [kg m²]."""
+        return float(self.inertia @ self.rigid)
 
     @property
     def lead(self) -> Floats:
         """Speed of the end of each shaft where its twist counts, over that of the first disc, (shafts,)."""
-        return lead_speeds(self.tip, self.speed)
+        return lead_speeds(self.tip, self.scale)
 
     @cached_property
     def joins(self) -> Floats:
-        """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second."""
+        """Connections, shape (shafts, masses): +1 at the first end of each shaft, −1 at the second.
+
+        Of a mesh on a carrier with the share of the carrier.
+        """
+        if self.twist is not None:
+            shares = self.twist * self.scale / self.lead[:, None]
+            return np.array([np.bincount(self.mass, row, len(self.inertia)) for row in shares])
         joins = np.zeros((len(self.ends), len(self.inertia) + 1))
         # The last column is that of the ground.
         for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
@@ -96,6 +143,9 @@ class ReferredTrain:
         return damping
 
     def _matrix(self, between: Floats) -> Floats:
+        if self.twist is not None:
+            of_meshes: Floats = (self.joins.T * between) @ self.joins
+            return of_meshes
         n = len(self.inertia)
         matrix = np.zeros((n + 1, n + 1))
         # The last row and column are those of the ground.
@@ -108,6 +158,8 @@ class ReferredTrain:
 
     def modes(self) -> tuple[Floats, Floats]:
         """Natural frequencies [rad/s], increasing, and shapes of the masses, a row each, with Σ J q² = 1."""
+        if self.twist is not None:
+            return self._about_carriers()
         core_modes = _core.torsion_modes(self.inertia, self.ends, self.stiffness)
         return self._whole() if core_modes is None else (core_modes.omega, core_modes.shapes)
 
@@ -124,6 +176,14 @@ class ReferredTrain:
             row += len(part)
         order = np.argsort(omega, kind="stable")
         return omega[order], shapes[order]
+
+    def _about_carriers(self) -> tuple[Floats, Floats]:
+        """Modes of a train with meshes on carriers: ω are the singular values of √k B/√J."""
+        root = np.sqrt(self.inertia)
+        strain = np.sqrt(self.stiffness)[:, None] * self.joins / root
+        _, omega, shapes = np.linalg.svd(np.vstack([strain, np.zeros((len(root), len(root)))]))
+        omega[omega <= _ROUNDING * omega[0]] = 0.0
+        return omega[::-1], shapes[::-1] / root
 
     def _part(self, masses: list[int], is_free: bool) -> tuple[Floats, Floats]:
         """Modes of one connected part."""
@@ -148,7 +208,10 @@ def refer(train: Train) -> ReferredTrain:
     """A train referred to the speed of its first disc."""
     _require_numbers(train)
     train = whole_train(train)
-    n = {name: abs(speed) for name, speed in speeds(train)[0].items()}
+    signed = speeds(train).discs
+    n = {name: abs(speed) for name, speed in signed.items()}
+    # What rests swings as it is.
+    scale = {name: speed if primal(speed) else 1.0 for name, speed in n.items()}
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
     masses = parts_of(train.discs, rigid)
     place = {name: k for k, part in enumerate(masses) for name in part}
@@ -156,10 +219,10 @@ def refer(train: Train) -> ReferredTrain:
     twisting: dict[str, Shaft | TrainGear] = {**train.shafts, **elastic}
     pairs = [part.between for part in twisting.values()]
     # What counts is the end of a shaft that turns, and the first disc of a mesh.
-    factor = numbers([n[a if a != GROUND else b] ** 2 for a, b in pairs])
+    factor = numbers([scale[a if a != GROUND else b] ** 2 for a, b in pairs])
 
     def summed(entry: str) -> Any:
-        return numbers([sum(n[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+        return numbers([sum(scale[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
 
     referred = ReferredTrain(
         discs=tuple(train.discs),
@@ -174,8 +237,27 @@ def refer(train: Train) -> ReferredTrain:
         damping=factor * numbers([part.damping for part in twisting.values()]),
         loss_factor=numbers([part.loss_factor for part in twisting.values()]),
         rods=tuple(_rods(list(twisting.values()), factor)),
+        twist=_twist(twisting, {name: primal(speed) for name, speed in signed.items()}),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
+
+
+def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float]) -> Floats | None:
+    """Twist of each shaft and mesh by the angles of the discs; None where no mesh is on a carrier."""
+    if not any(isinstance(part, TrainGear) and part.carrier for part in twisting.values()):
+        return None
+    place = {name: n for n, name in enumerate(signed)}
+    twist = np.zeros((len(twisting), len(place)))
+    for row, part in zip(twist, twisting.values(), strict=True):
+        ratio = primal(part.speed_ratio) if isinstance(part, TrainGear) else 1.0
+        carrier = (isinstance(part, TrainGear) and part.carrier) or GROUND
+        ends = zip((*part.between, carrier), (1.0, -ratio, ratio - 1.0), strict=True)
+        counted = [(end, factor if signed[end] >= 0 else -factor) for end, factor in ends if end != GROUND]
+        # Counted in the sense of its first end.
+        sense = math.copysign(1.0, counted[0][1])
+        for end, factor in counted:
+            row[place[end]] += sense * factor
+    return twist
 
 
 def _rods(twisting: list[Shaft | TrainGear], factor: Floats) -> Iterator[Rod]:

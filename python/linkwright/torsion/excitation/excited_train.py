@@ -5,7 +5,7 @@ Mean torques go through the shafts as statics has it, and set couplings to the s
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,7 +28,7 @@ from linkwright.torsion.excitation.drive_line import mechanism_sources, steady_s
 from linkwright.torsion.excitation.engine_torques import EnginePlace, engine_sources
 from linkwright.torsion.excitation.harmonics import Source, Torques, torques_of
 from linkwright.torsion.model.drive_train import CRANK
-from linkwright.torsion.model.train import Train, TrainRun
+from linkwright.torsion.model.train import Shaft, Train, TrainRun
 
 # Speeds of a driveline over its steady speed, and how many: where a motor works, not where it runs up.
 _ABOUT = (0.8, 1.2)
@@ -60,12 +60,64 @@ class ExcitedTrain:
         """What it is where orders excite it, if inertia of shafts is distributed; else None."""
         if not self.referred.rods:
             return None
-        return dynamic_orders(self.referred, self.operating, self.torques.orders)
+        return dynamic_orders(self.referred, self.operating, self.torques.omega)
+
+    @cached_property
+    def joint_twists(self) -> Complexes | None:
+        """Angle by which joints drive their shafts ahead, (orders, shafts, speeds) [rad]; None without."""
+        if not any(shaft.joint_angle is not None for shaft in self.train.shafts.values()):
+            return None
+        twists = np.zeros(
+            (len(self.torques.orders), len(self.referred.shafts), len(self.torques.speeds)), complex
+        )
+        for s, first, shaft in self._joints():
+            for k, size in enumerate(shaft.joint_harmonics, start=1):
+                of = self.torques.is_of(2 * k * float(self.referred.speed[first]))
+                # sin 2k(φ + φ₀)
+                twists[of, s] = -1j * size * np.exp(2j * k * shaft.joint_phase)
+        return twists
+
+    def _joints(self) -> Iterator[tuple[int, int, Shaft]]:
+        """Shafts with a joint, and the disc at it."""
+        for s, name in enumerate(self.referred.shafts):
+            shaft = self.train.shafts.get(name)
+            if shaft is not None and shaft.joint_angle is not None:
+                yield s, int(self.referred.tip[s, 0]), shaft
+
+    @cached_property
+    def harmonics(self) -> Complexes:
+        """Torques on the discs, (orders, discs, speeds) [N m]: from outside, and what joints take unevenly.
+
+        A joint that carries the mean torque M takes M dψ/dφ of the disc before it.
+        """
+        harmonics, twists = self.torques.harmonics, self.joint_twists
+        if twists is None:
+            return harmonics
+        harmonics = harmonics.copy()
+        for s, first, _ in self._joints():
+            order = (self.torques.orders / self.referred.speed[first])[:, None]
+            harmonics[:, first] -= 1j * order * twists[:, s] * self.mean_torques[s]
+        return harmonics
+
+    @cached_property
+    def exciting(self) -> Complexes:
+        """Torques on the discs with those of shafts that joints twist, (orders, discs, speeds) [N m]."""
+        twists = self.joint_twists
+        if twists is None:
+            return self.torques.harmonics
+        exciting, omega = self.harmonics.copy(), self.torques.omega
+        for s, first, _ in self._joints():
+            lossy = 1 + 1j * self.referred.loss_factor[s]
+            stiffness = self.operating.stiffness[s] * lossy + 1j * omega * self.referred.damping[s]
+            twisted = stiffness / self.referred.lead[s] ** 2 * twists[:, s]
+            exciting[:, first] -= twisted
+            exciting[:, int(self.referred.tip[s, 1])] += twisted
+        return exciting
 
     @cached_property
     def referred_harmonics(self) -> Complexes:
         """Torques on the masses, (orders, masses, speeds) [N m]."""
-        return _onto_masses(self.referred, self.torques.harmonics)
+        return _onto_masses(self.referred, self.exciting)
 
 
 def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
@@ -113,7 +165,7 @@ def under(
         listed,
         damping,
         is_free=referred.is_free,
-        has_engine=machine.train is not None and bool(machine.train.installed),
+        has_engine=machine.train is not None and not machine.train.is_driven,
         loads_follow=follow,
     )
     return loaded(machine, train, referred, torques)
@@ -144,7 +196,8 @@ def is_excited(machine: Machine) -> bool:
 def pulsates(train: Train) -> bool:
     """Whether a train has torques that pulsate."""
     waves = any(load.harmonics for load in train.loads.values())
-    return bool(train.excitations) or waves or bool(train.installed)
+    joints = any(shaft.joint_angle is not None for shaft in train.shafts.values())
+    return bool(train.excitations) or waves or joints or bool(train.installed)
 
 
 def highest_order(train: Train) -> float:
@@ -185,7 +238,7 @@ def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
 def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
     """Torques on discs as torques on masses, (…, masses, speeds)."""
     on_masses = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
-    for disc, (mass, n) in enumerate(zip(referred.mass, referred.speed, strict=True)):
+    for disc, (mass, n) in enumerate(zip(referred.mass, referred.scale, strict=True)):
         on_masses[:, mass] += n * torques[:, disc]
     return on_masses
 
@@ -195,7 +248,8 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     M = _onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:
         # What is left over speeds the train up as a whole.
-        M = M - referred.inertia[:, None] * (M.sum(axis=0) / referred.inertia.sum())
+        surplus = (referred.rigid @ M) / referred.rigid_inertia
+        M = M - (referred.inertia * referred.rigid)[:, None] * surplus
     # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
     k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
     tree = tree_of(referred)
@@ -220,6 +274,9 @@ def _operating(
         if coupling.twist is not None:
             s = referred.shafts.index(name)
             stiffness[s] = lead[s] ** 2 * coupling.slope(mean[s])
+    for name, pendulum in ({} if train is None else train.pendulums).items():
+        s = referred.shafts.index(name)
+        stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
-    np.add.at(damping, referred.mass, referred.speed[:, None] ** 2 * torques.damping)
+    np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
     return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))

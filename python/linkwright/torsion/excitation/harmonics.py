@@ -5,15 +5,16 @@ r"""Torques on the discs of a train as harmonics of the angle, and what harmonic
 An order of a disc that turns n times as fast as the first is the order nν of the train.
 
 Orders with a common base, as ½, 1, 1½, … of a four-stroke engine, repeat after as many revolutions, and their
-sum has exact extremes. Orders without one, as those of a wheel with 37 teeth on one with 13, meet in every
-phase sooner or later: of them the amplitudes add up.
+sum has exact extremes. Orders without one, as those of a wheel with 67 teeth on one with 41, meet in nearly
+every phase sooner or later. Each family of orders with a common base of its own has exact extremes over its
+period, and those of the families add up: a bound, which is approached in time.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from math import lcm
@@ -46,6 +47,27 @@ class Torques:
     # (speeds,) mean torque at the first disc beyond what the loads take off, which accelerates a free train
     # [N m].
     surplus: Floats
+    # (orders,) ω₀ of lines with a fixed frequency, behind all others [rad/s]; empty for none.
+    fixed: Floats = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def offsets(self) -> Floats:
+        """ω₀ of every line, (orders,) [rad/s]."""
+        return self.fixed if len(self.fixed) else np.zeros(len(self.orders))
+
+    @property
+    def omega(self) -> Floats:
+        """|νΩ + ω₀| of every line, (orders, speeds) [rad/s]."""
+        return np.abs(np.outer(self.orders, self.speeds) + self.offsets[:, None])
+
+    @property
+    def together(self) -> Orders:
+        """How the orders add up."""
+        return orders_together(self.orders, self.offsets)
+
+    def is_of(self, order: float) -> Bools:
+        """Which lines are of an order alone, (orders,)."""
+        return (np.abs(self.orders - order) <= _EQUAL * order) & (self.offsets == 0)
 
 
 @dataclass(frozen=True)
@@ -56,6 +78,7 @@ class Source:
     orders: Floats  # (orders,) cycles per revolution of the first disc
     harmonics: Complexes  # (orders, speeds) [N m]
     mean: Floats | None = None  # (speeds,) driving positive [N m]
+    fixed: float = 0.0  # ω₀ of all of them [rad/s]
 
 
 def torques_of(
@@ -77,7 +100,7 @@ def torques_of(
     of the first; `speeds`: (speeds,) [rad/s]; `damping`: (discs, speeds) [N m s/rad].
     """
     place = {name: k for k, name in enumerate(train.discs)}
-    every = [*sources, *_excitations(train, place, turning, speeds)]
+    every = [*sources, *_excitations(train, place, turning, speeds), *_joints(train, place, turning, speeds)]
     driving = [(torque.disc, torque.mean) for torque in every if torque.mean is not None]
     driving += [
         (place[driver.on], _at(driver.torque_at, turning[place[driver.on]] * speeds))
@@ -100,15 +123,24 @@ def torques_of(
             ]
             mean = mean + _summed(given, len(place), speeds)
     every += _load_harmonics(train, place, turning, speeds, factor)
-    orders = _orders(torque.orders for torque in every)
+    own = _orders(torque.orders for torque in every if not torque.fixed)
+    lines = sorted({(float(torque.orders[0]), torque.fixed) for torque in every if torque.fixed})
+    orders = np.append(own, [order for order, _ in lines])
     shape = (len(orders), len(place), len(speeds))
     harmonics = zeros_for([torque.harmonics for torque in every], shape, complex)
     for torque in every:
-        at = np.abs(orders[:, None] - torque.orders).argmin(axis=0)
+        if torque.fixed:
+            n = len(own) + lines.index((float(torque.orders[0]), torque.fixed))
+            # A motion of negative frequency is the conjugate one of its size.
+            back = torque.orders[0] * speeds + torque.fixed < 0
+            harmonics[n, torque.disc] += np.where(back, torque.harmonics[0].conj(), torque.harmonics[0])
+            continue
+        at = np.abs(own[:, None] - torque.orders).argmin(axis=0)
         np.add.at(harmonics, (at, torque.disc), torque.harmonics)
-    own = of_loads if damping is None else of_loads + damping
+    damped = of_loads if damping is None else of_loads + damping
     surplus = _powers(turning, mean - resistance) if is_free else np.zeros(len(speeds))
-    return Torques(speeds, orders, harmonics, mean - resistance, own, factor, surplus)
+    fixed = np.append(np.zeros(len(own)), [offset for _, offset in lines]) if lines else np.empty(0)
+    return Torques(speeds, orders, harmonics, mean - resistance, damped, factor, surplus, fixed)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
@@ -117,9 +149,27 @@ def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: F
         n = turning[place[excitation.on]]
         size = numbers([wave.torque * np.exp(1j * wave.phase) for wave in excitation.harmonics])
         factor = _at(excitation.factor, n * speeds)
-        orders = n * np.array([wave.order for wave in excitation.harmonics])
-        sources.append(Source(place[excitation.on], orders, size[:, None] * factor))
+        lines = [wave.line for wave in excitation.harmonics]
+        waves = [k for k, (_, fixed) in enumerate(lines) if not fixed]
+        orders = n * np.array([lines[k][0] for k in waves])
+        if waves:
+            sources.append(Source(place[excitation.on], orders, size[waves, None] * factor))
+        for k, (order, fixed) in enumerate(lines):
+            if fixed:
+                alone = n * np.array([order])
+                sources.append(
+                    Source(place[excitation.on], alone, size[k : k + 1, None] * factor, fixed=fixed)
+                )
     return sources
+
+
+def _joints(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> Iterator[Source]:
+    """The orders of Hooke's joints; what they do follows from the mean torque of their shafts."""
+    for shaft in train.shafts.values():
+        if shaft.joint_angle is not None:
+            disc, count = place[shaft.between[0]], len(shaft.joint_harmonics)
+            orders = 2 * turning[disc] * np.arange(1, count + 1)
+            yield Source(disc, orders, np.zeros((count, len(speeds)), complex))
 
 
 def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> tuple[Floats, Floats]:
@@ -188,16 +238,49 @@ class Orders:
     turns: float  # after which those with a common base repeat
     # (orders,) waves of each in that time; 0 of one that has no common base with the others.
     harmonic: NDArray[np.int64]
+    fixed: Floats | None = None  # (orders,) frequencies that do not follow the speed; None for none [rad/s]
 
     @cached_property
     def together(self) -> Bools:
         """Which of them have a common base."""
         return self.harmonic > 0
 
+    @cached_property
+    def families(self) -> tuple[tuple[NDArray[np.intp], Orders], ...]:
+        """Places of orders that go together, and how, the orders with a common base first."""
+        main = np.flatnonzero(self.together)
+        families = [(main, Orders(self.values[main], self.turns, self.harmonic[main]))] if len(main) else []
+        fixed = np.zeros(len(self.values)) if self.fixed is None else self.fixed
+        # Fixed frequencies without an order go together as orders do, over their own period.
+        for kind, values in ((fixed == 0, self.values), (self.values == 0, np.abs(fixed))):
+            rest = np.flatnonzero(kind & ~self.together)
+            while len(rest):
+                own = _counted(values[rest], values[rest].min())
+                family = rest[own.together]
+                families.append((family, Orders(values[family], own.turns, own.harmonic[own.together])))
+                rest = rest[~own.together]
+        return tuple(families)
 
-def orders_together(values: Floats) -> Orders:
-    """Common base of orders (orders,) above zero, cycles per revolution, of as many as have one."""
-    return _together(tuple(values.tolist()))
+    @cached_property
+    def alone(self) -> Bools:
+        """Lines of no family: those of an order and a fixed frequency."""
+        alone = np.ones(len(self.values), bool)
+        for places, _ in self.families:
+            alone[places] = False
+        return alone
+
+
+def orders_together(values: Floats, fixed: Floats | None = None) -> Orders:
+    """Common base of orders (orders,) above zero, cycles per revolution, of as many as have one.
+
+    Lines that are `fixed` (orders,), of a frequency that does not follow the speed, have none.
+    """
+    if fixed is None or not fixed.any():
+        return _together(tuple(values.tolist()))
+    count = int((fixed == 0).sum())
+    own = _together(tuple(values[:count].tolist()))
+    harmonic = np.append(own.harmonic, np.zeros(len(values) - count, np.int64))
+    return Orders(values, own.turns, harmonic, fixed)
 
 
 @lru_cache(maxsize=32)
@@ -231,18 +314,33 @@ def _counted(values: Floats, unit: float) -> Orders:
     return Orders(values, turns / unit, harmonic)
 
 
+def line_words(order: float, fixed: float) -> str:
+    """An order as a number, a line of a fixed frequency [rad/s] with it."""
+    if not fixed:
+        return f"{order:.4g}"
+    frequency = f"{abs(fixed) / (2 * math.pi):.4g} Hz"
+    if not order:
+        return frequency
+    return f"{order:.4g} {'−' if fixed < 0 else '+'} {frequency}"
+
+
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Maximum and minimum value of what harmonics add up to.
 
-    Gives `greatest`, `least`: with the amplitudes of orders without a common base added to both sides.
+    Gives `greatest`, `least`: of each family of orders, added up.
     `amplitudes`: (orders, ...). A wave that is not finite has no extremes: NaN.
     """
-    if len(amplitudes) == 1:
-        size = np.abs(amplitudes[0])
-        size = np.where(np.isfinite(size), size, np.nan)
-        return mean + size, mean - size
-    top, _, bottom, _ = extremes(coefficients(orders, amplitudes, mean))
-    rest = np.abs(amplitudes[~orders.together]).sum(axis=0)
+    top = bottom = np.broadcast_to(np.asarray(mean, float), amplitudes.shape[1:])
+    for places, family in orders.families:
+        if len(places) == 1:
+            size = np.abs(amplitudes[places[0]])
+            # A wave alone that is not finite has no extremes; beside others it has no bound.
+            high = np.where(np.isfinite(size), size, np.nan) if len(amplitudes) == 1 else size
+            low = -high
+        else:
+            high, _, low, _ = extremes(coefficients(family, amplitudes[places]))
+        top, bottom = top + high, bottom + low
+    rest = np.abs(amplitudes[orders.alone]).sum(axis=0)
     return top + rest, bottom - rest
 
 

@@ -116,7 +116,7 @@ def orders_figure(
         if k not in largest
     ]
     named_orders = [
-        Line(single[k] * factor, colour, f"order {forced.orders[k]:.4g}", style={"linewidth": 1.3})
+        Line(single[k] * factor, colour, f"order {forced.lines[k]}", style={"linewidth": 1.3})
         for k, colour in zip(largest, LINES, strict=False)
     ]
     every = Line(total * factor, INK, "all orders", style={"linewidth": 2.0})

@@ -25,6 +25,7 @@ from linkwright.kernel.figure.style import (
     zero_line,
 )
 from linkwright.kernel.reader.numbers import quantity
+from linkwright.torsion.excitation.harmonics import line_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -160,15 +161,29 @@ def campbell_figure(diagram: CampbellDiagram) -> Figure:
 
 
 def _top(diagram: CampbellDiagram) -> float:
-    ray = float(diagram.orders.max() * diagram.speeds[-1]) / (2 * math.pi)
+    ends = np.abs(np.outer(diagram.orders, diagram.speeds[[0, -1]]) + _offsets(diagram)[:, None])
+    ray = float(ends.max()) / (2 * math.pi)
     reached = [row.max() for row in diagram.frequencies if 0 < row.min() <= ray]
     return 1.12 * float(max(reached, default=ray))
+
+
+def _offsets(diagram: CampbellDiagram) -> Floats:
+    """Fixed frequency beside each order, 0 for none [rad/s]."""
+    return diagram.fixed if len(diagram.fixed) else np.zeros(len(diagram.orders))
 
 
 def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
     (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
     last = None
-    for order in sorted(diagram.orders.tolist()):
+    fixed = _offsets(diagram)
+    for order, offset in zip(diagram.orders[fixed != 0].tolist(), fixed[fixed != 0].tolist(), strict=True):
+        rpm = np.linspace(left, right, 200)
+        hertz = np.abs(order * rpm / 60 + offset / (2 * math.pi))
+        axes.plot(rpm, hertz, color=SOFT, linewidth=0.5, linestyle="--", alpha=0.8, zorder=1)
+        if hertz[-1] <= top:
+            where = {"textcoords": "offset points", "va": "center", "color": SOFT, "fontsize": SMALL}
+            axes.annotate(line_words(order, offset), (right, hertz[-1]), xytext=(3, 0), **where)
+    for order in sorted(diagram.orders[fixed == 0].tolist()):
         axes.plot(
             [left, right],
             [order * left / 60, order * right / 60],

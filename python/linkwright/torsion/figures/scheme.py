@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.modes.scheme import Connection, Scheme
 
-_COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "damper": GREEN}
+_COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "bearing": SOFT, "damper": GREEN}
 
 
 @styled
@@ -131,7 +131,7 @@ class _Pen:
         x, part = self.places.discs[riser.disc][0], riser.part
         down = riser.side
         start, stop = self.levels[riser.row][0], self.levels[riser.to_row][0]
-        geared = part.kind in ("gears", "mesh")
+        geared = part.is_geared
         other = part.second if part.first == riser.disc else part.first
         begin = start - down * self.half[riser.disc]
         end = stop + down * self.half[other] if geared else stop

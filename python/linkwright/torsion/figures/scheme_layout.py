@@ -222,7 +222,7 @@ class _RowSearch:
 
 
 def _geared(part: Connection) -> bool:
-    return part.kind in ("gears", "mesh")
+    return part.is_geared
 
 
 # No name of a disc has a blank before it.

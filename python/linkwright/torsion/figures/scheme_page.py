@@ -54,6 +54,8 @@ def connection_words(connection: Connection) -> Words:
     name = shortened(connection.name, NAME_LETTERS)
     if connection.kind == "gears":
         return Words((), (f"{name} i = {connection.ratio:.4g}",))
+    if connection.kind == "bearing":
+        return Words((), ("bearing",))
     if connection.stiffness is None or connection.stiffness_referred is None:
         return Words((name,), ())
     own = stiffness(connection.stiffness)
@@ -229,7 +231,7 @@ class Page:
 
     def _beside(self, part: Connection) -> float:
         """What the words beside gears between two rows take; shafts have theirs in a row."""
-        if part.kind not in ("gears", "mesh"):
+        if not part.is_geared:
             return 0.0
         words = self.parts[part.name]
         return wide(in_a_row(words)) if self.turned else LINE * len(words.below)
@@ -255,7 +257,7 @@ def _lengths(
     """Drawn length of each part, as its compliance where words leave room; and which parts are broken."""
     sides = _sides_turned(scheme) if turned else _sides(scheme, discs, parts)
     least = {part.name: _least(part, parts[part.name], sides, turned) for part in scheme.connections}
-    rows = [part for part in scheme.connections if part.kind not in ("gears", "mesh")]
+    rows = [part for part in scheme.connections if not part.is_geared]
     soft = dict.fromkeys(least, 0.0) | {row.name: row.equivalent_length or 0.0 for row in rows}
     known = [length for length in soft.values() if length > 0]
     if not known:
@@ -271,7 +273,7 @@ def _sides(scheme: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> 
     ends = Counter(end for part in scheme.connections for end in (part.first, part.second))
     sides = {name: words.width * (1.0 if ends[name] > 2 else 0.5) for name, words in discs.items()}
     for part in scheme.connections:
-        if part.kind in ("gears", "mesh"):
+        if part.is_geared:
             for end in (part.first, part.second):
                 sides[end] = max(sides[end], discs[end].width + GAP, parts[part.name].width + 3 * GAP)
     return sides
@@ -279,7 +281,7 @@ def _sides(scheme: Scheme, discs: dict[str, Words], parts: dict[str, Words]) -> 
 
 def _sides_turned(scheme: Scheme) -> dict[str, float]:
     ends = Counter(end for part in scheme.connections for end in (part.first, part.second))
-    geared = [end for part in scheme.connections if part.kind in ("gears", "mesh") for end in part[2:4]]
+    geared = [end for part in scheme.connections if part.is_geared for end in part[2:4]]
     return {name: LINE * (2.2 if ends[name] > 2 or name in geared else 1.0) for name in scheme.discs}
 
 

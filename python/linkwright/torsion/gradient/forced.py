@@ -17,6 +17,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 
@@ -62,6 +63,13 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         raise InputError(
             "forced vibration with train.modal_damping has no derivatives: give dampings or loss factors"
         )
+    waves = [wave for excitation in machine.train.excitations.values() for wave in excitation.harmonics]
+    if any(wave.frequency for wave in waves):
+        raise InputError(
+            "forced vibration under a fixed frequency has no derivatives: leave out its harmonics"
+        )
+    if any(shaft.joint_angle is not None for shaft in machine.train.shafts.values()):
+        raise InputError("forced vibration with joints has no derivatives: leave out joint_angle")
     refused = _refused(variables)
     train, referred, d = train_tangents(machine, variables, refused)
     _refuse_moved(d, refused)
@@ -178,23 +186,26 @@ class _Peaks:
         self, t: Complexes, mean: float
     ) -> tuple[tuple[float, list[Complexes]], tuple[float, list[Complexes]]]:
         """Maximum and minimum over the angle, each with weights of the orders at the angles that have it."""
-        orders = self._orders
-        top, at_top, bottom, at_bottom = (
-            float(extreme) for extreme in extremes(coefficients(orders, t[:, None], mean))[:, 0]
-        )
-        rest = float(np.abs(t[~orders.together]).sum())
-        wave = waveform(orders, t[:, None], mean)[:, 0]
-        return (
-            (top + rest, [self._weights(t, tau, 1.0) for tau in (at_top, *_rivals(wave, at_top))]),
-            (bottom - rest, [self._weights(t, tau, -1.0) for tau in (at_bottom, *_rivals(-wave, at_bottom))]),
-        )
+        rest, ends = float(np.abs(t[self._orders.alone]).sum()), []
+        for sign in (1.0, -1.0):
+            total, taus = mean + sign * rest, []
+            for places, family in self._orders.families:
+                wave = sign * t[places]
+                value, tau, *_ = (
+                    float(extreme) for extreme in extremes(coefficients(family, wave[:, None]))[:, 0]
+                )
+                total += sign * value
+                taus.append((tau, *_rivals(waveform(family, wave[:, None])[:, 0], tau)))
+            ends.append((total, [self._weights(t, angles, sign) for angles in product(*taus)]))
+        top, bottom = ends
+        return top, bottom
 
-    def _weights(self, t: Complexes, tau: float, sign: float) -> Complexes:
-        """What an extreme owes to each order, dy = Re Σ w dt."""
-        orders = self._orders
+    def _weights(self, t: Complexes, angles: tuple[float, ...], sign: float) -> Complexes:
+        """What an extreme with each family at an angle owes to each order, dy = Re Σ w dt."""
         size = np.abs(t)
-        alone = sign * np.conj(t) / np.where(size > 0, size, 1.0)
-        weights: Complexes = np.where(orders.together, np.exp(1j * orders.harmonic * tau), alone)
+        weights: Complexes = sign * np.conj(t) / np.where(size > 0, size, 1.0)
+        for (places, family), tau in zip(self._orders.families, angles, strict=True):
+            weights[places] = np.exp(1j * family.harmonic * tau)
         return weights
 
 

@@ -131,7 +131,7 @@ def _by_differences(
         except LinkwrightError as error:
             refused[name] = " ".join(str(error).split())
     waves, mean, damping, curved = tables
-    # But for couplings with a curve, stiffnesses are those of the train, whose derivatives are exact.
+    # But for couplings with a curve and pendulums, stiffnesses are those of the train: exact derivatives.
     stiffness = np.repeat(d.stiffness[:, None], len(speeds), axis=1)
     stiffness[[referred.shafts.index(name) for name in _curved(machine)]] = curved
     return [
@@ -171,9 +171,10 @@ def _acting(machine: Machine, speeds: Floats) -> _Arrays:
 
 
 def _curved(machine: Machine) -> list[str]:
-    """Couplings whose stiffness is that of a curve."""
-    couplings = {} if machine.train is None else machine.train.couplings
-    return [name for name, coupling in couplings.items() if coupling.twist is not None]
+    """Couplings whose stiffness is that of a curve, and pendulums, whose stiffness follows the speed."""
+    train = machine.train
+    couplings, pendulums = ({}, {}) if train is None else (train.couplings, train.pendulums)
+    return [*(name for name, coupling in couplings.items() if coupling.twist is not None), *pendulums]
 
 
 def _torques(machine: Machine, referred: ReferredTrain, speeds: Floats) -> Torques:

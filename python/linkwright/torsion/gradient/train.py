@@ -26,6 +26,8 @@ _MECHANISM = (
 )
 
 
+_CARRIER = "derivatives of trains with gears on a carrier are not available"
+
 _START = "the curve of a coupling starts at zero"
 
 
@@ -77,6 +79,8 @@ def train_tangents(
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
+    if referred.twist is not None:
+        refused.update(dict.fromkeys(variables, _CARRIER))
     refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
     known, listed = followed(machine, free, partial(_numbers, inertia=J), refused)

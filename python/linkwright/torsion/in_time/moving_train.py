@@ -10,6 +10,7 @@ combustion adds. Both are taken at one speed.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -18,8 +19,10 @@ import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.core.curve import Curve, odd, product, straight, switched
+from linkwright.kernel.core.curve import smooth as smooth_curve
 from linkwright.kernel.core.periodic_table import PeriodicTable, smooth, waves
 from linkwright.kernel.errors import InputError, MachineError, Problem
+from linkwright.kernel.limits import SAMPLES
 from linkwright.torsion.core.torque import (
     DecayingTorque,
     GovernorTorque,
@@ -38,7 +41,13 @@ from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_a
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train import Train
-from linkwright.torsion.model.train_torques import Harmonic, InstalledEngine, LoadHarmonic, TrainLoad
+from linkwright.torsion.model.train_torques import (
+    Excitation,
+    Harmonic,
+    InstalledEngine,
+    LoadHarmonic,
+    TrainLoad,
+)
 from linkwright.torsion.model.train_transient import (
     FuelSwitch,
     LoadStep,
@@ -64,6 +73,20 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
+    for name, shaft in train.shafts.items():
+        if shaft.joint_angle is not None:
+            remedy = "leave [train.transient] out; forced vibration has joints"
+            expected = "no joint in a motion in time"
+            raise MachineError([Problem("train.transient", f"the joint of shaft {name}", expected, remedy)])
+    if train.pendulums:
+        found, expected = f"the pendulum {next(iter(train.pendulums))}", "none in a motion in time"
+        remedy = "leave [train.transient] out; forced vibration has pendulums"
+        raise MachineError([Problem("train.transient", found, expected, remedy)])
+    if referred.twist is not None:
+        name = next(name for name, gear in expanded.gears.items() if gear.carrier)
+        remedy = "leave [train.transient] out; modes and forced vibration have such stages"
+        expected = "gears on fixed bearings in a motion in time"
+        raise MachineError([Problem("train.transient", f"the mesh {name} on a carrier", expected, remedy)])
     place = {name: k for k, name in enumerate(expanded.discs)}
     own = np.array([disc.inertia for disc in expanded.discs.values()])
     inertias = [
@@ -190,9 +213,13 @@ def _outside(train: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
     for name, load in train.loads.items():
         yield from _load(name, load, manoeuvre, place[load.on])
     for name, excitation in train.excitations.items():
-        law = None if excitation.speed is None else Power(excitation.speed, excitation.exponent, is_even=True)
-        for shape, pitch, phase in _shapes(excitation.harmonics, 0.0):
+        law = _over_speed(excitation)
+        waves = [wave for wave in excitation.harmonics if not wave.frequency]
+        for shape, pitch, phase in _shapes(waves, 0.0) if waves else ():
             yield TrainTorque(name, place[excitation.on], 1.0, law, shape, pitch, phase)
+        for wave in excitation.harmonics:
+            if wave.frequency:
+                yield from _fixed_frequency(name, place[excitation.on], wave, law, manoeuvre)
     for name, driver in train.drivers.items():
         if driver.torque is not None:
             law = None if driver.speed is None else Power(driver.speed, driver.exponent, is_even=True)
@@ -206,6 +233,58 @@ def _outside(train: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
         weight = switched(changes, float(motor.on_at_start))
         torque = OverSpeed(motor_curve(motor.motor))
         yield TrainTorque(name, place[motor.on], 1.0, torque, weight=weight)
+
+
+def _over_speed(excitation: Excitation) -> Power | OverSpeed | None:
+    """How the amplitudes of an excitation depend on the speed; None for not at all."""
+    if excitation.speeds is not None and excitation.factors is not None:
+        return OverSpeed(straight(excitation.speeds, excitation.factors))
+    return None if excitation.speed is None else Power(excitation.speed, excitation.exponent, is_even=True)
+
+
+# Points in a period of a sine over time where a law over the speed leaves room for no other: cubics between
+# them err by 1e-6.
+_IN_PERIOD = 48
+
+# Before the start of a motion that settles for as long as a file is likely to ask for [s].
+_LONG_BEFORE = 100.0
+
+
+def _fixed_frequency(
+    name: str, on: int, wave: Harmonic, law: Power | OverSpeed | None, manoeuvre: TrainTransient
+) -> Iterator[TrainTorque]:
+    """M cos(νφ + ω₀t + β), by products of a sine over time and one over the angle."""
+    order, omega = wave.line
+    size, sense = abs(omega), math.copysign(1.0, omega)
+    terms = [(wave.torque, sense * wave.phase + np.pi / 2, 0.0)]
+    if order:
+        # cos(νφ + β) cos(ω₀t) − sin(νφ + β) sin(ω₀t)
+        terms = [(wave.torque, np.pi / 2, wave.phase), (-sense * wave.torque, 0.0, wave.phase - np.pi / 2)]
+    shape = waves([1.0], [1.0], [0.0], 1, 0.0) if order else None
+    before = max(_LONG_BEFORE, manoeuvre.settle or 0.0)
+    for scale, lead, phase in terms:
+        if law is None:
+            over_time = DecayingTorque(-before, np.inf, 0.0, size, lead - size * before)
+            yield TrainTorque(name, on, scale, over_time, shape, order or 1.0, phase)
+        else:
+            weight = _sine(size, lead, manoeuvre)
+            yield TrainTorque(name, on, scale, law, shape, order or 1.0, phase, weight)
+
+
+def _sine(omega: float, lead: float, manoeuvre: TrainTransient) -> Curve:
+    """sin(ωt + lead) over the motion and the time in which it settles, by cubics."""
+    start = -1.1 if manoeuvre.settle is None else -1.1 * manoeuvre.settle - 0.1
+    count = math.ceil((manoeuvre.duration - start) * omega / (2 * np.pi) * _IN_PERIOD) + 1
+    if count > SAMPLES.most * 5:
+        raise InputError(
+            f"train.transient.duration: found {manoeuvre.duration:g} s, with {omega / (2 * np.pi):.4g} Hz "
+            f"of an excitation over the speed; expected at most {SAMPLES.most * 5 // _IN_PERIOD} periods"
+        )
+    time = np.linspace(start, manoeuvre.duration, max(count, 3))
+    value, slope = np.sin(omega * time + lead), omega * np.cos(omega * time + lead)
+    # It sets in within the first piece: before, where mean torques are found, there is none.
+    value[0] = slope[0] = 0.0
+    return smooth_curve(time, value, slope, beyond="held")
 
 
 def _load(name: str, load: TrainLoad, manoeuvre: TrainTransient, on: int) -> Iterator[TrainTorque]:

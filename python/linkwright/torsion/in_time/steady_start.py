@@ -61,7 +61,7 @@ def balanced_start(
     `speed`: at the start [rad/s]; `told`: what was changed, in words; empty where nothing was.
     """
     speed, is_free = manoeuvre.speed, not (moving.tip < 0).any()
-    if not (manoeuvre.balanced and speed and is_free):
+    if not (manoeuvre.balanced and speed and is_free) or manoeuvre.twists:
         return moving, speed, ""
     left = _left(moving, speed, manoeuvre.angle)
     if abs(left) <= _ROUNDING * _size(moving, speed, manoeuvre.angle):
@@ -70,7 +70,7 @@ def balanced_start(
         return _with_loads(moving, train, speed, left)
     if any(motor.on_at_start for motor in manoeuvre.motors.values()):
         return _at_steady_speed(moving, manoeuvre)
-    if train.installed:
+    if not train.is_driven:
         return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
         return moving, speed, f"no driving torque at the start: {left:.5g} N m slow the train down"
@@ -165,7 +165,7 @@ _ANGLES = 1024
 
 # A time before the start [s]: laws over time are what they are there, and nothing has set in that begins
 # with it.
-BEFORE = -1.0
+BEFORE = -1e6
 
 # Twist by which stiffnesses are found [rad], and Newton's steps.
 _STEP = 1e-7

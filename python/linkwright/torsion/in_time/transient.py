@@ -28,6 +28,7 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label, declared
 from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import HELD
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
 from linkwright.torsion.in_time.ice_impacts import (
     IceMilling,
@@ -284,8 +285,8 @@ def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> To
         train,
         duration=manoeuvre.duration,
         speed=speed,
-        angle=manoeuvre.angle,
-        loaded=manoeuvre.loaded and manoeuvre.speed > 0,
+        angle=_twisted(train, manoeuvre) if manoeuvre.twists else manoeuvre.angle,
+        loaded=manoeuvre.loaded and manoeuvre.speed > 0 and not manoeuvre.twists,
         settle=_settling_time(manoeuvre),
         sample_time=manoeuvre.sample_time,
         accuracy=manoeuvre.accuracy,
@@ -324,10 +325,41 @@ def follow_train(
     return _result(train, times, moved)
 
 
+def _twisted(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
+    """Angles of the masses with given twists at the start, the first disc at its angle, (masses,) [rad]."""
+    joins = np.zeros((len(train.shafts), train.masses + 1))
+    # The last column is that of the ground.
+    ends = np.append(train.mass, train.masses)[train.tip]
+    for end, sign in zip(ends.T, (1.0, -1.0), strict=True):
+        np.add.at(joins, (np.arange(len(joins)), end), sign)
+    for name in manoeuvre.twists.keys() - set(train.shafts):
+        raise InputError(f'train.transient.twists: found "{name}", expected one of {", ".join(train.shafts)}')
+    wanted = np.array([manoeuvre.twists.get(name, 0.0) for name in train.shafts]) / train.lead
+    first, is_free = int(train.mass[0]), not (train.tip == HELD).any()
+    turned = [mass for mass in range(train.masses) if mass != first or not is_free]
+    at = np.zeros(train.masses)
+    at[turned] = np.linalg.lstsq(joins[:, turned], wanted, rcond=None)[0]
+    left = joins[:, :-1] @ at - wanted
+    if np.abs(left).max() > _TWISTS_FIT * np.abs(wanted).max():
+        name = train.shafts[int(np.abs(left).argmax())]
+        raise InputError(
+            f"train.transient.twists: found twists that do not fit together at {name}, expected those of "
+            "shafts in a loop to add up to zero around it"
+        )
+    angles: Floats = at + (manoeuvre.angle if is_free else 0.0)
+    return angles
+
+
 def _settling_time(manoeuvre: TrainTransient) -> float:
+    if manoeuvre.twists:
+        return 0.0
     if manoeuvre.settle is not None:
         return manoeuvre.settle
     return _SETTLE if manoeuvre.speed > 0 and manoeuvre.balanced and manoeuvre.loaded else 0.0
+
+
+# Share of the largest twist within which twists around a loop add up to zero.
+_TWISTS_FIT = 1e-9
 
 
 def _require(duration: float, accuracy: float, sample_time: float | None, settle: float) -> None:

@@ -5,6 +5,7 @@
 | shaft | vibratory stress, continuous and in transient passage, maximum stress, torques | its `limit` |
 | coupling | torque, vibratory torque, heat | its own entries |
 | damper | heat | `heat_permitted` |
+| pendulum | swing | `swing_permitted` |
 | gear stage | drop of the torque below its mean | the mean: beyond it teeth part |
 | gear stage | torque | its `torque_permitted` |
 
@@ -20,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.kernel.arrays import Bools, Floats
-from linkwright.kernel.units.kinds import POWER, PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import ANGLE, POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.model.coupling import Coupling, Damper
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train import Shaft, Train
@@ -38,7 +40,7 @@ CONTACT = "drop of torque below its mean"
 class Criterion(NamedTuple):
     """One thing that a part bears, over the speeds."""
 
-    part: str  # name of the shaft, coupling, damper or gear stage
+    part: str  # name of the shaft, coupling, damper, pendulum or gear stage
     what: str  # in words
     kind: Kind  # the quantity
     found: Floats  # (speeds,) SI
@@ -69,6 +71,7 @@ def criteria(
     stress = shaft_stress(machine, response, service)
     listed = [*_stresses(stress, shafts), *_torques(machine.train, shafts, response)]
     listed += _heats(machine.train, response)
+    listed += _swings(machine.train, at, response)
     if not at.train.gears:
         return listed
     meshes = meshed(at, response) if meshes is None else meshes
@@ -107,6 +110,15 @@ def _heats(train: Train | None, response: TorsionResponse) -> Iterator[Criterion
         if part.heat_permitted is not None:
             heat = response.shaft_heat[response.shafts.index(name)]
             yield Criterion(name, "heat", POWER, heat, np.full(len(heat), part.heat_permitted))
+
+
+def _swings(train: Train | None, at: ExcitedTrain, response: TorsionResponse) -> Iterator[Criterion]:
+    for name, pendulum in ({} if train is None else train.pendulums).items():
+        if pendulum.swing_permitted is not None:
+            ring, disc = (response.amplitudes[:, response.discs.index(end)] for end in (name, pendulum.on))
+            top, bottom = span(response.together, pendulum.swing_per_twist * (ring - disc))
+            permitted = np.full(len(response.speeds), pendulum.swing_permitted)
+            yield Criterion(name, "swing", ANGLE, 0.5 * (top - bottom), permitted)
 
 
 def _contacts(gears: MeshTorque) -> Iterator[Criterion]:

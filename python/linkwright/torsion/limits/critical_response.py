@@ -105,15 +105,15 @@ class _Place(NamedTuple):
 
 def critical_responses(seen: Survey, diagram: CampbellDiagram) -> tuple[CriticalResponse, ...]:
     """What the shafts carry at all critical speeds, by critical speed."""
-    if not diagram.critical or not seen.found.shafts:
+    if not diagram.of_orders or not seen.found.shafts:
         return ()
     loads = _Loads(seen)
     places: dict[int, list[_Place]] = {}
-    for order in dict.fromkeys(one.order for one in diagram.critical):
-        numbers = [n for n, one in enumerate(diagram.critical) if one.order == order]
-        of_order = _places(loads, order, [diagram.critical[n] for n in numbers])
+    for order in dict.fromkeys(one.order for one in diagram.of_orders):
+        numbers = [n for n, one in enumerate(diagram.of_orders) if one.order == order]
+        of_order = _places(loads, order, [diagram.of_orders[n] for n in numbers])
         places |= dict(zip(numbers, of_order, strict=True))
-    return tuple(_chosen(loads, diagram.critical, [places[n] for n in range(len(diagram.critical))]))
+    return tuple(_chosen(loads, diagram.of_orders, [places[n] for n in range(len(diagram.of_orders))]))
 
 
 @dataclass(frozen=True)
@@ -172,9 +172,11 @@ class _Loads:
 
 
 def _one_order(at: ExcitedTrain, order: float) -> ExcitedTrain:
-    same = np.abs(at.torques.orders - order) <= _EQUAL * order
+    same = at.torques.is_of(order)
     harmonics = at.torques.harmonics[same].sum(axis=0, keepdims=True)
-    return replace(at, torques=replace(at.torques, orders=np.array([order]), harmonics=harmonics))
+    return replace(
+        at, torques=replace(at.torques, orders=np.array([order]), harmonics=harmonics, fixed=np.empty(0))
+    )
 
 
 def _places(loads: _Loads, order: float, critical: Sequence[CriticalSpeed]) -> list[list[_Place]]:

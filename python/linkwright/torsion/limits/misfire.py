@@ -142,7 +142,7 @@ def misfires(machine: Machine, at: ExcitedTrain) -> Iterator[MisfireCase]:
     """The train with each cylinder in turn without combustion, at the speeds at which it was prepared."""
     train, speeds = machine.train, at.torques.speeds
     engines = () if train is None else train.installed
-    if train is None or not engines or not all(sound_factors(one.engine).all() for one in engines):
+    if train is None or train.is_driven or not all(sound_factors(one.engine).all() for one in engines):
         return
     places, gases = [], []
     for one in engines:

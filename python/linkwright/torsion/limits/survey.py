@@ -44,8 +44,8 @@ def resonances(at: ExcitedTrain) -> tuple[Resonance, ...]:
     omega = _frequencies(at)[np.argsort(at.torques.speeds)]
     crossings = []
     for mode in range(omega.shape[1]):
-        for order in at.torques.orders.tolist():
-            gap = omega[:, mode] - order * speeds
+        for order, fixed in zip(at.torques.orders.tolist(), at.torques.offsets.tolist(), strict=True):
+            gap = omega[:, mode] - np.abs(order * speeds + fixed)
             crossings += [Resonance(speed, order, mode) for speed in _zeros(speeds, gap)]
     return tuple(sorted(crossings))
 
@@ -56,7 +56,7 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
     if at.referred.rods:
         trains = (replace(at.referred, stiffness=np.ascontiguousarray(column)) for column in columns.T)
-        highest = float(at.torques.speeds.max() * at.torques.orders.max(initial=1.0))
+        highest = float(at.torques.omega.max(initial=at.torques.speeds.max()))
         listed = [
             np.where(low > 0, low, 0.0) for low in (frequencies_below(train, highest) for train in trains)
         ]
@@ -91,7 +91,9 @@ def damped_resonances(at: ExcitedTrain) -> tuple[Floats, Floats]:
     ends = np.concatenate([speeds[:1], halfway, speeds[-1:]])
     listed, of_orders = [np.empty(0)], [np.empty(0)]
     for place, low, high in zip(places, ends[:-1], ends[1:], strict=True):
-        crossings = np.divide.outer(_moved(at, place, undamped[place]), at.torques.orders)
+        moved = _moved(at, place, undamped[place])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            crossings = np.subtract.outer(moved, at.torques.offsets) / at.torques.orders
         inside = (crossings >= low) & (crossings <= high)
         listed.append(crossings[inside])
         of_orders.append(np.broadcast_to(at.torques.orders, crossings.shape)[inside])

@@ -2,7 +2,7 @@
 
 | module | |
 | --- | --- |
-| `coupling` | Elastic couplings, and torsional dampers |
+| `coupling` | Elastic couplings, torsional dampers and centrifugal pendulums |
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
 | `ice_impacts` | Ice impacts on a propeller, by ice classes |

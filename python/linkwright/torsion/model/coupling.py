@@ -1,29 +1,41 @@
-r"""An elastic coupling, linear or of a curve; a torsional damper, a ring held by a fluid or by rubber.
+r"""An elastic coupling, linear or of a curve; a torsional damper, a ring held by a fluid or by rubber; a
+centrifugal pendulum.
 
 About the mean torque a coupling of a curve acts as one of its slope there, :math:`k = dM/d\Delta`.
 
 References
 ----------
-.. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.3 and 5.6: dampers with and without spring.
+.. [1] Den Hartog, Mechanical Vibrations, 4th ed. 1956, sections 3.3 and 5.6: dampers with and without spring;
+   chapter 5: centrifugal pendulums.
+
+A centrifugal pendulum of mass m and length l on the radius R obeys, for small swings ψ at the speed Ω,
+
+.. math:: m l^2\,\ddot\psi + m l (R + l)\,\ddot\theta + m R l\,\Omega^2 \psi = 0
+
+With :math:`\theta + \psi l/(R + l)` for the angle of a ring, this is a tuned damper of
+
+.. math:: J = m (R + l)^2, \qquad k = J\,\frac{R}{l}\,\Omega^2
+
+tuned to the order :math:`\sqrt{R/l}` at every speed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.description.base import CheckedDescription, fault
+from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.description.curve import curve_faults, not_rising
 from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.kernel.numerics.zeros import zeros
-from linkwright.kernel.units.kinds import INERTIA, POWER
+from linkwright.kernel.units.kinds import ANGLE, INERTIA, LENGTH, MASS, POWER
 from linkwright.kernel.units.marks import Angles, Torques, positive
 from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveStiffness, PositiveTorque
 
@@ -31,7 +43,9 @@ from linkwright.torsion.model.train_base import Damping, LossFactor, PositiveSti
 class Coupling(CheckedDescription):
     """An elastic coupling between two discs."""
 
-    between: tuple[str, str] = Field(description="The two discs that it connects.")
+    between: tuple[str, str] = Field(
+        description='The two discs that it connects; one end may be "ground" (fixed).'
+    )
     stiffness: PositiveStiffness | None = Field(
         None, description="Torsional stiffness for vibration: torque per angle of twist."
     )
@@ -166,3 +180,39 @@ class Damper(CheckedDescription):
             if not self.damping:
                 found = self.damping if "damping" in self.model_fields_set else None
                 yield fault("damping", found=found, expected="the damping of a viscous damper, above 0")
+
+
+class Pendulum(Description):
+    """Centrifugal pendulums on a disc, all of one kind, swinging without rotation of their own (bifilar)."""
+
+    on: str = Field(description="Disc that carries them; its inertia is without theirs.")
+    mass: Annotated[float, positive(MASS)] = Field(description="Mass of all pendulums together.")
+    radius: Annotated[float, positive(LENGTH)] = Field(
+        description="Radius R from the axis of the disc to the centre of the path of the pendulum's mass."
+    )
+    length: Annotated[float, positive(LENGTH)] = Field(
+        description="Length l: radius of the path of the centre of mass. The pendulum is tuned to the order "
+        "√(R/l) of its disc."
+    )
+    damping: Damping = Field(
+        0.0,
+        description="Viscous damping, as torque on the disc per velocity of the pendulums about its axis.",
+    )
+    swing_permitted: Annotated[float, positive(ANGLE)] | None = Field(
+        None, description="Permitted amplitude of the swing, for which the pendulum counts as linear."
+    )
+
+    @property
+    def ring_inertia(self) -> float:
+        """Moment of inertia about the axis of the disc, the pendulums in their middle [kg m²]."""
+        inertia: float = self.mass * (self.radius + self.length) ** 2
+        return inertia
+
+    @property
+    def swing_per_twist(self) -> float:
+        """Angle of swing over the angle by which the mass leads the disc about its axis."""
+        return (self.radius + self.length) / self.length
+
+    def stiffness(self, speed: Any) -> Any:
+        """Stiffness of the tuned damper that it is at a speed of its disc [N m/rad]."""
+        return self.ring_inertia * self.radius / self.length * speed**2

@@ -33,9 +33,9 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import total
 from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
-from linkwright.kernel.units.marks import Bound, Quantity, QuantityList, not_negative, positive
+from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
-from linkwright.torsion.model.coupling import Coupling, Damper
+from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.measured_response import MeasuredResponse
 from linkwright.torsion.model.shaft_limit import ShaftLimit
@@ -208,6 +208,16 @@ class ElasticShaft(CheckedDescription):
         return place(self.sections, share)
 
 
+# Joints work far below this angle.
+_JOINT = Bound(
+    " above 0 and up to 60°,", {"minimum": 0, "maximum": math.pi / 3}, lambda x: 0 < x <= math.pi / 3
+)
+JointAngle = Annotated[float, Quantity(ANGLE, _JOINT)]
+
+# Share of the twist of the first harmonic of a joint below which further ones do not count.
+_JOINT_HARMONIC = 1e-6
+
+
 class Shaft(ElasticShaft):
     """An elastic shaft between two discs, or between a disc and the ground."""
 
@@ -229,9 +239,20 @@ class Shaft(ElasticShaft):
         description='Inertia of the shaft: "ends" adds half to the disc at each end; "distributed" treats '
         "it exactly along the shaft. Default: that of [train].",
     )
+    joint_angle: JointAngle | None = Field(
+        None,
+        description="Angle of a Hooke's joint at the first end, whose uneven speed ratio excites vibration.",
+    )
+    joint_phase: Angle = Field(
+        0.0, description="Angle of the first fork from the plane of both axes, at the zero of the disc angle."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         yield from super()._faults()
+        if self.joint_phase and self.joint_angle is None:
+            yield fault("joint_angle", expected="the angle of the joint whose phase is given")
+        if self.joint_angle is not None and GROUND in self.between:
+            yield fault("between", found=list(self.between), expected="two discs, with a joint between them")
         if self.density is not None and self.sections is None:
             expected = "the sections whose inertia it gives"
             remedy = "leave density out, or give own_inertia beside the stiffness"
@@ -246,6 +267,20 @@ class Shaft(ElasticShaft):
             yield fault("inertia", found=self.inertia, expected=expected)
 
     @property
+    def joint_harmonics(self) -> tuple[float, ...]:
+        """Amplitudes of sin 2φ, sin 4φ, … by which the joint drives the shaft ahead [rad].
+
+        With tan ψ = tan φ/cos α the angle behind the joint is ψ = φ + Σ tᵏ/k sin 2kφ, t = tan²(α/2).
+        """
+        if self.joint_angle is None:
+            return ()
+        t = math.tan(self.joint_angle / 2) ** 2
+        count = 1
+        while t**count / (count + 1) > _JOINT_HARMONIC:
+            count += 1
+        return tuple(t**k / k for k in range(1, count + 1))
+
+    @property
     def is_heavy(self) -> bool:
         """Whether it has an inertia of its own."""
         return self.density is not None or self.own_inertia is not None
@@ -258,7 +293,9 @@ _RATIO_MAX = 1e6
 class TrainGear(CheckedDescription):
     """A gear stage between two discs, rigid, or elastic in its mesh."""
 
-    between: tuple[str, str] = Field(description="The two discs that it connects.")
+    between: tuple[str, str] = Field(
+        description='The two discs that it connects; on a carrier the second may be "ground" (fixed).'
+    )
     ratio: PositiveNumber | None = Field(None, description="Speed of the first disc over that of the second.")
     teeth: tuple[PositiveNumber, PositiveNumber] | None = Field(
         None, description="Numbers of teeth of the first and second gear, instead of the ratio."
@@ -284,8 +321,19 @@ class TrainGear(CheckedDescription):
     torque_permitted: PositiveTorque | None = Field(
         None, description="Maximum torque at the first disc, in steady running and in manoeuvres."
     )
+    carrier: str | None = Field(
+        None,
+        description="Disc that carries the bearings of both gears: a planet carrier, or a housing on an "
+        "elastic seat; the ratio then holds relative to it (Willis). Default: the ground.",
+    )
+    carrier_speed: Annotated[float, Quantity(RATIO)] | None = Field(
+        None,
+        description="Speed of the carrier over that of the first disc of the train, negative in the opposite "
+        "sense; only where the other connections leave it open.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        yield from self._carrier_faults()
         if (self.ratio is None) == (self.teeth is None):
             found = "neither" if self.ratio is None else "both"
             yield fault(found=found, expected="either ratio or teeth")
@@ -302,14 +350,88 @@ class TrainGear(CheckedDescription):
             remedy = "give the stiffness of the mesh"
             yield fault("backlash", found=self.backlash, expected="none with a rigid mesh", remedy=remedy)
 
+    def _carrier_faults(self) -> Iterator[InitErrorDetails]:
+        if self.carrier is None:
+            if self.carrier_speed is not None:
+                yield fault("carrier", expected="the disc whose speed carrier_speed is")
+            return
+        if self.stiffness is None:
+            remedy = "give the stiffness of the mesh, referred to the first disc"
+            yield fault("stiffness", expected="an elastic mesh between gears on a carrier", remedy=remedy)
+        if self.backlash:
+            yield fault("backlash", found=self.backlash, expected="none with a carrier")
+
     @property
     def speed_ratio(self) -> float:
-        """Speed of the first disc over that of the second, negative where the sense is reversed."""
+        """Speed of the first disc over that of the second, relative to the carrier; negative if reversed."""
         size = self.ratio
         if size is None:
             assert self.teeth is not None
             size = self.teeth[1] / self.teeth[0]
         return -size if self.kind in ("external", "crossed_belt") else size
+
+
+class Planetary(CheckedDescription):
+    """A planetary stage: sun, ring, carrier, each free, driven or held, with equal planets between them."""
+
+    sun: str = Field(description='Disc of the sun gear; "ground" where it is held.')
+    ring: str = Field(description='Disc of the ring gear; "ground" where it is held.')
+    carrier: str = Field(
+        description="Disc of the carrier, whose inertia includes the masses of the planets at their centres."
+    )
+    teeth: tuple[PositiveNumber, PositiveNumber] = Field(description="Numbers of teeth of sun and ring.")
+    planet_teeth: PositiveNumber | None = Field(
+        None, description="Number of teeth of a planet. Default: half the difference of ring and sun."
+    )
+    planets: Whole = Field(3, ge=1, le=20, description="Number of planets.")
+    planet_inertia: Annotated[float, positive(INERTIA)] = Field(
+        description="Moment of inertia of one planet about its own axis."
+    )
+    sun_stiffness: PositiveStiffness = Field(
+        description="Mesh stiffness of the sun with one planet, as torque of the sun per angle."
+    )
+    ring_stiffness: PositiveStiffness = Field(
+        description="Mesh stiffness of the ring with one planet, as torque of the ring per angle."
+    )
+    loss_factor: LossFactor = Field(0.0, description="Loss factor of all meshes.")
+    carrier_speed: Annotated[float, Quantity(RATIO)] | None = Field(
+        None,
+        description="Speed of the carrier over that of the first disc of the train, negative in the opposite "
+        "sense; only where all three members turn and the other connections leave it open.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.teeth[1] <= self.teeth[0]:
+            yield fault("teeth", 1, found=self.teeth[1], expected="more teeth of the ring than of the sun")
+        if self.sun == GROUND == self.ring:
+            yield fault("ring", found=self.ring, expected="a disc: two held members leave no motion")
+
+    def planet_names(self, name: str) -> tuple[str, ...]:
+        """Names of the discs that its planets are."""
+        return tuple(f"{name}_planet_{n + 1}" for n in range(self.planets))
+
+    def meshes(self, name: str) -> dict[str, TrainGear]:
+        """Its meshes, that of the sun with each planet, then those of the ring."""
+        of_planet = self.planet_teeth or (self.teeth[1] - self.teeth[0]) / 2
+        meshes: dict[str, TrainGear] = {}
+        members: tuple[tuple[str, str, float, float, Literal["external", "internal"]], ...] = (
+            ("sun", self.sun, self.teeth[0], self.sun_stiffness, "external"),
+            ("ring", self.ring, self.teeth[1], self.ring_stiffness, "internal"),
+        )
+        for word, disc, teeth, stiffness, kind in members:
+            # A mesh is counted at its first disc, which cannot be the ground.
+            held = disc == GROUND
+            for n, planet in enumerate(self.planet_names(name)):
+                meshes[f"{name}_{word}_{n + 1}"] = TrainGear.model_construct(
+                    between=(planet, disc) if held else (disc, planet),
+                    teeth=(of_planet, teeth) if held else (teeth, of_planet),
+                    kind=kind,
+                    stiffness=stiffness * (of_planet / teeth) ** 2 if held else stiffness,
+                    loss_factor=self.loss_factor,
+                    carrier=self.carrier,
+                    carrier_speed=self.carrier_speed,
+                )
+        return meshes
 
 
 class Train(Description):
@@ -318,8 +440,16 @@ class Train(Description):
     discs: dict[Name, Disc] = Field(default_factory=dict, description="Rotating discs, by name.")
     shafts: dict[Name, Shaft] = Field(default_factory=dict, description="Shafts between the discs, by name.")
     gears: dict[Name, TrainGear] = Field(default_factory=dict, description="Gear stages by name.")
+    planetaries: dict[Name, Planetary] = Field(
+        default_factory=dict,
+        description="Planetary stages by name, each with discs NAME_planet_1, … and meshes NAME_sun_1, …, "
+        "NAME_ring_1, …",
+    )
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
+    pendulums: dict[Name, Pendulum] = Field(
+        default_factory=dict, description="Centrifugal pendulum absorbers by name; they need [train.run]."
+    )
     loads: dict[Name, TrainLoad] = Field(default_factory=dict, description="Driven machines, by name.")
     excitations: dict[Name, Excitation] = Field(
         default_factory=dict, description="Pulsating torques, by name."
@@ -372,9 +502,14 @@ class Train(Description):
         )
 
     @property
+    def is_driven(self) -> bool:
+        """Whether its drivers give what loads and compressors need: no engine drives."""
+        return all(one.engine.machine == "compressor" for one in self.installed)
+
+    @property
     def shares(self) -> dict[str, float]:
         """Share of each disc that drives in the power that loads need, of all 1; none beside engines."""
-        if self.installed:
+        if not self.is_driven:
             return {}
         sharing = [driver for driver in self.drivers.values() if driver.torque is None]
         if not sharing:

@@ -15,12 +15,13 @@ from linkwright.kernel.limits import DISCS
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.model.train_torques import crank_names, throw_names
 from linkwright.torsion.model.train_transient import transient_faults
-from linkwright.torsion.model.whole_train import Contradiction, parts_of, speeds, whole_train
+from linkwright.torsion.model.whole_train import Contradiction, RodShaft, parts_of, speeds, whole_train
 
 # Tables whose entries join two discs, and those whose entries sit on one.
 _TABLES = ("shafts", "couplings", "gears")
+_MEMBERS = ("sun", "ring", "carrier")
 _NUMBERS = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
-_ON = ("dampers", "loads", "excitations", "drivers")
+_ON = ("dampers", "pendulums", "loads", "excitations", "drivers")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -28,7 +29,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     if train is None:
         return
     own = keys(look(train, "discs")) if isinstance(look(train, "discs"), dict) else ()
-    discs = (*_throw_names(train), *own)
+    discs = (*_throw_names(train), *own, *_planet_names(train))
     if not discs:
         remedy = 'describe the rotating parts as [train.discs], NAME = { inertia = "2 kg m^2" }'
         yield fault("train", "discs", expected="at least one disc", remedy=remedy)
@@ -39,6 +40,12 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
     if GROUND in discs:
         remedy = "it is the name of the fixed frame"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
+        return
+    if keys(look(train, "pendulums")) and look(train, "run") is None:
+        remedy = "give [train.run] speed_min and speed_max"
+        yield fault(
+            "train", "pendulums", expected="speeds, which set the stiffness of pendulums", remedy=remedy
+        )
         return
     wrong = [*_same_names(train), *_name_faults(train, discs), *_engine_faults(train)]
     yield from wrong
@@ -54,17 +61,17 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         except (InputError, ArithmeticError) as error:
             yield _no_throw(error)
             return
-        yield from map(_loop_fault, speeds(expanded)[1])
-        yield from transient_faults(train, (*discs, *train.dampers))
+        yield from _speed_faults(train, expanded)
+        yield from transient_faults(train, (*discs, *train.dampers, *train.pendulums))
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
     cranks = [name for engine, throws in _engines(train) for name in crank_names(throws, engine)]
     for tables, taken in (
-        (("shafts", "couplings", "dampers", "gears"), cranks),
-        (("discs", "dampers"), _throw_names(train)),
+        (("shafts", "couplings", "dampers", "pendulums", "gears"), [*cranks, *_mesh_names(train)]),
+        (("discs", "dampers", "pendulums"), (*_throw_names(train), *_planet_names(train))),
     ):
-        seen = dict.fromkeys(taken, "engine")
+        seen = {name: "engine" if "throw" in name or "crank" in name else "planetaries" for name in taken}
         for table in tables:
             for name in keys(look(train, table)):
                 if name in seen:
@@ -89,6 +96,16 @@ def _throws(engine: object) -> int:
 
 def _throw_names(train: object) -> tuple[str, ...]:
     return tuple(name for engine, throws in _engines(train) for name in throw_names(throws, engine))
+
+
+def _planet_names(train: object) -> tuple[str, ...]:
+    stages = train.planetaries if isinstance(train, Train) else {}
+    return tuple(planet for name, stage in stages.items() for planet in stage.planet_names(name))
+
+
+def _mesh_names(train: object) -> tuple[str, ...]:
+    stages = train.planetaries if isinstance(train, Train) else {}
+    return tuple(mesh for name, stage in stages.items() for mesh in stage.meshes(name))
 
 
 def _engine_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -122,11 +139,12 @@ def _pairs(train: object, table: str) -> Iterator[tuple[str, Sequence[str]]]:
 
 def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     for table in _TABLES:
-        known = (*discs, GROUND) if table == "shafts" else discs
         for name, ends in _pairs(train, table):
             place = ("train", table, name, "between")
+            on_carrier = look(look(look(train, table), name), "carrier") is not None
+            known = discs if table == "gears" and not on_carrier else (*discs, GROUND)
             for n, end in enumerate(ends):
-                if end == GROUND and table != "shafts":
+                if end == GROUND and (end not in known or (n == 0 and table == "gears")):
                     remedy = "hold a disc by a shaft to the ground"
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
                 elif end not in known:
@@ -134,12 +152,35 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
             if ends[0] == ends[1]:
                 yield fault(*place, 1, found=ends[1], expected="another disc than the first")
+    yield from _member_faults(train, discs)
     yield from _seat_faults(train, discs)
+
+
+def _member_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
+    """Members of planetary stages and carriers of gears that are no discs."""
+    for table, members in (("planetaries", _MEMBERS), ("gears", ("carrier",))):
+        for name in keys(look(train, table)):
+            entry, taken = look(look(train, table), name), dict[str, str]()
+            for member in members:
+                disc = look(entry, member)
+                if not isinstance(disc, str):
+                    continue
+                place = ("train", table, name, member)
+                if disc not in discs and not (disc == GROUND and member != "carrier"):
+                    remedy = close_match(disc, discs) or suggestion(disc, discs)
+                    yield fault(*place, found=disc, expected="the name of a disc", remedy=remedy)
+                elif disc in taken and disc != GROUND:
+                    yield fault(*place, found=disc, expected=f"another disc than the {taken[disc]}")
+                taken[disc] = member
+            if table == "gears" and look(entry, "carrier") in (look(entry, "between") or ()):
+                expected = "another disc than the two gears"
+                yield fault("train", table, name, "carrier", found=look(entry, "carrier"), expected=expected)
 
 
 def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     driver = look(train, "driver")
-    if isinstance(driver, str) and look(train, "engine") is not None:
+    is_driven = isinstance(train, Train) and train.is_driven
+    if isinstance(driver, str) and look(train, "engine") is not None and not is_driven:
         remedy = (
             "leave it out; a machine that drives beside the engine is one of [train.drivers], with a torque"
         )
@@ -162,7 +203,7 @@ def _seat_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
 
 
 def _driver_faults(train: object) -> Iterator[InitErrorDetails]:
-    if not isinstance(train, Train) or not train.installed:
+    if not isinstance(train, Train) or train.is_driven:
         return
     for name, driver in train.drivers.items():
         if driver.torque is None:
@@ -174,12 +215,49 @@ def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDeta
     pairs = [(a, b) for table in _TABLES for _, (a, b) in _pairs(train, table) if GROUND not in (a, b)]
     for engine, throws in _engines(train):
         pairs += pairwise(throw_names(throws, engine))
+    for joined in _carried(train):
+        pairs += pairwise(name for name in joined if name != GROUND)
     parts = parts_of(discs, pairs)
     if len(parts) > 1:
         found = "; ".join(_listed(part) for part in parts[:4]) + ("; …" if len(parts) > 4 else "")
         remedy = "join them by shafts, couplings or gears, or describe each as a train of its own file"
         expected = "one connected train"
         yield fault("train", found=f"{len(parts)} parts: {found}", expected=expected, remedy=remedy)
+
+
+def _carried(train: object) -> Iterator[tuple[str, ...]]:
+    """Discs that gears on a carrier join: all of a planetary stage, or gears and their carrier."""
+    if not isinstance(train, Train):
+        return
+    for name, stage in train.planetaries.items():
+        yield (stage.sun, stage.ring, stage.carrier, *stage.planet_names(name))
+    for gear in train.gears.values():
+        if gear.carrier is not None:
+            yield (*gear.between, gear.carrier)
+
+
+def _speed_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:
+    """Loops that cannot turn, discs whose speed is open, torques by the revolution on a disc at rest."""
+    turning, wrong, undetermined = speeds(expanded)
+    yield from map(_loop_fault, wrong)
+    if undetermined:
+        found = f"no speed of {_listed(undetermined)} relative to {next(iter(expanded.discs))}"
+        remedy = "hold a member by a shaft to the ground, or give carrier_speed of the stage"
+        yield fault("train", found=found, expected="one speed of every disc", remedy=remedy)
+    for table in ("loads", "excitations", "drivers"):
+        for name, entry in getattr(train, table).items():
+            if turning[entry.on] == 0:
+                expected = "a disc that turns with the train"
+                yield fault("train", table, name, "on", found=f"{entry.on}, at rest", expected=expected)
+    bent = [name for name, shaft in expanded.shafts.items() if shaft.joint_angle is not None]
+    for name in bent:
+        if isinstance(expanded.shafts[name], RodShaft):
+            expected = 'inertia = "ends" of a shaft with a joint'
+            yield fault("train", "shafts", name, "inertia", found="distributed", expected=expected)
+    heavy = [name for name, shaft in expanded.shafts.items() if isinstance(shaft, RodShaft)]
+    if heavy and any(gear.carrier for gear in expanded.gears.values()):
+        expected = 'inertia = "ends" in a train with gears on a carrier'
+        yield fault("train", "shafts", heavy[0], "inertia", found="distributed", expected=expected)
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -6,7 +6,10 @@ is damped by the slope,
 
 .. math:: c = \frac{dM}{d\omega} = p\,\frac{M}{\omega}
 
-Pulsating torques are :math:`\sum M_\nu \cos(\nu\varphi + \beta_\nu)`, φ the angle of the disc, ν the order.
+Pulsating torques are :math:`\sum M_\nu \cos(\nu\varphi + 2\pi f t + \beta_\nu)`, φ the angle of the disc,
+ν the order, f a fixed frequency, as electrical machines have it: lines at the supply frequency and its
+double, and interharmonics of an inverter, :math:`k f_1 \pm n f_2`, with the :math:`f_1 = p\Omega/2\pi` of
+p pole pairs and the fixed :math:`f_2`.
 
 Engines of one kind or several, turbines and motors drive, each with its part of the power. Mean torques
 balance: with the resistance R and what is given as torques G, both referred to the first disc,
@@ -21,16 +24,19 @@ References
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated, NamedTuple
 
+import numpy as np
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
+from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.limits import HARMONICS, ORDER
-from linkwright.kernel.units.kinds import COUNT, RATIO, TORQUE
-from linkwright.kernel.units.marks import Angle, Bound, Quantity, not_negative, positive
+from linkwright.kernel.units.kinds import COUNT, FREQUENCY, RATIO, TORQUE
+from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, Speeds, not_negative, positive
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 
@@ -105,12 +111,30 @@ class TrainLoad(CheckedDescription):
         return max(self.damping_factor * self.exponent * self.resistance(speed) / speed, 0.0)
 
 
-class Harmonic(Description):
-    """One order of a pulsating torque."""
+class Harmonic(CheckedDescription):
+    """One order or frequency of a pulsating torque."""
 
-    order: Order = Field(description="Order: cycles per revolution of the disc.")
+    order: Order | None = Field(
+        None, description="Order: cycles per revolution of the disc. Default: none, with a frequency alone."
+    )
+    frequency: Annotated[float, Quantity(FREQUENCY)] | None = Field(
+        None,
+        description="Fixed frequency that adds to that of the order, such as 100 Hz for twice the supply; "
+        "negative for a difference, as k f₁ − n f₂ of an inverter or twice the slip frequency.",
+    )
     torque: Annotated[float, not_negative(TORQUE)] = Field(description="Amplitude of the torque.")
-    phase: Angle = Field(0.0, description="Phase β of cos(νφ + β), with the disc angle φ.")
+    phase: Angle = Field(
+        0.0, description="Phase β of cos(νφ + 2πf t + β), with the disc angle φ and the frequency f."
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.order is None and not self.frequency:
+            yield fault("order", expected="an order, a frequency, or both")
+
+    @property
+    def line(self) -> tuple[float, float]:
+        """Order, 0 for none, and fixed angular frequency [rad/s]."""
+        return self.order or 0.0, 2 * math.pi * (self.frequency or 0.0)
 
 
 class Excitation(CheckedDescription):
@@ -124,31 +148,49 @@ class Excitation(CheckedDescription):
     exponent: Exponent = Field(
         0.0, description="Exponent of the amplitudes over the speed: 2 for inertia torques."
     )
+    speeds: Speeds | None = Field(
+        None,
+        description="Speeds of the disc, increasing, of a table of factors on the amplitudes, such as over "
+        "the slip of a synchronous motor that starts; instead of speed and exponent.",
+    )
+    factors: Annotated[tuple[float, ...], QuantityList(RATIO)] | None = Field(
+        None, description="Factors at these speeds; linear between them, held beyond."
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if not self.harmonics:
             yield fault("harmonics", found="an empty list", expected="a list of at least one order")
         if self.exponent and self.speed is None:
             yield fault("speed", expected="the speed at which the amplitudes hold, as they change with it")
-        yield from _listed_twice([harmonic.order for harmonic in self.harmonics])
+        yield from _listed_twice([harmonic.line for harmonic in self.harmonics])
+        if (self.speeds is None) != (self.factors is None):
+            name = "speeds" if self.speeds is None else "factors"
+            yield fault(name, expected="speeds and factors together")
+        elif self.speeds is not None:
+            yield from curve_faults(self, "speeds", ("factors",))
+            if self.speed is not None:
+                yield fault("speed", found=self.speed, expected="none beside speeds", remedy="leave it out")
 
     def factor(self, speed: float) -> float:
         """Amplitudes at a speed over those given."""
+        if self.speeds is not None:
+            return float(np.interp(speed, self.speeds, self.factors))
         if self.speed is None:
             return 1.0
         factor: float = (speed / self.speed) ** self.exponent
         return factor
 
 
-def _listed_twice(orders: Sequence[float]) -> Iterator[InitErrorDetails]:
+def _listed_twice(orders: Sequence[float] | Sequence[tuple[float, float]]) -> Iterator[InitErrorDetails]:
     if len(orders) > HARMONICS.most:
         yield fault("harmonics", found=f"{len(orders)} of them", expected=HARMONICS.words)
         return
     for n, order in enumerate(orders):
         if order in orders[:n]:
             remedy = "add the two up, each with its phase"
+            found = order[0] if isinstance(order, tuple) else order
             yield fault(
-                "harmonics", n, "order", found=order, expected="an order not yet in the list", remedy=remedy
+                "harmonics", n, "order", found=found, expected="an order not yet in the list", remedy=remedy
             )
 
 

@@ -197,6 +197,11 @@ class TrainTransient(CheckedDescription):
         True,
         description="Start with the shafts twisted by the mean torques; a start from rest is without twist.",
     )
+    twists: dict[Name, Angle] = Field(
+        default_factory=dict,
+        description="Twists of shafts, couplings and elastic meshes at the start, by name, such as for a "
+        "free vibration; the others start without twist, and nothing is balanced or settles.",
+    )
     settle: Instant | None = Field(
         None,
         description="Settling time before the start, not recorded. Default: 1 s for a balanced and loaded "
@@ -234,6 +239,9 @@ class TrainTransient(CheckedDescription):
     steps_max: Whole = Field(5_000_000, ge=1, description="Maximum number of steps.")
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        for name in ("loaded", "settle"):
+            if self.twists and name in self.model_fields_set and getattr(self, name):
+                yield fault(name, found=getattr(self, name), expected="none beside twists at the start")
         if self.sample_time is not None and self.duration / self.sample_time > SAMPLES.most:
             expected = f"at least {self.duration / SAMPLES.most:.6g} s, for {SAMPLES.most} samples at most"
             yield fault("sample_time", found=self.sample_time, expected=expected)
@@ -251,6 +259,11 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
         return
     for name, motor in manoeuvre.motors.items():
         yield from _unknown(motor.on, discs, "disc", "motors", name, "on")
+    twisting = [name for table in (train.shafts, train.couplings) for name in table]
+    twisting += [name for name, gear in train.gears.items() if gear.stiffness is not None]
+    twisting += [crank for engine in train.installed for crank in engine.cranks]
+    for name in manoeuvre.twists:
+        yield from _unknown(name, twisting, "shaft, coupling or elastic mesh", "twists", name)
     for n, event in enumerate(manoeuvre.events):
         match event:
             case LoadStep(load=load):

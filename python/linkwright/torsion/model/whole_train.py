@@ -12,20 +12,25 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
+import numpy as np
 from pydantic import Field
 
-from linkwright.kernel.numerics.tangent import plain
-from linkwright.torsion.model.coupling import Coupling, Damper
+from linkwright.kernel.numerics.tangent import plain, primal
+from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces
-from linkwright.torsion.model.train import GROUND, Disc, Shaft, ShaftInertia, Train
+from linkwright.torsion.model.train import GROUND, Disc, Shaft, ShaftInertia, Train, TrainGear
 from linkwright.torsion.model.train_torques import InstalledEngine
 
 
 def whole_train(train: Train) -> Train:
-    """A train of discs, then rings of dampers; shafts, then couplings, then what holds the rings."""
+    """A train of discs, then rings of dampers; shafts, then couplings, then what holds the rings.
+
+    Pendulums are rings, too, with the stiffness that they have at the speed of service.
+    """
     heavy = any(shaft.is_heavy for shaft in train.shafts.values())
-    if not (train.couplings or train.dampers or train.installed or heavy):
+    parts = (train.couplings, train.dampers, train.pendulums, train.installed, train.planetaries)
+    if not (any(parts) or heavy):
         return train
     throws: dict[str, Disc] = {}
     cranks: dict[str, Shaft] = {}
@@ -34,21 +39,39 @@ def whole_train(train: Train) -> Train:
         throws |= discs
         cranks |= shafts
     # All that is made here is unchecked: it was checked where it is described.
-    rings = {
-        name: Disc.model_construct(inertia=damper.ring_inertia) for name, damper in train.dampers.items()
-    }
+    ringed: dict[str, Damper | Pendulum] = {**train.dampers, **train.pendulums}
+    rings = {name: Disc.model_construct(inertia=ring.ring_inertia) for name, ring in ringed.items()}
+    planets, meshes = _planets(train)
     couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
-    held = {name: _spring(name, damper) for name, damper in train.dampers.items()}
-    return train.model_copy(
+    held = {name: _spring(name, ring) for name, ring in ringed.items()}
+    expanded = train.model_copy(
         update={
-            "discs": _loaded({**throws, **train.discs, **rings}, train.shafts),
+            "discs": _loaded({**throws, **train.discs, **planets, **rings}, train.shafts),
             "shafts": {**cranks, **_light(train), **couplings, **held},
+            "gears": {**train.gears, **meshes},
+            "planetaries": {},
+            # The first disc may be a throw now.
+            "driver": train.driver or (None if train.drivers else next(iter(train.discs), None)),
             "engine": None,
             "engines": {},
             "couplings": {},
             "dampers": {},
+            "pendulums": {},
         }
     )
+    return _at_service(train, expanded) if train.pendulums else expanded
+
+
+def _at_service(train: Train, expanded: Train) -> Train:
+    """A train whose pendulums have the stiffness of the speed of service."""
+    service, turning = 0.0 if train.run is None else train.run.service, speeds(expanded).discs
+    swinging = {
+        name: expanded.shafts[name].model_copy(
+            update={"stiffness": pendulum.stiffness(service * turning[pendulum.on])}
+        )
+        for name, pendulum in train.pendulums.items()
+    }
+    return expanded.model_copy(update={"shafts": {**expanded.shafts, **swinging}})
 
 
 def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, Shaft]]:
@@ -63,6 +86,15 @@ def _crankshaft(installed: InstalledEngine) -> tuple[dict[str, Disc], dict[str, 
         for name, pair in zip(installed.cranks, pairwise(names), strict=True)
     }
     return dict.fromkeys(names, disc), shafts
+
+
+def _planets(train: Train) -> tuple[dict[str, Disc], dict[str, TrainGear]]:
+    discs: dict[str, Disc] = {}
+    meshes: dict[str, TrainGear] = {}
+    for name, stage in train.planetaries.items():
+        discs |= dict.fromkeys(stage.planet_names(name), Disc.model_construct(inertia=stage.planet_inertia))
+        meshes |= stage.meshes(name)
+    return discs, meshes
 
 
 def _loaded(discs: dict[str, Disc], shafts: Mapping[str, Shaft]) -> dict[str, Disc]:
@@ -113,13 +145,14 @@ def _coupling(coupling: Coupling) -> Shaft:
     )
 
 
-def _spring(name: str, damper: Damper) -> Shaft:
+def _spring(name: str, ring: Damper | Pendulum) -> Shaft:
+    sprung = isinstance(ring, Damper)
     # No shaft of a file has the stiffness 0, which a fluid has.
     return Shaft.model_construct(
-        between=(damper.on, name),
-        stiffness=damper.stiffness or 0.0,
-        damping=damper.damping,
-        loss_factor=damper.loss_factor,
+        between=(ring.on, name),
+        stiffness=(ring.stiffness or 0.0) if sprung else 0.0,
+        damping=ring.damping,
+        loss_factor=ring.loss_factor if sprung else 0.0,
     )
 
 
@@ -177,12 +210,23 @@ def joints(train: Train) -> Iterator[Joint]:
         yield Joint("gears", name, *gear.between, gear.speed_ratio)
 
 
-def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
+class Speeds(NamedTuple):
+    """Speeds of the discs when the train rotates as a rigid body."""
+
+    # Over that of the first disc of its part, with the sense; 0 at rest.
+    discs: dict[str, float]
+    contradictions: list[Contradiction]  # connections that close a loop and ask for another ratio
+    undetermined: tuple[str, ...] = ()  # discs whose speed nothing sets; theirs is 1
+
+
+def speeds(train: Train) -> Speeds:
     """Speeds of the discs when the train rotates as a rigid body.
 
-    Gives `speeds`: over that of the first disc of its part, with the sense; as far as they are known;
-    `contradictions`: connections that close a loop and ask for another ratio.
+    On a carrier gears turn as Willis has it, ω_a − ω_c = i (ω_b − ω_c); what a shaft holds to the ground
+    rests there, as a held ring or a housing on its seat.
     """
+    if any(gear.carrier for gear in train.gears.values()):
+        return _about_carriers(train)
     listed = list(joints(train))
     about: dict[str, list[tuple[str, float]]] = {name: [] for name in train.discs}
     for speed in listed:
@@ -193,7 +237,74 @@ def speeds(train: Train) -> tuple[dict[str, float], list[Contradiction]]:
         if root not in turning:
             _spread(root, about, turning)
     wrong = (_checked(speed, turning) for speed in listed)
-    return {name: turning[name] for name in train.discs}, [speed for speed in wrong if speed is not None]
+    return Speeds(
+        {name: turning[name] for name in train.discs}, [speed for speed in wrong if speed is not None]
+    )
+
+
+class _Relation(NamedTuple):
+    """Σ f ω = 0 of a connection."""
+
+    table: str
+    name: str
+    ratio: float
+    factors: dict[str, float]
+
+
+def _relations(train: Train) -> Iterator[_Relation]:
+    for name, shaft in train.shafts.items():
+        yield _Relation("shafts", name, 1.0, dict(zip(shaft.between, (1.0, -1.0), strict=True)))
+    first = next(iter(train.discs))
+    for name, gear in train.gears.items():
+        a, b, c, i = *gear.between, gear.carrier or GROUND, gear.speed_ratio
+        yield _Relation("gears", name, i, {a: 1.0, b: -i, c: i - 1.0})
+        if gear.carrier_speed is not None and c != first:
+            yield _Relation("gears", name, gear.carrier_speed, {c: 1.0, first: -gear.carrier_speed})
+
+
+def _about_carriers(train: Train) -> Speeds:
+    known: dict[str, float] = {next(iter(train.discs)): 1.0, GROUND: 0.0}
+    waiting, wrong = list(_relations(train)), list[Contradiction]()
+    while waiting:
+        open_ends = [[name for name in relation.factors if name not in known] for relation in waiting]
+        n = next((n for n, ends in enumerate(open_ends) if len(ends) < 2), None)
+        if n is None:
+            if not _solve_together(waiting, known):
+                break
+            continue
+        relation = waiting.pop(n)
+        rest = {name: f * known[name] for name, f in relation.factors.items() if name in known}
+        if open_ends[n]:
+            (end,) = open_ends[n]
+            known[end] = -sum(rest.values()) / relation.factors[end]
+        elif abs(primal(sum(rest.values()))) > _EQUAL * max(map(abs, map(primal, rest.values()))):
+            a, b, *c = relation.factors
+            carried = known[c[0]] if c else 0.0
+            apart = plain(known[b] - carried)
+            found = plain(known[a] - carried) / apart if apart else np.inf
+            wrong.append(Contradiction(relation.table, relation.name, plain(relation.ratio), found))
+    undetermined = tuple(name for name in train.discs if name not in known)
+    at_rest = {name for name, n in known.items() if abs(primal(n)) < _EQUAL}
+    turning = {name: 0.0 if name in at_rest else known.get(name, 1.0) for name in train.discs}
+    return Speeds(turning, wrong, undetermined)
+
+
+def _solve_together(relations: list[_Relation], known: dict[str, float]) -> bool:
+    """Speeds that several relations set only together; whether they set them."""
+    names = list(dict.fromkeys(name for one in relations for name in one.factors if name not in known))
+    A = np.array([[plain(one.factors.get(name, 0.0)) for name in names] for one in relations])
+    if np.linalg.matrix_rank(A) < len(names):
+        return False
+    inverse = np.linalg.pinv(A)
+    at = dict.fromkeys(names, 0.0)
+    # The second step carries the tangents of the ratios.
+    for _ in range(2):
+        every = known | at
+        left = [sum(f * every[name] for name, f in one.factors.items()) for one in relations]
+        steps = (sum(w * x for w, x in zip(row.tolist(), left, strict=True)) for row in inverse)
+        at = {name: at[name] - step for name, step in zip(names, steps, strict=True)}
+    known |= at
+    return True
 
 
 def _spread(root: str, about: Mapping[str, list[tuple[str, float]]], ratios: dict[str, float]) -> None:

@@ -36,7 +36,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -50,6 +50,7 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units.kinds import COUNT, RATIO, SPEED
 from linkwright.kernel.units.marks import not_negative, positive
 from linkwright.machine.machine import Machine
+from linkwright.torsion.excitation.harmonics import line_words
 from linkwright.torsion.modes.free import FreeVibration
 from linkwright.torsion.modes.modes_over_speed import ModesAt, constant, over_speed
 
@@ -91,6 +92,8 @@ class CriticalSpeed(NamedTuple):
         At which the damped response of the mode alone to the order peaks; None where it has no peak, or the
         damping is not known. Neighbouring modes and strong dampers move the peak of the forced response, as
         `CriticalResponse` has it [rad/s].
+    fixed : float
+        Fixed frequency that adds to that of the order; 0 of an order alone [rad/s].
     """
 
     speed: float
@@ -102,6 +105,12 @@ class CriticalSpeed(NamedTuple):
     damping_ratio: float | None
     resonance_amplitude: float | None
     peak_speed: float | None
+    fixed: float = 0.0
+
+    @property
+    def line(self) -> str:
+        """The order in words, with its fixed frequency."""
+        return line_words(self.order, self.fixed)
 
 
 @dataclass(frozen=True)
@@ -126,6 +135,14 @@ class CampbellDiagram(Result):
         Floats, Label("excitation order of the first disc", "ν", "", shape="(orders,)", over="orders")
     ]
     critical: Annotated[tuple[CriticalSpeed, ...], About("Critical speeds in the range, by speed.")]
+    fixed: Annotated[
+        Floats, About("Fixed frequency beside each order, rad/s; empty where all lines are orders.")
+    ] = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def of_orders(self) -> tuple[CriticalSpeed, ...]:
+        """Critical speeds of orders alone."""
+        return tuple(one for one in self.critical if not one.fixed)
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """Critical speeds by name, with ``curves`` also the arrays as lists."""
@@ -171,16 +188,22 @@ def campbell(
     modes = over_speed(source) if isinstance(source, Machine) else constant(source)
     speeds = modes.grid(_range(speed_range))
     omega = modes.frequencies(speeds)
-    listed = _orders(modes.orders(speeds) if orders is None else np.asarray(orders, float))
+    fixed = modes.fixed(speeds) if orders is None else np.empty(0)
+    listed = modes.orders(speeds) if orders is None else _orders(np.asarray(orders, float))
     if excitation is not None and np.shape(excitation) != (len(listed), len(modes.discs)):
         wanted = f"({len(listed)}, {len(modes.discs)}), a row an order, a column a disc"
         raise InputError(f"excitation: found an array of shape {np.shape(excitation)}, expected {wanted}")
-    at, mode, order = _crossings(modes, speeds, omega, listed)
+    at, mode, order = _crossings(modes, speeds, omega, listed, fixed)
     ratios = _ratios(damping_ratios, omega.shape[1])
     given = None if excitation is None else np.asarray(excitation, complex)[order]
-    critical = _judged(modes, at, mode, listed[order], given, ratios)
+    offsets = fixed[order] if len(fixed) else np.zeros(len(at))
+    critical = _judged(modes, at, mode, np.stack([listed[order], offsets]), given, ratios)
     return CampbellDiagram(
-        speeds=speeds, frequencies=omega.T / (2 * math.pi), orders=listed, critical=tuple(sorted(critical))
+        speeds=speeds,
+        frequencies=omega.T / (2 * math.pi),
+        orders=listed,
+        critical=tuple(sorted(critical)),
+        fixed=fixed,
     )
 
 
@@ -211,10 +234,11 @@ def _ratios(given: float | Floats | None, modes: int) -> Floats | None:
 
 
 def _crossings(
-    modes: ModesAt, speeds: Floats, omega: Floats, orders: Floats
+    modes: ModesAt, speeds: Floats, omega: Floats, orders: Floats, fixed: Floats
 ) -> tuple[Floats, Indices, Indices]:
-    """Speeds at which ω_n − νΩ is zero, with mode and order."""
-    gap = omega[:, :, None] - speeds[:, None, None] * orders
+    """Speeds at which ω_n − |νΩ + ω₀| is zero, with mode and order."""
+    offsets = fixed if len(fixed) else np.zeros(len(orders))
+    gap = omega[:, :, None] - np.abs(speeds[:, None, None] * orders + offsets)
     above = np.greater(gap, 0.0)
     crossed = np.not_equal(above[:-1], above[1:])
     # A zero at the end of a step belongs to that step, one at the lowest speed to the first.
@@ -225,8 +249,9 @@ def _crossings(
     at = low + (high - low) * f / (f - g)
     rows = np.arange(len(at))
     for _ in range(_STEPS if len(at) else 0):
-        here = modes.frequencies(at)[rows, mode] - orders[order] * at
-        if (np.abs(here) <= _EQUAL * orders[order] * at).all():
+        line = np.abs(orders[order] * at + offsets[order])
+        here = modes.frequencies(at)[rows, mode] - line
+        if (np.abs(here) <= _EQUAL * line).all():
             break
         before = (here > 0) == (f > 0)
         low, f = np.where(before, at, low), np.where(before, here, f)
@@ -239,21 +264,24 @@ def _judged(
     modes: ModesAt,
     at: Floats,
     mode: Indices,
-    orders: Floats,
+    lines: Floats,
     given: Complexes | None,
     ratios: Floats | None,
 ) -> list[CriticalSpeed]:
-    """Critical speeds with their severity under given torques (n, discs) or those of the machine."""
+    """Critical speeds with their severity under given torques (n, discs) or those of the machine.
+
+    `lines`: (2, n) order and fixed frequency.
+    """
     if not len(at):
         return []
     mode_shapes = modes.shapes(at, mode)
-    torques = modes.torques(at, orders) if given is None else given
+    torques = modes.torques(at, *lines) if given is None else given
     work = None if torques is None else np.abs((torques * mode_shapes.shapes).sum(axis=1))
     zeta = mode_shapes.damping_ratios if ratios is None else ratios[mode]
     unknown = work is None or given is not None
-    growth = np.zeros(len(at)) if unknown else _growth(modes, at, orders, mode_shapes.shapes)
+    growth = np.zeros(len(at)) if unknown else _growth(modes, at, lines, mode_shapes.shapes)
     listed = []
-    for n, (speed, ν, k) in enumerate(zip(at.tolist(), orders.tolist(), mode.tolist(), strict=True)):
+    for n, (speed, ν, f, k) in enumerate(zip(at.tolist(), *lines.tolist(), mode.tolist(), strict=True)):
         static = None if work is None else float(work[n] / mode_shapes.stiffness[n])
         ratio = None if zeta is None else float(zeta[n])
         listed.append(
@@ -266,17 +294,19 @@ def _judged(
                 equilibrium_amplitude=static,
                 damping_ratio=ratio,
                 resonance_amplitude=_resonance(static, ratio),
-                peak_speed=_peak(speed, ratio, float(growth[n])),
+                # The curve of the peak is that of an order alone.
+                peak_speed=None if f else _peak(speed, ratio, float(growth[n])),
+                fixed=f,
             )
         )
     return listed
 
 
-def _growth(modes: ModesAt, at: Floats, orders: Floats, shapes: Floats) -> Floats:
+def _growth(modes: ModesAt, at: Floats, lines: Floats, shapes: Floats) -> Floats:
     """Exponent of the speed with which the work of each order in a mode grows, (n,)."""
     sizes = []
     for speeds in (at * (1 - _ASIDE), at * (1 + _ASIDE)):
-        torques = modes.torques(speeds, orders)
+        torques = modes.torques(speeds, *lines)
         sizes.append(np.zeros(len(at)) if torques is None else np.abs((torques * shapes).sum(axis=1)))
     below, above = sizes
     ratio = np.divide(above, below, out=np.ones(len(at)), where=(below > 0) & (above > 0))

@@ -30,4 +30,4 @@ def train_summary(machine: Machine) -> Iterator[tuple[str, str]]:
     if machine.train is not None:
         yield "discs", ", ".join(machine.train.discs)
         yield "shafts", ", ".join(machine.train.shafts)
-        yield "gears", ", ".join(machine.train.gears)
+        yield "gears", ", ".join([*machine.train.gears, *machine.train.planetaries])

@@ -187,8 +187,8 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         eigenvalues, masses = eigenvalues[:count], masses[:count]
         swings = zip(eigenvalues.tolist(), masses, strict=True)
         eigenvalues = np.array([_exact(referred, s, q) for s, q in swings])
-    shapes = scaled(referred.speed * masses[:, referred.mass])
-    size = np.abs(shapes).max(axis=1) / np.abs(referred.speed * masses[:, referred.mass]).max(axis=1)
+    shapes = scaled(referred.scale * masses[:, referred.mass])
+    size = np.abs(shapes).max(axis=1) / np.abs(referred.scale * masses[:, referred.mass]).max(axis=1)
     inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
     shafts = _of_shafts(train, referred, size[:, None] * masses, eigenvalues.imag)
     discs = disc_damping * np.abs(shapes) ** 2

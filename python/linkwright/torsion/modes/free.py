@@ -279,7 +279,7 @@ def train_modes(referred: ReferredTrain, count: int) -> TrainModes:
 
 def _sized(referred: ReferredTrain, modes: TrainModes) -> tuple[Floats, Floats]:
     """Shapes of the discs with a largest amplitude of 1, and the factor of each mode."""
-    angles = referred.speed * modes.masses[:, referred.mass]
+    angles = referred.scale * modes.masses[:, referred.mass]
     if not modes.exact:
         return scaled(angles), np.ones(len(angles))
     lead = referred.lead
@@ -333,6 +333,9 @@ def twists_of(referred: ReferredTrain, amplitudes: Floats) -> Floats:
 
     Angle of the first end less that of the second [rad]. `amplitudes`: (n, discs) angles of the discs [rad].
     """
+    if referred.twist is not None:
+        of_meshes: Floats = amplitudes @ referred.twist.T
+        return of_meshes
     first, second = _at_ends(referred, amplitudes)
     twists: Floats = first - second
     return twists
@@ -348,7 +351,7 @@ def _at_ends(referred: ReferredTrain, amplitudes: Floats) -> tuple[Floats, Float
     """Angles of both ends of each shaft, that of the second disc of a mesh as seen from the first."""
     # The ground is a last disc that is at rest, HELD = −1.
     angles = np.concatenate([amplitudes, np.zeros((*amplitudes.shape[:-1], 1))], axis=-1)
-    speed = np.append(referred.speed, 1.0)
+    speed = np.append(referred.scale, 1.0)
     first, second = referred.tip.T
     lead = referred.lead
     return angles[..., first], angles[..., second] * np.where(second == HELD, 1.0, lead / speed[second])
@@ -360,6 +363,11 @@ def scaled(shapes: NDArray[Any]) -> NDArray[Any]:
     # Of entries that are equal within rounding the first counts.
     largest = np.argmax(size > (1 - 1e-9) * size.max(axis=1, keepdims=True), axis=1)
     return np.asarray(shapes / shapes[np.arange(len(shapes)), largest][:, None])
+
+
+def _joins_two(train: Train, name: str) -> bool:
+    """Whether a shaft or mesh joins two discs alone: between gears on a carrier there is no node."""
+    return name not in train.gears or train.gears[name].carrier is None
 
 
 def _nodes(train: Train, referred: ReferredTrain, shape: Floats, modes: TrainModes, k: int) -> Iterator[Node]:
@@ -376,7 +384,7 @@ def _nodes(train: Train, referred: ReferredTrain, shape: Floats, modes: TrainMod
             angles = np.where(np.abs(swing.angles) < _AT_REST * np.abs(swing.angles).max(), 0.0, swing.angles)
             shares = node_shares(swing.rod, modes.omega[k], angles).tolist()
             shares += [float(stations(swing.rod)[n]) for n in np.flatnonzero(angles[1:-1] == 0) + 1]
-        elif a * b < 0 and min(abs(a), abs(b)) >= _AT_REST:
+        elif _joins_two(train, name) and a * b < 0 and min(abs(a), abs(b)) >= _AT_REST:
             shares = [a / (a - b)]
         shaft = train.shafts.get(name)
         for share in sorted(shares):

@@ -131,7 +131,7 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
         referred, J = _at_frequency(referred, J, omega)
     last = referred.discs.index(end)
     q, residual = _state(referred, omega**2, int(referred.mass[last]))
-    theta = referred.speed * q[referred.mass]
+    theta = referred.scale * q[referred.mass]
     k, twist = own_stiffness(referred), twists_of(referred, theta)
     return HolzerTable(
         frequency=float(frequency),
@@ -145,7 +145,7 @@ def holzer_table(machine: Machine, frequency: float, *, end: str | None = None) 
         twist=twist,
         shaft_torque=k * twist,
         end=end,
-        residual_torque=residual / float(referred.speed[last]),
+        residual_torque=residual / float(referred.scale[last]),
     )
 
 

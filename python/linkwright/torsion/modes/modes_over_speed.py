@@ -57,8 +57,12 @@ class ModesAt(ABC):
         """Orders of the torques, (orders,)."""
 
     @abstractmethod
-    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
-        """M of an order at each speed, (speeds, discs) [N m]; None where they are not known."""
+    def fixed(self, speeds: Floats) -> Floats:
+        """Fixed frequency beside each order, (orders,) [rad/s]; empty for none."""
+
+    @abstractmethod
+    def torques(self, speeds: Floats, orders: Floats, fixed: Floats) -> Complexes | None:
+        """M of a line at each speed, (speeds, discs) [N m]; None where they are not known."""
 
 
 def constant(free: FreeVibration) -> ModesAt:
@@ -98,7 +102,10 @@ class _Constant(ModesAt):
     def orders(self, speeds: Floats) -> Floats:
         raise InputError("orders: expected a list of orders, cycles per revolution of the first disc")
 
-    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
+    def fixed(self, speeds: Floats) -> Floats:
+        return np.empty(0)
+
+    def torques(self, speeds: Floats, orders: Floats, fixed: Floats) -> Complexes | None:
         return None
 
 
@@ -111,7 +118,12 @@ class _OfMachine(ModesAt):
     @cached_property
     def _curved(self) -> bool:
         train = self.machine.train
-        return train is not None and any(coupling.twist is not None for coupling in train.couplings.values())
+        if train is None:
+            return False
+        waves = (wave for excitation in train.excitations.values() for wave in excitation.harmonics)
+        if train.pendulums or any(wave.frequency for wave in waves):
+            return True
+        return any(coupling.twist is not None for coupling in train.couplings.values())
 
     @cached_property
     def discs(self) -> tuple[str, ...]:
@@ -143,7 +155,7 @@ class _OfMachine(ModesAt):
         # Σ J q² = 1, with the inertia of shafts.
         ratio = (ω * (q @ train.damping_matrix @ q) + q @ train.loss_matrix @ q) / (2 * ω**2)
         ratio += sum(_of_rod(train, rod, ω) for rod in (modes.exact[mode].rods if modes.exact else ()))
-        θ = train.speed * q[train.mass]
+        θ = train.scale * q[train.mass]
         size = np.abs(θ).max()
         return ω, θ / size, float(ω**2 / size**2), float(ratio)
 
@@ -154,14 +166,18 @@ class _OfMachine(ModesAt):
             raise InputError(f"nothing excites the train of {self.machine.name}: {remedy}")
         return orders
 
-    def torques(self, speeds: Floats, orders: Floats) -> Complexes | None:
-        torques = self._at(speeds).torques
+    def fixed(self, speeds: Floats) -> Floats:
+        return self._at(speeds).torques.fixed
+
+    def torques(self, speeds: Floats, orders: Floats, fixed: Floats) -> Complexes | None:
+        at = self._at(speeds)
+        torques = at.torques
         if not len(torques.orders):
             return None
         on_discs = np.zeros((len(speeds), torques.harmonics.shape[1]), complex)
-        for n, order in enumerate(orders.tolist()):
-            same = np.abs(torques.orders - order) <= _EQUAL * order
-            on_discs[n] = torques.harmonics[same, :, n].sum(axis=0)
+        for n, (order, offset) in enumerate(zip(orders.tolist(), fixed.tolist(), strict=True)):
+            same = (np.abs(torques.orders - order) <= _EQUAL * order) & (torques.offsets == offset)
+            on_discs[n] = at.exciting[same, :, n].sum(axis=0)
         return on_discs
 
     def _at(self, speeds: Floats) -> ExcitedTrain:

@@ -81,8 +81,10 @@ def phase_vectors(
     """Phase vectors of critical speeds, `at` which an order excites more than one disc, by speed."""
     stars = []
     for n, critical in enumerate(diagram.critical):
-        same = np.abs(at.torques.orders - critical.order) <= _EQUAL * critical.order
-        torques = at.torques.harmonics[same, :, n].sum(axis=0)
+        if critical.fixed:
+            continue
+        same = at.torques.is_of(critical.order)
+        torques = at.exciting[same, :, n].sum(axis=0)
         largest = float(np.abs(torques).max(initial=0.0))
         excited = np.flatnonzero(np.abs(torques) > _ROUNDING * largest)
         if len(excited) < 2:

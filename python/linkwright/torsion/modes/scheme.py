@@ -35,7 +35,7 @@ from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.modes.free import own_stiffness
 
-Kind = Literal["shaft", "coupling", "mesh", "gears", "damper"]
+Kind = Literal["shaft", "coupling", "mesh", "gears", "bearing", "damper"]
 
 # Shear modulus of the shaft of equivalent lengths: steel.
 _SHEAR_MODULUS = 79.3e9
@@ -49,7 +49,8 @@ class Connection(NamedTuple):
     name : str
         Of the shaft, the gear stage, the coupling or the damper.
     kind : str
-        ``"shaft"``, ``"coupling"``, ``"mesh"`` (elastic gears), ``"gears"`` (rigid) or ``"damper"``.
+        ``"shaft"``, ``"coupling"``, ``"mesh"`` (elastic gears), ``"gears"`` (rigid), ``"bearing"`` (of a gear
+        on its carrier) or ``"damper"``.
     first, second : str
         Discs, or ``"ground"``.
     ratio : float
@@ -69,6 +70,11 @@ class Connection(NamedTuple):
     stiffness: float | None = None
     stiffness_referred: float | None = None
     equivalent_length: float | None = None
+
+    @property
+    def is_geared(self) -> bool:
+        """Whether its ends are on two lines of shafts."""
+        return self.kind in ("gears", "mesh", "bearing") and self.second != GROUND
 
 
 @dataclass(frozen=True)
@@ -123,8 +129,8 @@ def scheme(machine: Machine, *, diameter: float = 0.1) -> Scheme:
         discs=referred.discs,
         speed=referred.speed,
         inertia=inertia,
-        inertia_referred=referred.speed**2 * inertia,
-        connections=(*_twisting(machine, train, referred, diameter), *_rigid(train)),
+        inertia_referred=referred.scale**2 * inertia,
+        connections=(*_twisting(machine, train, referred, diameter), *_rigid(train), *_bearings(train)),
         diameter=float(diameter),
     )
 
@@ -152,10 +158,19 @@ def _kind(machine: Machine, train: Train, name: str) -> Kind:
     described = machine.train
     if described is not None and name in described.couplings:
         return "coupling"
-    return "damper" if described is not None and name in described.dampers else "shaft"
+    rings = {} if described is None else {**described.dampers, **described.pendulums}
+    return "damper" if name in rings else "shaft"
 
 
 def _rigid(train: Train) -> Iterator[Connection]:
     for name, gear in train.gears.items():
         if gear.stiffness is None:
             yield Connection(name, "gears", *gear.between, abs(gear.speed_ratio))
+
+
+def _bearings(train: Train) -> Iterator[Connection]:
+    """Those of gears on a carrier, each once."""
+    carried = {gear.between[-1]: gear.carrier for gear in train.gears.values() if gear.carrier is not None}
+    for gear, carrier in carried.items():
+        if gear != GROUND:
+            yield Connection(f"{gear}_bearing", "bearing", gear, carrier, 1.0)

@@ -25,7 +25,7 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.torsion.core.rod import Rod, along
 from linkwright.torsion.core.train import HELD
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
-from linkwright.torsion.excitation.harmonics import orders_together, span
+from linkwright.torsion.excitation.harmonics import span
 from linkwright.torsion.model.shaft_limit import StressedSection
 from linkwright.torsion.model.shaft_row import RodPiece
 from linkwright.torsion.model.train import Shaft
@@ -67,7 +67,7 @@ def station_torques(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> 
     """Torques along a rod; `q`: (orders, masses, speeds) [rad]; `flow`: (orders, speeds) [N m]."""
     assert at.distributed is not None
     referred, rod = at.referred, at.referred.rods[n]
-    omega = at.torques.orders[:, None] * at.torques.speeds
+    omega = at.torques.omega
     shaft = at.train.shafts[referred.shafts[rod.shaft]]
     assert isinstance(shaft, RodShaft)
     k, s = at.operating.stiffness[rod.shaft], rod.shaft
@@ -82,7 +82,7 @@ def station_torques(at: ExcitedTrain, q: Complexes, flow: Complexes, n: int) -> 
     before, after = state.torques[:, :-1], state.torques[:, 1:]
     torques: NDArray[Any] = np.concatenate([before, after], axis=1) / lead
     pieces = np.concatenate([of, of])
-    greatest, least = span(orders_together(at.torques.orders), torques)
+    greatest, least = span(at.torques.together, torques)
     severity = np.array([_severity(shaft, shaft.pieces[piece]) for piece in pieces.tolist()])
     ratio = np.nan_to_num((greatest - least) * severity[:, None], nan=np.inf)
     power = (state.torques * state.angles.conj()).imag

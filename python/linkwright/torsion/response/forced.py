@@ -40,7 +40,7 @@ from linkwright.kernel.units.marks import not_negative
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import respond, shaft_torques
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.excitation.harmonics import Orders, orders_together, span
+from linkwright.torsion.excitation.harmonics import Orders, line_words, orders_together, span
 from linkwright.torsion.response.along_shaft import worst_place
 
 Places = NDArray[np.int64]
@@ -124,10 +124,42 @@ class TorsionResponse(Result):
         """Half the peak-to-peak torque."""
         return 0.5 * (self.torque_greatest - self.torque_least)
 
+    fixed: Annotated[
+        Floats,
+        Label(
+            "fixed frequency beside the order",
+            "f",
+            "rad/s",
+            "Adds to that of the order; empty where all lines are orders.",
+            shape="(orders,)",
+        ),
+    ] = field(default_factory=lambda: np.empty(0), kw_only=True)
+
+    @property
+    def offsets(
+        self,
+    ) -> Annotated[
+        Floats, Label("fixed frequency beside each order, 0 for none", "", "rad/s", shape="(orders,)")
+    ]:
+        """Fixed frequency of every line, 0 of an order, (orders,) [rad/s]."""
+        return self.fixed if len(self.fixed) else np.zeros(len(self.orders))
+
+    @property
+    def omega(
+        self,
+    ) -> Annotated[Floats, Label("angular frequency of each line", "", "rad/s", shape="(orders, 1, speeds)")]:
+        """Angular frequency of every line, (orders, 1, speeds) [rad/s]."""
+        return np.abs(np.outer(self.orders, self.speeds) + self.offsets[:, None])[:, None]
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The orders in words, those of a fixed frequency with it."""
+        return tuple(map(line_words, self.orders.tolist(), self.offsets.tolist()))
+
     @property
     def together(self) -> Orders:
         """How the orders add up."""
-        return orders_together(self.orders)
+        return orders_together(self.orders, self.offsets)
 
 
 def torsion_response(at: ExcitedTrain) -> TorsionResponse:
@@ -137,7 +169,7 @@ def torsion_response(at: ExcitedTrain) -> TorsionResponse:
 
 def responses(at: ExcitedTrain) -> Complexes:
     """Amplitudes of the masses of a train, (orders, masses, speeds). q, referred to the first disc [rad]."""
-    return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics)
+    return respond(at.referred, at.operating, at.torques.orders, at.referred_harmonics, at.torques.fixed)
 
 
 # At a resonance without damping amplitudes are not finite, nor are torques.
@@ -145,7 +177,7 @@ def responses(at: ExcitedTrain) -> Complexes:
 def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
     """What the shafts carry where the masses swing by `q` (orders, masses, speeds) [rad]."""
     referred, orders, speeds = at.referred, at.torques.orders, at.torques.speeds
-    omega = orders[:, None, None] * speeds
+    omega = at.torques.omega[:, None]
     lead = referred.lead[:, None]
     # Stiffness and damping are referred, so that the torque is too.
     imaginary = _losses(at)
@@ -157,25 +189,26 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
         name = referred.shafts[rod.shaft]
         place = worst_place(at, q, flow[:, rod.shaft], n)
         places[name], torques[:, rod.shaft], heat[rod.shaft] = place.piece, place.torques, place.heat
-    greatest, least = span(orders_together(orders), torques, at.mean_torques)
+    greatest, least = span(at.torques.together, torques, at.mean_torques)
     return TorsionResponse(
         speeds=speeds,
         orders=orders,
         discs=referred.discs,
         shafts=referred.shafts,
-        amplitudes=referred.speed[:, None] * q[:, referred.mass],
+        amplitudes=referred.scale[:, None] * q[:, referred.mass],
         shaft_torques=torques,
         mean_torques=at.mean_torques,
         torque_greatest=greatest,
         torque_least=least,
         shaft_heat=heat,
         places=places,
+        fixed=at.torques.fixed,
     )
 
 
 def _losses(at: ExcitedTrain) -> Floats:
     """ηk + ωc of each shaft, (orders, shafts, speeds) [N m/rad]."""
-    omega = at.torques.orders[:, None, None] * at.torques.speeds
+    omega = at.torques.omega[:, None]
     c, loss = at.referred.damping[:, None], at.referred.loss_factor[:, None]
     losses: Floats = loss * at.operating.stiffness + omega * c
     return losses
@@ -191,7 +224,7 @@ def spring_stiffness(at: ExcitedTrain, losses: Floats | None = None) -> Complexe
 @np.errstate(invalid="ignore", over="ignore")
 def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexes:
     """Torque of each shaft at the first disc, (orders, shafts, speeds); of a rod that of its spring."""
-    omega = np.outer(at.torques.orders, at.torques.speeds)
+    omega = at.torques.omega
     outside = at.referred_harmonics
     forces, size = outside.copy(), np.abs(outside)
     # Masses one by one stay in the cache.
@@ -203,7 +236,10 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
     if at.operating.modal is not None:
         modal = at.operating.modal.torques(1j * omega[:, None] * q)
         forces, size = forces - modal, size + np.abs(modal)
-    return shaft_torques(at.referred, stiffness, q, forces, size)
+    flow = shaft_torques(at.referred, stiffness, q, forces, size)
+    if at.joint_twists is not None:
+        flow = flow + stiffness * at.joint_twists / at.referred.lead[:, None]
+    return flow
 
 
 def _complex(real: Floats, imaginary: Floats) -> Complexes:
@@ -265,6 +301,7 @@ class ForcedVibration(TorsionResponse):
         return {
             "speeds": self.speeds.tolist(),
             "orders": self.orders.tolist(),
+            **({"fixed": self.fixed.tolist()} if len(self.fixed) else {}),
             **{name: _by_name(self.shafts, rows) for name, rows in shafts.items()},
             **{name: _by_name(self.discs, rows) for name, rows in discs.items()},
         }
@@ -308,8 +345,8 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
     q = responses(at)
     shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
-    omega = shafts.orders[:, None, None] * shafts.speeds
-    theta, M = shafts.amplitudes, at.torques.harmonics
+    omega = shafts.omega
+    theta, M = shafts.amplitudes, at.harmonics
     return ForcedVibration(
         **vars(shafts),
         unevenness=total,
@@ -317,8 +354,17 @@ def responded(at: ExcitedTrain) -> ForcedVibration:
         unevenness_torsional=torsional,
         disc_heat=0.5 * (omega**2 * at.disc_damping * _squared(theta)).sum(axis=0),
         modal_heat=_modal_heat(at, omega, q),
-        power=0.5 * (omega * (M.imag * theta.real - M.real * theta.imag)).sum(axis=(0, 1)),
+        power=0.5 * (omega * (M.imag * theta.real - M.real * theta.imag)).sum(axis=(0, 1))
+        + _joint_power(at, omega, shafts),
     )
+
+
+def _joint_power(at: ExcitedTrain, omega: Floats, shafts: TorsionResponse) -> Floats | float:
+    """Mean power that joints give to the shafts that they twist, (speeds,) [W]."""
+    if at.joint_twists is None:
+        return 0.0
+    power: Floats = 0.5 * (shafts.shaft_torques * (1j * omega * at.joint_twists).conj()).real.sum(axis=(0, 1))
+    return power
 
 
 def _modal_heat(at: ExcitedTrain, omega: Floats, q: Complexes) -> Floats:
@@ -333,19 +379,21 @@ def _modal_heat(at: ExcitedTrain, omega: Floats, q: Complexes) -> Floats:
 def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats, Floats, Floats]:
     """δ of every disc: in all, as a whole, and torsional."""
     referred = at.referred
-    J = referred.inertia
+    J, rigid = referred.inertia, referred.rigid
     # Referred, δ of a mass is that of its discs: speed and mean speed both count n times.
-    speed = 1j * orders.values[:, None, None] * q
-    common = np.einsum("m,omw->ow", J, speed)[:, None] / J.sum()
+    turned, offsets = at.torques.speeds, at.torques.offsets[:, None]
+    ratio = np.divide(offsets, turned, out=np.zeros(at.torques.omega.shape), where=turned > 0)
+    speed = 1j * np.abs(orders.values[:, None] + ratio)[:, None] * q
+    common = np.einsum("m,omw->ow", J * rigid, speed)[:, None] / referred.rigid_inertia
     if not referred.is_free:
         common = np.zeros_like(common)
     deltas = []
-    for part in (speed, np.broadcast_to(common, speed[:, :1].shape), speed - common):
+    for part in (speed, common, speed - common * rigid[:, None]):
         greatest, least = span(orders, part)
         deltas.append(greatest - least)
-    total, rigid, torsional = deltas
+    total, whole, torsional = deltas
     mass = referred.mass
-    return total[mass], np.repeat(rigid, len(mass), axis=0), torsional[mass]
+    return total[mass], (whole * rigid[:, None])[mass], torsional[mass]
 
 
 def angular_deflection(forced: ForcedVibration, disc: str) -> tuple[Floats, Floats]:

@@ -172,11 +172,11 @@ def mesh_torques(machine: Machine, speeds: Floats | None = None) -> MeshTorque:
 def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     """Torques of the gear stages of a train of which the vibration is there."""
     gears = at.train.gears
-    omega = response.orders[:, None, None] * response.speeds
+    omega = response.omega
     J = np.array([disc.inertia for disc in at.train.discs.values()])[:, None]
     theta = response.amplitudes
     inertia, shafts = (J, response.shaft_torques) if at.distributed is None else _rods(at, J, theta)
-    outside = at.torques.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
+    outside = at.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
     outside = outside - _modal_torques(at, J, response)
     waves = _stage_torques(at, outside, shafts)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
@@ -206,7 +206,7 @@ def _rods(at: ExcitedTrain, J: Floats, theta: Complexes) -> tuple[Complexes, Com
             if disc != HELD:
                 inertia[:, disc] += (end - lumped) / referred.speed[disc] ** 2
     first = np.unique(referred.mass, return_index=True)[1]
-    q = theta[:, first] / referred.speed[first, None]
+    q = theta[:, first] / referred.scale[first, None]
     return inertia, shaft_flow(at, q, there.stiffness) / referred.lead[:, None]
 
 
@@ -217,10 +217,10 @@ def _modal_torques(at: ExcitedTrain, J: Floats, response: TorsionResponse) -> Co
         return 0.0
     # One disc of each mass tells how it moves.
     first = np.unique(referred.mass, return_index=True)[1]
-    q = response.amplitudes[:, first] / referred.speed[first, None]
-    velocity = 1j * response.orders[:, None, None] * response.speeds * q
+    q = response.amplitudes[:, first] / referred.scale[first, None]
+    velocity = 1j * response.omega * q
     acceleration = at.operating.modal.torques(velocity) / referred.inertia[:, None]
-    torques: Complexes = J * referred.speed[:, None] * acceleration[:, referred.mass]
+    torques: Complexes = J * referred.scale[:, None] * acceleration[:, referred.mass]
     return torques
 
 
@@ -228,7 +228,7 @@ def _mean_outside(at: ExcitedTrain, J: Floats) -> Floats:
     """Mean torques on the discs, less the accelerating part if they do not balance."""
     mean, n = at.torques.mean, at.referred.speed[:, None]
     if at.referred.is_free:
-        mean = mean - J * n * (n * mean).sum(axis=0) / at.referred.inertia.sum()
+        mean = mean - J * n * (n * mean).sum(axis=0) / at.referred.rigid_inertia
     return mean
 
 
@@ -238,15 +238,18 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
     flow = referred.lead[:, None] * shafts
     # The ground is a last disc.
     net = np.zeros((len(outside), len(referred.discs) + 1, outside.shape[-1]), complex)
-    net[:, :-1] = referred.speed[:, None] * outside
+    net[:, :-1] = referred.scale[:, None] * outside
     for s, (first, second) in enumerate(referred.tip.tolist()):
+        if referred.twist is not None:
+            net[:, :-1] -= (referred.scale * referred.twist[s])[:, None] * shafts[:, s, None]
+            continue
         net[:, first] -= flow[:, s]
         net[:, second] += flow[:, s]
     torques = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
     rigid = [name for name, gear in gears.items() if gear.stiffness is None]
     passed = passed_on(referred.discs, gears, rigid, net[:, :-1])
     for g, name in enumerate(gears):
-        first_speed = referred.speed[referred.discs.index(gears[name].between[0])]
+        first_speed = referred.scale[referred.discs.index(gears[name].between[0])]
         if name in rigid:
             torques[:, g] = passed[:, rigid.index(name)] / first_speed
         else:

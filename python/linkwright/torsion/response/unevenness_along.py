@@ -113,7 +113,7 @@ def unevenness_along(
     names, angles = _fired(firing, turns)
     column = int(np.argmin(np.abs(forced.speeds - speed)))
     waves = forced.orders * turns
-    fits = np.abs(waves - np.rint(waves)) <= _EQUAL * np.maximum(waves, 1.0)
+    fits = (forced.offsets == 0) & (np.abs(waves - np.rint(waves)) <= _EQUAL * np.maximum(waves, 1.0))
     orders = forced.orders[fits]
     # Speed over mean speed: iν θ/n, n being that of the disc.
     relative = 1j * orders[:, None] * forced.amplitudes[fits, :, column] / at.referred.speed

@@ -11,6 +11,7 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.page.table import Row, Table, columns_csv, part_table
 from linkwright.kernel.reader.numbers import quantity
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
+from linkwright.torsion.excitation.harmonics import line_words
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.forced import ForcedVibration
@@ -21,7 +22,7 @@ _ROUNDING = 1e-9
 
 def order_files(at: ExcitedTrain, forced: ForcedVibration) -> dict[str, str]:
     """Amplitude of every order over the speed as CSV, by name of file."""
-    torques = at.torques.harmonics
+    torques = at.exciting
     excited = np.flatnonzero(np.abs(torques).max(axis=(0, 2)) > 0)
     names = tuple(at.referred.discs[disc] for disc in excited)
     tables: dict[str, tuple[tuple[str, ...], Complexes, str]] = {
@@ -38,8 +39,9 @@ def _columns(
     """Speed, then each order of each part. `harmonics`: (orders, parts, speeds)."""
     columns: dict[str, Floats] = {"speed [rad/s]": forced.speeds}
     for part, name in enumerate(names):
-        for k, order in enumerate(forced.orders.tolist()):
-            columns[f"{name} order {order:.6g} [{unit}]"] = np.abs(harmonics[k, part])
+        for k, (order, fixed) in enumerate(zip(forced.orders.tolist(), forced.lines, strict=True)):
+            line = fixed if forced.offsets[k] else f"{order:.6g}"
+            columns[f"{name} order {line} [{unit}]"] = np.abs(harmonics[k, part])
     return columns
 
 
@@ -57,10 +59,11 @@ def order_results(at: ExcitedTrain, forced: ForcedVibration) -> dict[str, Any]:
 
     return {
         "orders": forced.orders.tolist(),
+        **({"fixed": forced.fixed.tolist()} if len(forced.fixed) else {}),
         "speeds": forced.speeds.tolist(),
         "shaft_torque": listed(forced.shafts, forced.shaft_torques),
         "disc_angle": listed(forced.discs, forced.amplitudes),
-        "excitation": listed(at.referred.discs, at.torques.harmonics),
+        "excitation": listed(at.referred.discs, at.exciting),
     }
 
 
@@ -74,7 +77,7 @@ def manoeuvre_csv(moved: TorsionTransient) -> str:
 
 def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
     """Harmonics of the torques on the discs at one speed. `place`: of the speed."""
-    size = np.abs(at.torques.harmonics[:, :, place])
+    size = np.abs(at.exciting[:, :, place])
     shown = _shown(at, size)
     if not shown:
         return
@@ -82,13 +85,9 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
     kept = [k for k in range(len(size)) if (size[k, discs] > _ROUNDING * size[:, discs].max()).any()]
     rows: list[Row] = [
         (
-            f"order {at.torques.orders[k]:.4g}",
+            f"order {line_words(at.torques.orders[k], at.torques.offsets[k])}",
             "",
-            *(
-                cell
-                for disc in discs
-                for cell in _cells(at.torques.harmonics[k, disc, place], size[:, disc].max())
-            ),
+            *(cell for disc in discs for cell in _cells(at.exciting[k, disc, place], size[:, disc].max())),
         )
         for k in kept
     ]

@@ -99,6 +99,7 @@ _KINDS = {
     "coupling": "coupling",
     "mesh": "elastic gear stage",
     "gears": "gear stage",
+    "bearing": "bearing on a carrier",
     "damper": "damper",
 }
 

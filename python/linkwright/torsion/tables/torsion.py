@@ -111,7 +111,7 @@ def detail_tables(study: TorsionStudy) -> Iterator[Table]:
 def _severest(
     diagram: CampbellDiagram, responses: Sequence[CriticalResponse]
 ) -> tuple[CriticalResponse, ...]:
-    severity = [point.resonance_amplitude or 0.0 for point in diagram.critical]
+    severity = [point.resonance_amplitude or 0.0 for point in diagram.of_orders]
     kept = sorted(np.argsort(severity, kind="stable")[::-1][:_CRITICAL].tolist())
     return tuple(responses[n] for n in kept)
 
@@ -142,7 +142,7 @@ def _critical(diagram: CampbellDiagram) -> Table:
         f"Critical speeds{more}",
         [crossing for crossing in diagram.critical if crossing in kept],
         heads,
-        lambda crossing: f"order {crossing.order:.4g}",
+        lambda crossing: f"order {crossing.line}",
         "",
         "mode",
         lambda crossing: f"{crossing.frequency:.5g}",

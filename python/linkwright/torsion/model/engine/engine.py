@@ -99,6 +99,11 @@ AnyGas = Annotated[Indicator | Combustion, Field(discriminator="kind")]
 class ReciprocatingEngine(CheckedDescription):
     """An engine with one or more banks of cylinders on one crankshaft."""
 
+    machine: Literal["engine", "compressor"] = Field(
+        "engine",
+        description="What it is: a compressor is driven, by default at the first disc of [train.discs], with "
+        "the mean torque that balances its own.",
+    )
     strokes: Literal[2, 4] = Field(4, description="Strokes of a working cycle.")
     bore: PositiveLength = Field(description="Diameter of the cylinders.")
     crank_radius: PositiveLength | None = Field(
