@@ -1,0 +1,224 @@
+//! The periodic solution to a wanted accuracy.
+//!
+//! Newton's method begins with the crank at one speed, on few steps from kink to kink; steps whose error is too large are divided.
+//! Where it does not converge the motion is followed from cycle to cycle first, which also tells where a machine stalls.
+
+use crate::chain::{Chain, Driver};
+use crate::cycle::{Cycle, Stop};
+use crate::equation::Equation;
+use crate::error::errors;
+use crate::mesh::{Mesh, Solution};
+use linkwright_core::drive::kinks::kinks;
+use linkwright_core::drive::structure::Plan;
+use linkwright_kernel::radau::{S, value};
+
+/// Steps of a revolution at first.
+const STEPS: f64 = 16.0;
+
+/// Steps of a cycle at most.
+pub const STEPS_MAX: usize = 20_000;
+
+/// Times that steps are divided.
+const ROUNDS_MAX: usize = 40;
+
+/// Parts of a step at once.
+const PARTS_MAX: f64 = 6.0;
+
+/// The error of quintics falls with this power of the length of their step.
+const POWER: f64 = 6.0;
+
+/// Cycles that are followed between attempts of Newton's method.
+const CYCLES_AT_ONCE: usize = 10;
+
+/// Twists \[rad\] and speeds, as a share of the crank's, that count as none.
+const NO_TWIST: f64 = 1e-12;
+/// See [`NO_TWIST`].
+const NO_SPEED: f64 = 1e-10;
+
+/// Angles \[rad\] that are one.
+const SAME_ANGLE: f64 = 1e-9;
+
+/// A steady motion.
+pub struct Steady {
+    pub mesh: Mesh,
+    pub solution: Solution,
+    /// Derivative of the state at the end of the cycle by that at its start, row by row.
+    pub monodromy: Vec<f64>,
+    /// Error that was reached, over the scale of the state.
+    pub reached: f64,
+    /// Cycles that were followed before Newton's method converged.
+    pub cycles: usize,
+}
+
+/// Why there is none.
+#[derive(Clone, Copy, Debug)]
+pub enum Failure {
+    /// The crank comes to rest, or turns back.
+    Stops(Stop),
+    /// Neither Newton's method nor the motion in time comes to a periodic motion.
+    NotFound,
+    /// Steps cannot be divided further.
+    Inaccurate(f64),
+}
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Relative accuracy.
+    pub accuracy: f64,
+    /// Speed of the crank to begin with \[rad/s\].
+    pub speed: f64,
+    /// Cycles that are followed before Newton's method is tried.
+    pub cycles_first: usize,
+    /// Cycles that are followed at most.
+    pub cycles_max: usize,
+}
+
+/// Steady motion of a machine with its driveline.
+///
+/// # Errors
+/// None is found, or not as exactly as asked for.
+pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Result<Steady, Failure> {
+    let equation = Equation { plan, q, chain };
+    let mut mesh = Mesh::new(&equation, first_edges(&kinks(plan, q)));
+    let (mut solution, mut monodromy, cycles) = found_roughly(equation, &mesh, request)?;
+    let mut reached = f64::INFINITY;
+    for _ in 0..ROUNDS_MAX {
+        let scale = scales(&solution, chain);
+        let errors = errors(&equation, &mesh, &solution, &scale);
+        reached = errors.iter().copied().fold(0.0, f64::max);
+        if reached <= request.accuracy {
+            return Ok(Steady { mesh, solution, monodromy, reached, cycles });
+        }
+        let kinks = speed_kinks(&equation, &mesh, &solution);
+        let edges = divided(&mesh.edges, &errors, request.accuracy, &kinks);
+        if edges.len() > STEPS_MAX {
+            break;
+        }
+        let finer = Mesh::new(&equation, edges);
+        solution = solution.on(&mesh, &finer);
+        mesh = finer;
+        monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale).ok_or(Failure::NotFound)?;
+    }
+    Err(Failure::Inaccurate(reached))
+}
+
+/// Even steps from kink to kink.
+fn first_edges(kinks: &[f64]) -> Vec<f64> {
+    let mut edges = vec![0.0];
+    for pair in kinks.windows(2) {
+        let length = pair[1] - pair[0];
+        let parts = (length * STEPS / std::f64::consts::TAU - 1e-9).ceil().max(1.0);
+        edges.extend((1..=parts as usize).map(|i| pair[0] + length * (i as f64 / parts)));
+    }
+    edges
+}
+
+/// The periodic solution on the first mesh, by Newton's method alone or behind cycles that are followed.
+fn found_roughly(
+    equation: Equation<'_>,
+    mesh: &Mesh,
+    request: &Request,
+) -> Result<(Solution, Vec<f64>, usize), Failure> {
+    let chain = equation.chain;
+    let mut start = vec![0.0; chain.states()];
+    let speed = match chain.driver {
+        Driver::Motor => request.speed,
+        Driver::Held(speed) => speed,
+    };
+    start[chain.states() - 1] = speed;
+    let mut cycle = Cycle::new(equation, mesh);
+    let (mut followed, mut cycles) = (Solution::constant(mesh, &start), 0);
+    // Before anything is known a radian and the speed are what twists and speeds are measured with.
+    let mut scale: Vec<f64> =
+        (0..chain.states()).map(|r| if r + 1 < chain.masses() { 1.0 } else { speed }).collect();
+    loop {
+        if cycles >= request.cycles_first {
+            let mut tried = followed.clone();
+            if let Some(monodromy) = cycle.periodic(&mut tried, &scale) {
+                return Ok((tried, monodromy, cycles));
+            }
+        }
+        if cycles >= request.cycles_max {
+            return Err(Failure::NotFound);
+        }
+        for _ in 0..CYCLES_AT_ONCE {
+            let turned = cycles as f64 * mesh.edges[mesh.steps()];
+            let stop = |stop: Stop| Failure::Stops(Stop { phi: stop.phi + turned, ..stop });
+            cycle.follow(&mut followed, &scale).map_err(stop)?;
+            followed.start = followed.stage(mesh.steps() - 1, S - 1).to_vec();
+            cycles += 1;
+        }
+        scale = scales(&followed, chain);
+    }
+}
+
+/// What errors of the numbers of a state are compared with: the largest of each kind over the cycle.
+fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
+    let (m, others) = (chain.states(), chain.masses() - 1);
+    let mut largest = vec![0.0_f64; m];
+    for y in solution.stages.chunks_exact(m) {
+        for (largest, y) in largest.iter_mut().zip(y) {
+            *largest = largest.max(y.abs());
+        }
+    }
+    let omega = largest[m - 1];
+    let floor = |r: usize| if r < others { NO_TWIST } else { NO_SPEED * omega };
+    (0..m).map(|r| largest[r].max(floor(r))).collect()
+}
+
+/// Ends of steps after those with too large an error are divided, with one at each of some kinks.
+fn divided(edges: &[f64], errors: &[f64], accuracy: f64, kinks: &[f64]) -> Vec<f64> {
+    let mut finer = vec![edges[0]];
+    for (pair, error) in edges.windows(2).zip(errors) {
+        let excess = 2.0 * error / accuracy;
+        let parts = if excess <= 2.0 { 1.0 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) };
+        let length = pair[1] - pair[0];
+        finer.extend((1..=parts as usize).map(|i| pair[0] + length * (i as f64 / parts)));
+    }
+    for &kink in kinks {
+        let behind = finer.partition_point(|&edge| edge < kink);
+        let near = |i: usize| finer.get(i).is_some_and(|edge| (edge - kink).abs() < SAME_ANGLE);
+        if !near(behind) && !(behind > 0 && near(behind - 1)) {
+            finer.insert(behind, kink);
+        }
+    }
+    finer
+}
+
+/// Crank angles at which the motor, or the crank, passes a speed at which its characteristic has a kink.
+fn speed_kinks(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) -> Vec<f64> {
+    let (chain, drive) = (equation.chain, &equation.plan.drive);
+    let speeds: Vec<f64> = drive.speed_kinks(&equation.plan.tables, equation.q);
+    if speeds.is_empty() {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let others = chain.masses() - 1;
+    for mass in [chain.driven, others] {
+        for k in 0..mesh.steps() {
+            let mut speed = solution.quintic(k, chain.states() - 1);
+            if mass < others {
+                let beside = solution.quintic(k, others + mass);
+                speed.iter_mut().zip(beside).for_each(|(sum, b)| *sum += b);
+            }
+            for &kink in &speeds {
+                let at = |share: f64| value(&speed, share) - kink;
+                if at(0.0) * at(1.0) < 0.0 {
+                    found.push(mesh.edges[k] + mesh.length(k) * crossing(at));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Share of a step at which something changes its sign, by bisection.
+fn crossing(at: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high, sign) = (0.0, 1.0, at(0.0));
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if at(middle) * sign > 0.0 { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
