@@ -1199,13 +1199,15 @@ def driveline_motion(
     held: float | None,
     accuracy: float,
     speed: float,
+    fastest: float,
     cycles_first: int,
     cycles_max: int,
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
-    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `driven`: mass of the
-    motor, which keeps the speed `held`; followed for `cycles_first` cycles at first, for `cycles_max` at most.
+    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `driven`: mass
+    of the motor, which keeps the speed `held`; `fastest`: size of the fastest eigenvalue that lasts; followed
+    for `cycles_first` cycles at first, for `cycles_max` at most.
     """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:

@@ -122,18 +122,14 @@ fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: u
     if [first.len(), second.len(), stiffness.len()] != [damping.len(); 3] {
         return Err(PyValueError::new_err("links: arrays of one length are needed"));
     }
-    let link = |i: usize| Link {
-        first: first[i],
-        second: second[i],
-        stiffness: stiffness[i],
-        damping: damping[i],
-    };
+    let link =
+        |i: usize| Link { first: first[i], second: second[i], stiffness: stiffness[i], damping: damping[i] };
     Ok((0..first.len()).map(link).collect())
 }
 
 #[pyfunction]
 #[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, cycles_first, cycles_max
+    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
 ))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
@@ -149,6 +145,7 @@ pub(crate) fn driveline_motion(
     held: Option<f64>,
     accuracy: f64,
     speed: f64,
+    fastest: f64,
     cycles_first: usize,
     cycles_max: usize,
 ) -> PyResult<DrivelineOutcome> {
@@ -162,7 +159,7 @@ pub(crate) fn driveline_motion(
         return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
     }
     let plan = &known.get().0;
-    let request = Request { accuracy, speed, cycles_first, cycles_max };
+    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
     let solved = guarded(py, ANALYSIS, || {
         let found = steady(plan, &q, &chain, &request)?;
         let equation = Equation { plan, q: &q, chain: &chain };

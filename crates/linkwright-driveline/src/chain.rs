@@ -29,9 +29,11 @@ pub struct Chain {
     pub inertia: Vec<f64>,
     /// Inertia of the drive that does not turn with the crank as one \[kg m²\]: the reduction counts it there.
     pub apart: f64,
+    /// What joins the masses.
     pub links: Vec<Link>,
     /// Mass that is driven.
     pub driven: usize,
+    /// What drives it.
     pub driver: Driver,
 }
 

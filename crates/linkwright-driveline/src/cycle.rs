@@ -112,12 +112,7 @@ impl<'a> Cycle<'a> {
                 end[r * (1 + m) + 1 + r] = 1.0;
             }
             for k in 0..steps {
-                self.linear_step(
-                    k,
-                    solution.start_of(k),
-                    &solution.stages[k * n..][..n],
-                    true,
-                );
+                self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true);
                 let kept = &mut solved[k * n * (1 + m)..][..n * (1 + m)];
                 for (to, row) in kept.chunks_exact_mut(1 + m).zip(self.table.chunks_exact(width)) {
                     to.copy_from_slice(&row[n..]);

@@ -23,15 +23,20 @@ const CORRECTION: f64 = 0.01;
 /// The mechanism at one crank angle.
 #[derive(Clone, Copy)]
 pub struct Row<'a> {
+    /// Inertia and loads.
     pub reduced: Reduction<f64>,
+    /// What laws need to know there.
     pub geometry: &'a [LawGeometry<f64>],
 }
 
 /// A machine with its driveline.
 #[derive(Clone, Copy)]
 pub struct Equation<'a> {
+    /// Its structure.
     pub plan: &'a Plan,
+    /// Its numbers.
     pub q: &'a [f64],
+    /// Its driveline.
     pub chain: &'a Chain,
 }
 

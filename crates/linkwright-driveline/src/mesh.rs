@@ -9,6 +9,7 @@ use linkwright_kernel::radau::{C, N, S, through, value};
 
 /// Places of a step from one end to the other, and the mechanism there.
 pub struct Rows {
+    /// Inertia and loads.
     pub reduced: Vec<Reduction<f64>>,
     geometry: Vec<LawGeometry<f64>>,
     laws: usize,
@@ -39,6 +40,7 @@ impl Rows {
 pub struct Mesh {
     /// From 0 to the end of the cycle \[rad\].
     pub edges: Vec<f64>,
+    /// At all stages of all steps.
     pub rows: Rows,
 }
 

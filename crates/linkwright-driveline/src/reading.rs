@@ -24,15 +24,20 @@ const INSIDE: f64 = 1e-9;
 /// Minimum and maximum with their crank angles \[rad\].
 #[derive(Clone, Copy, Debug)]
 pub struct Extremes {
+    /// Minimum.
     pub min: f64,
+    /// Where it is.
     pub min_at: f64,
+    /// Maximum.
     pub max: f64,
+    /// Where it is.
     pub max_at: f64,
 }
 
 /// Curves over crank angles, one list after another for every part.
 #[derive(Clone, Debug, Default)]
 pub struct Curves {
+    /// From the start of the cycle \[s\].
     pub time: Vec<f64>,
     /// Of the masses \[rad/s\].
     pub speed: Vec<f64>,
@@ -51,10 +56,15 @@ pub struct Curves {
 /// Extremes and means of a cycle.
 #[derive(Clone, Debug)]
 pub struct Measures {
+    /// Duration of a cycle \[s\].
     pub period: f64,
+    /// Of the masses \[rad/s\].
     pub speed: Vec<Extremes>,
+    /// Of the masses \[rad/s²\].
     pub acceleration: Vec<Extremes>,
+    /// Of the links \[rad\].
     pub twist: Vec<Extremes>,
+    /// Of the links \[N m\].
     pub torque: Vec<Extremes>,
     /// Mean torques of the links over time \[N m\].
     pub torque_mean: Vec<f64>,
@@ -70,7 +80,9 @@ pub struct Measures {
 
 /// A steady motion with the machine that it is of.
 pub struct Reading<'a> {
+    /// The machine.
     pub equation: Equation<'a>,
+    /// Its motion.
     pub steady: &'a Steady,
 }
 
@@ -145,7 +157,8 @@ impl<'a> Reading<'a> {
     fn of_state(&self, of: &dyn Fn(&[f64]) -> f64) -> Extremes {
         let solution = &self.steady.solution;
         let mut y = vec![0.0; solution.states()];
-        let sample = |k: usize, j: usize| of(if j == 0 { solution.start_of(k) } else { solution.stage(k, j - 1) });
+        let sample =
+            |k: usize, j: usize| of(if j == 0 { solution.start_of(k) } else { solution.stage(k, j - 1) });
         self.extremes(&sample, &mut |k, share| {
             solution.state(k, share, &mut y);
             of(&y)
@@ -179,7 +192,8 @@ impl<'a> Reading<'a> {
         at: &mut dyn FnMut(usize, f64) -> f64,
     ) -> Extremes {
         let steps = self.steady.mesh.steps();
-        let samples: Vec<f64> = (0..steps).flat_map(|k| (0..N).map(move |j| (k, j))).map(|(k, j)| sample(k, j)).collect();
+        let samples: Vec<f64> =
+            (0..steps).flat_map(|k| (0..N).map(move |j| (k, j))).map(|(k, j)| sample(k, j)).collect();
         let [low, high] = samples
             .iter()
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
@@ -229,7 +243,9 @@ impl<'a> Reading<'a> {
             links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
         }
         let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
-            (0..parts).flat_map(|p| list.iter().skip(p).step_by(parts.max(1)).map(move |x| x[which])).collect()
+            (0..parts)
+                .flat_map(|p| list.iter().skip(p).step_by(parts.max(1)).map(move |x| x[which]))
+                .collect()
         };
         [found.speed, found.acceleration] = [0, 1].map(|which| by_part(&masses, chain.masses(), which));
         [found.twist, found.torque] = [0, 1].map(|which| by_part(&links, chain.links.len(), which));

@@ -1,4 +1,4 @@
-"""Torsionally flexible drivelines with the true mechanism: inertia and loads over angle and speed of the crank.
+"""Torsionally flexible drivelines with the mechanism that they drive: its inertia and loads at every angle.
 
 | module | |
 | --- | --- |

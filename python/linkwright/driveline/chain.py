@@ -1,8 +1,8 @@
 r"""A torsionally flexible driveline as masses and links, referred to the speed of the crank.
 
-A disc that turns n times as fast as the crank counts there with n² J, a shaft at its own speed with n² k and
-n² c. The last mass is the crank; the mechanism on it has its inertia and loads by the core's reduction. A motor
-of constant speed holds the end of the driveline: it is a mass that keeps its speed.
+A disc that turns n times as fast as the crank counts there with n² J, a shaft at its own speed with n² k
+and n² c. The last mass is the crank; the mechanism on it has its inertia and loads by the core's reduction. A
+motor of constant speed holds the end of the driveline: it is a mass that keeps its speed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,10 @@ from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mean_inertia
 from linkwright.torsion.in_time.moving_train import shaft_damping
-from linkwright.torsion.model.drive_train import CRANK, MOTOR, drive_train
+from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
+
+# Share of a disturbance below which it is gone.
+_GONE = 1e-8
 
 # Inertia of the mechanism where it is of no account: it is taken off again [kg m²].
 _ANY = 1.0
@@ -50,6 +53,11 @@ def chain_of(machine: Machine) -> Chain:
     order = _order(len(inertia), int(referred.mass[crank]))
     ends = np.where(referred.ends == HELD, len(order), np.append(order, 0)[referred.ends])
     damping, notes = shaft_damping(referred)
+    # From the motor on.
+    row = [
+        referred.shafts.index(name) for name in (MOTOR_SHAFT, GEARS, CRANKSHAFT) if name in referred.shafts
+    ]
+    lead, ends = referred.lead[row] * n, ends[row]
     own = inertia[referred.mass[crank]] - mechanism
     others = np.empty(len(order) - 1)
     others[order[order < len(others)]] = inertia[order < len(others)]
@@ -58,16 +66,15 @@ def chain_of(machine: Machine) -> Chain:
         "apart": float(drive_inertia(drive)) - own,
         "first": np.ascontiguousarray(ends[:, 0], dtype=np.int32),
         "second": np.ascontiguousarray(ends[:, 1], dtype=np.int32),
-        "stiffness": referred.stiffness * n**2,
-        "damping": damping * referred.lead**2 * n**2,
+        "stiffness": referred.stiffness[row] * n**2,
+        "damping": damping[row] * lead**2,
         "driven": int(order[referred.mass[_driven(referred)]]),
         "held": None,
     }
     if isinstance(drive.motor, ConstantSpeedMotor):
         links |= _held(links, float(drive.motor.speed) / drive.gearbox.ratio)
-    return Chain(
-        referred.discs, referred.speed * n, order[referred.mass], referred.shafts, referred.lead * n, links, tuple(notes)
-    )
+    shafts = tuple(referred.shafts[k] for k in row)
+    return Chain(referred.discs, referred.speed * n, order[referred.mass], shafts, lead, links, tuple(notes))
 
 
 def _has_hysteresis(drive: Drive) -> bool:
@@ -91,7 +98,30 @@ def _held(links: dict[str, Any], speed: float) -> dict[str, Any]:
     last = len(links["inertia"])
     # The crank moves on by one; what is held has had the number behind it.
     ends = {
-        end: np.select([links[end] == last, links[end] == last + 1], [last + 1, last], links[end]).astype(np.int32)
+        end: np.select([links[end] == last, links[end] == last + 1], [last + 1, last], links[end]).astype(
+            np.int32
+        )
         for end in ("first", "second")
     }
     return {**ends, "inertia": np.append(links["inertia"], 1.0), "driven": last, "held": speed}
+
+
+def fastest(chain: Chain, inertia: float, period: float) -> float:
+    """Size of the fastest eigenvalue whose disturbances last for a cycle; 0 where none does [1/s].
+
+    `inertia`: all that the crank feels, also of the drive [kg m²]; `period`: of a cycle [s].
+    """
+    links, n = chain.links, len(chain.links["inertia"]) + 1
+    joins = np.zeros((len(chain.shafts), n))
+    rows = np.arange(len(joins))
+    joins[rows, links["first"]], joins[rows, links["second"]] = 1.0, -1.0
+    J = np.append(links["inertia"], max(inertia - links["apart"], 0.0))
+    if links["held"] is not None:
+        joins[:, links["driven"]] = 0.0
+    if not J.min() > 0:
+        return 0.0
+    K, C = (-(joins.T * links[name]) @ joins / J[:, None] for name in ("stiffness", "damping"))
+    system = np.block([[np.zeros((n, n)), np.eye(n)], [K, C]])
+    found = np.linalg.eigvals(system)
+    lasting = found[found.real * period > np.log(_GONE)]
+    return float(np.abs(lasting).max(initial=0.0))

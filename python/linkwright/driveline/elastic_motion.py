@@ -1,7 +1,7 @@
 r"""Steady motion of a torsionally flexible driveline that drives a mechanism of varying inertia.
 
-The stations of the driveline, motor, gearbox and crank, have inertias and are joined by shafts with stiffness k
-and damping c; the last one is the mechanism, with its reduced inertia J(φ) and load torque M_r(φ, ω):
+The stations of the driveline, motor, gearbox and crank, have inertias and are joined by shafts with
+stiffness k and damping c; the last one is the mechanism, with its reduced inertia J(φ) and load torque M_r:
 
 .. math:: J_i \ddot\varphi_i = M_d(\dot\varphi_i) - \sum T, \qquad
     J(\varphi)\,\ddot\varphi + \tfrac12 J'(\varphi)\,\dot\varphi^2 = T - M_r(\varphi, \dot\varphi), \qquad
@@ -21,7 +21,7 @@ import numpy as np
 from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.steady_state import require_accuracy
-from linkwright.driveline.chain import Chain, chain_of
+from linkwright.driveline.chain import Chain, chain_of, fastest
 from linkwright.driveline.permitted import TorqueJudgement, judged
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
@@ -41,12 +41,15 @@ _CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 _AWAY = 100
 
+# Angles of a revolution at which the least inertia of the mechanism is looked for.
+_ANGLES = 36
+
 _OWN = "At its own speed."
 
 
 @dataclass(frozen=True)
 class ElasticMotion(Result):
-    """One cycle of steady motion of a torsionally flexible driveline; extremes are exact, not those of the curves.
+    """One cycle of steady motion of a torsionally flexible driveline; extremes are not those of the curves.
 
     Torques and twists are those of the shafts at their own speed, motions those of the stations; a torque is
     positive where the side of the motor drives.
@@ -56,8 +59,11 @@ class ElasticMotion(Result):
         Floats, Label("crank angle", "φ", "rad", "Over a cycle, from 0 on.", shape="(n + 1,)")
     ]
     time: Annotated[Floats, Label("time", "t", "s", "From the start of the cycle.")]
-    stations: Annotated[tuple[str, ...], About("What turns, from the motor on; the mechanism is on the crank.")]
+    stations: Annotated[
+        tuple[str, ...], About("What turns, from the motor on; the mechanism is on the crank.")
+    ]
     shafts: Annotated[tuple[str, ...], About("What twists, from the motor on.")]
+    ratio: Annotated[Floats, Label("speed over that of the crank", "i", "", shape="(stations,)")]
     speed: Annotated[Floats, Label("speed of each station", "ω", "rad/s", shape="(stations, n + 1)")]
     acceleration: Annotated[
         Floats, Label("acceleration of each station", "ε", "rad/s²", shape="(stations, n + 1)")
@@ -65,7 +71,8 @@ class ElasticMotion(Result):
     torque: Annotated[Floats, Label("torque of each shaft", "T", "N m", _OWN, shape="(shafts, n + 1)")]
     twist: Annotated[Floats, Label("twist of each shaft", "Δ", "rad", _OWN, shape="(shafts, n + 1)")]
     torque_drive: Annotated[
-        Floats, Label("driving torque referred to the crank", "M_d", "N m", "Of the motor, behind the gearbox.")
+        Floats,
+        Label("driving torque referred to the crank", "M_d", "N m", "Of the motor, behind the gearbox."),
     ]
     torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m")]
     speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s", shape="(stations,)")]
@@ -93,15 +100,22 @@ class ElasticMotion(Result):
     twist_min: Annotated[Floats, Label("minimum twist", "Δ_min", "rad", _OWN, shape="(shafts,)")]
     twist_max: Annotated[Floats, Label("maximum twist", "Δ_max", "rad", _OWN, shape="(shafts,)")]
     power_dissipated: Annotated[
-        Floats, Label("dissipated power", "P_v", "W", "Mean power that the damping turns into heat.", shape="(shafts,)")
+        Floats,
+        Label(
+            "dissipated power", "P_v", "W", "Mean power that the damping turns into heat.", shape="(shafts,)"
+        ),
     ]
     period: Annotated[float, Label("period", "T_c", "s", "Duration of a cycle.", table="elastic_motion")]
     multipliers: Annotated[
         Complexes,
-        About("Floquet multipliers: shares of small disturbances left after a cycle, from the largest on.", "(states,)"),
+        About(
+            "Floquet multipliers: shares of small disturbances left after a cycle, from the largest on.",
+            "(states,)",
+        ),
     ]
     energy_drive: Annotated[
-        float, Label("work of the motor per revolution", "A_d", "J", "Behind the gearbox.", table="elastic_motion")
+        float,
+        Label("work of the motor per revolution", "A_d", "J", "Behind the gearbox.", table="elastic_motion"),
     ]
     energy_load: Annotated[
         float, Label("work of the loads per revolution", "A_r", "J", table="elastic_motion")
@@ -135,7 +149,7 @@ class ElasticMotion(Result):
     @property
     def unevenness(self) -> Annotated[Floats, Label("speed fluctuation", "δ", "", shape="(stations,)")]:
         """Range of the speed of each station over its mean over time."""
-        means = self.speed_mean_time * self.ratios
+        means = self.speed_mean_time * self.ratio
         fluctuation: Floats = (self.speed_max - self.speed_min) / means
         return fluctuation
 
@@ -166,9 +180,7 @@ class ElasticMotion(Result):
     @property
     def multiplier_max(
         self,
-    ) -> Annotated[
-        float, Label("largest Floquet multiplier", "∣G∣", "", table="elastic_motion", scale=1.0)
-    ]:
+    ) -> Annotated[float, Label("largest Floquet multiplier", "∣G∣", "", table="elastic_motion", scale=1.0)]:
         """Largest absolute value of the multipliers; the motion is stable if it is below 1."""
         return float(np.abs(self.multipliers[0]))
 
@@ -176,13 +188,6 @@ class ElasticMotion(Result):
     def is_stable(self) -> bool:
         """Whether small disturbances die away."""
         return self.multiplier_max < 1
-
-    @property
-    def ratios(self) -> Floats:
-        """Speed of each station over that of the crank, (stations,)."""
-        crank = self.stations.index("crank")
-        ratios: Floats = np.round(self.speed[:, 0] / self.speed[crank, 0], 12)
-        return ratios
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
         """As `Result.to_dict`; extremes by name of shaft and station, multipliers as pairs of numbers."""
@@ -257,36 +262,46 @@ def elastic_motion(
     multipliers = _multipliers(motion, chain)
     if abs(multipliers[0]) >= 1:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, _AWAY))
+        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, _AWAY))
         if isinstance(other, DrivelineMotion):
             motion, multipliers = other, _multipliers(other, chain)
     phi = turn_angles(n, compiled.turns) if angles is None else angles
     return _result(machine, motion, chain, phi, compiled.turns, multipliers)
 
 
-def _search(compiled: CompiledMachine, cycles: int) -> dict[str, Any]:
+def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, Any]:
     """Where the search begins, and for how long it follows the motion."""
-    return {"speed": compiled.speed_guess, "cycles_first": cycles, "cycles_max": _CYCLES}
+    speed = compiled.speed_guess
+    period = compiled.cycle / speed
+    inertia = compiled.reductions(turn_angles(_ANGLES, compiled.turns)).inertia.min()
+    return {
+        "speed": speed,
+        "fastest": fastest(chain, float(inertia), period),
+        "cycles_first": cycles,
+        "cycles_max": _CYCLES,
+    }
 
 
 def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float) -> DrivelineMotion:
-    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, 0))
+    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, 0))
     if isinstance(motion, NoDrivelineMotion):
         raise _failure(motion, compiled, chain, accuracy)
     return motion
 
 
-def _failure(motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain, accuracy: float) -> Exception:
+def _failure(
+    motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain, accuracy: float
+) -> Exception:
     angles = turn_angles(360, compiled.turns)
     if not (compiled.reductions(angles).inertia - chain.links["apart"]).min() > 0:
         return SteadyStateError(NO_INERTIA)
     if motion.reason == "stops":
         turned = motion.crank_angle / (2 * np.pi)
         return SteadyStateError(
-            f"no steady motion of the elastic driveline: started at {compiled.speed_guess:.4g} rad/s, the crank "
-            f"comes to rest or turns back after {turned:.4g} revolutions, at φ = "
-            f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a larger "
-            "flywheel or motor, or follow the motion in time (torsion_transient)"
+            f"no steady motion of the elastic driveline: started at {compiled.speed_guess:.4g} rad/s, the "
+            f"crank comes to rest or turns back after {turned:.4g} revolutions, at φ = "
+            f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
+            "larger flywheel or motor, or follow the motion in time (torsion_transient)"
         )
     if motion.reason == "not found":
         return ConvergenceError(
@@ -296,8 +311,9 @@ def _failure(motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain,
             iterations=_CYCLES,
         )
     return ConvergenceError(
-        f"steady motion of the elastic driveline was found to a relative accuracy of {motion.accuracy:.1e} only, "
-        f"{accuracy:g} is required; reduce the accuracy, or smooth jumps of loads and characteristics",
+        "steady motion of the elastic driveline was found to a relative accuracy of "
+        f"{motion.accuracy:.1e} only, {accuracy:g} is required; reduce the accuracy, or smooth jumps of "
+        "loads and characteristics",
         method="collocation",
     )
 
@@ -320,6 +336,7 @@ def _result(
         time=curves.time,
         stations=chain.stations,
         shafts=chain.shafts,
+        ratio=ratio,
         speed=ratio[:, None] * curves.speed[at],
         acceleration=ratio[:, None] * curves.acceleration[at],
         torque=curves.torque / lead[:, None],

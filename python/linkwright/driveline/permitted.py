@@ -75,6 +75,4 @@ def _judgements(machine: Machine, motion: ElasticMotion) -> Iterator[TorqueJudge
         if shaft.limit.torque_permitted is not None:
             yield TorqueJudgement(name, "torque", peak, shaft.limit.torque_permitted)
         if shaft.limit.vibratory_torque_permitted is not None:
-            yield TorqueJudgement(
-                name, "vibratory torque", vibratory, shaft.limit.vibratory_torque_permitted
-            )
+            yield TorqueJudgement(name, "vibratory torque", vibratory, shaft.limit.vibratory_torque_permitted)
