@@ -47,7 +47,7 @@ def random_drive(rng: Generator) -> Drive:
     springs = [name for name in ("motor_shaft", "gears", "crankshaft") if rng.random() < 0.5] or [
         "crankshaft"
     ]
-    # Inertias beside the slider's, and frequencies of each spring with it from twice to sixty times the speed.
+    # Inertias beside the slider's; frequencies of each spring with it from thrice to sixty times the speed.
     J_motor = rng.uniform(0.3, 3.0) * swing / i**2
     J_gearbox = rng.uniform(0.1, 1.0) * swing / i**2
     J_wheel, J_crank = rng.uniform(0.1, 1.0) * swing, rng.uniform(0.5, 3.0) * swing
@@ -140,11 +140,11 @@ class Cycle:
 
 
 def cycle(drive: Drive, start: np.ndarray, steps: np.ndarray) -> Cycle:
-    """One cycle from a start by DOP853, beside it one from each start that is a step away either way."""
-    n, copies = len(drive.inertia), 1 + 2 * len(start)
-    starts = start[:, None] + np.concatenate(
-        [np.zeros((len(start), 1)), np.diag(steps), -np.diag(steps)], axis=1
-    )
+    """One cycle from a start by DOP853, beside it from starts one and two steps away either way."""
+    m, n = len(start), len(drive.inertia)
+    copies = 1 + 4 * m
+    away = np.concatenate([k * np.diag(steps) for k in (1, -1, 2, -2)], axis=1)
+    starts = start[:, None] + np.concatenate([np.zeros((m, 1)), away], axis=1)
 
     def rate(phi: float, y: np.ndarray) -> np.ndarray:
         y = y.reshape(-1, copies)
@@ -162,12 +162,13 @@ def cycle(drive: Drive, start: np.ndarray, steps: np.ndarray) -> Cycle:
         at = np.unique(np.concatenate([np.linspace(low, low + np.pi, 4001), solved.t]))
         samples.append(_sampled(drive, at, solved.sol(at).reshape(-1, copies, len(at))[: 2 * n - 1, 0]))
     y = y.reshape(-1, copies)
-    m = len(start)
-    ends = y[:m]
+    ends, moved = y[:m, 0], y[:m, 1:].reshape(m, 4, m)
+    # Differences of fourth order.
+    slopes = (8 * (moved[:, 0] - moved[:, 1]) - (moved[:, 2] - moved[:, 3])) / (12 * steps)
     whole = [np.concatenate([piece[k] for piece in samples], axis=1) for k in range(3)]
     return Cycle(
-        ends[:, 0],
-        (ends[:, 1 : 1 + m] - ends[:, 1 + m :]) / (2 * steps),
+        ends,
+        slopes,
         y[m, 0],
         *(_extremes(each) for each in whole),
         y[m + 1 : m + n, 0] / y[m, 0],

@@ -41,7 +41,7 @@ _CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 _AWAY = 100
 
-# Angles of a revolution at which the least inertia of the mechanism is looked for.
+# Angles of a revolution at which the minimum inertia is looked for.
 _ANGLES = 36
 
 _OWN = "At its own speed."
@@ -147,7 +147,9 @@ class ElasticMotion(Result):
         return 2 * np.pi * self.turns / self.period
 
     @property
-    def unevenness(self) -> Annotated[Floats, Label("speed fluctuation", "δ", "", shape="(stations,)")]:
+    def unevenness(
+        self,
+    ) -> Annotated[Floats, Label("coefficient of speed fluctuation", "δ", "", shape="(stations,)")]:
         """Range of the speed of each station over its mean over time."""
         means = self.speed_mean_time * self.ratio
         fluctuation: Floats = (self.speed_max - self.speed_min) / means
