@@ -194,8 +194,8 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
     if train is None:
         yield (
             "The mechanism is a disc with its mean inertia; the variation of its inertia acts as a torque. "
-            "Modes and critical speeds are those of this disc; torques and speeds with the inertia at every angle "
-            "are those of the elastic driveline (elastic_motion)."
+            "Modes and critical speeds are those of this disc; torques and speeds with the inertia at every "
+            "angle are those of the elastic driveline (elastic_motion)."
         )
         return
     if train.installed:
