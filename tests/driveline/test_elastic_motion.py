@@ -125,3 +125,94 @@ def test_work_of_the_motor_is_that_of_loads_and_damping() -> None:
     motion = lw.elastic_motion(two_carts(2e4, 50.0, kloss=False))
     lost = motion.power_dissipated.sum() * motion.period
     assert motion.energy_drive == pytest.approx(motion.energy_load + lost, rel=1e-9)
+
+
+SLIDER_CRANK = """
+format = 1
+name = "slider-crank on an elastic drive"
+[drive.motor]
+{motor}
+inertia = 0.1
+[drive.gearbox]
+ratio = 5
+inertia = 0.02
+[drive.flywheel]
+inertia = 1
+[drive.crankshaft]
+stiffness = {stiffness}
+damping = {damping}
+[mechanism.cranks.A]
+radius = 0.2
+[mechanism.sliders.S]
+crank = "A"
+rod = 0.7
+[bodies]
+S = {{ mass = 60 }}
+[loads]
+oil = {{ kind = "viscous", on = "S", damping = 30 }}
+"""
+
+HELD = 'kind = "constant_speed"\nspeed = 50'
+
+
+def dc_motor(stall: float) -> str:
+    return f'kind = "dc"\nspeed_no_load = 50\ntorque_stall = {stall}'
+
+
+def slider_crank(motor: str, stiffness: float, damping: float) -> lw.Machine:
+    return lw.loads(SLIDER_CRANK.format(motor=motor, stiffness=stiffness, damping=damping))
+
+
+def test_a_motor_of_constant_speed_is_the_limit_of_steep_ones() -> None:
+    """Ten times the stall torque leaves a tenth of the difference; the motor's own speed does not change."""
+    held = lw.elastic_motion(slider_crank(HELD, 500, 30))
+    assert held.stations == ("motor", "crank")
+    assert (held.speed_min[0], held.speed_max[0]) == pytest.approx((50, 50), rel=1e-12)
+    off = []
+    for stall in (1e4, 1e5, 1e6):
+        steep = lw.elastic_motion(slider_crank(dc_motor(stall), 500, 30))
+        off.append(steep.speed_max[-1] - held.speed_max[-1])
+        assert steep.torque_max == pytest.approx(held.torque_max, rel=200 / stall)
+    # What is left of higher powers is a tenth of what it was.
+    assert off[1] / off[0] == pytest.approx(0.1, rel=0.06)
+    assert off[2] / off[1] == pytest.approx(0.1, rel=0.01)
+
+
+def test_a_motion_near_resonance_is_found_although_the_start_stalls() -> None:
+    """From the speed without load the crank comes to rest; added damping, less and less, leads there."""
+    motion = lw.elastic_motion(slider_crank(dc_motor(1e4), 2000, 5))
+    crank = motion.stations.index("crank")
+    assert 0 < motion.speed_min[crank] < 0.05 * motion.speed_max[crank]
+    lost = motion.power_dissipated.sum() * motion.period
+    assert motion.energy_drive == pytest.approx(motion.energy_load + lost, rel=1e-8)
+
+
+def test_an_unstable_motion_is_said_to_be_one() -> None:
+    """A driving torque that grows with the speed: a disturbance grows every revolution."""
+    text = SLIDER_CRANK.format(motor=HELD, stiffness=500, damping=0) + (
+        'push = { kind = "formula", on = "A", torque = "2 * omega" }\n'
+    )
+    machine = lw.loads(text.replace("damping = 30", "damping = 1"))
+    motion = lw.elastic_motion(machine)
+    assert motion.multiplier_max > 1
+    study = lw.study(machine)
+    assert any("unstable" in text for text in study.warnings)
+
+
+def test_torques_beyond_what_is_permitted_are_findings() -> None:
+    """Both limits of the coupling are judged, with numbers; a study ends with findings."""
+    limits = {"torque_permitted": 2000.0, "vibratory_torque_permitted": 2000.0}
+    machine = lw.replace(two_carts(2e4, 50.0, kloss=False), {"drive.crankshaft.limit": limits})
+    motion = lw.elastic_motion(machine)
+    assert [judgement.is_kept for judgement in motion.judgements] == [False, True]
+    assert motion.findings[0].startswith("crankshaft: torque 2575 N m in steady motion, permitted 2000 N m")
+    assert any("limit exceeded" in text for text in lw.study(machine).findings)
+
+
+def test_a_machine_that_cannot_move_says_why() -> None:
+    """A rigid driveline, no motor, and a motor too weak for the load are refused with the reason."""
+    with pytest.raises(lw.InputError, match="the driveline is rigid"):
+        lw.elastic_motion(lw.read("roller_two_carts"))
+    weak = lw.replace(two_carts(2e4, 50.0), {"drive.motor.torque_breakdown": 90.0})
+    with pytest.raises(lw.SteadyStateError, match="comes to rest or turns back after"):
+        lw.elastic_motion(weak)

@@ -12,8 +12,10 @@ use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::radau::{S, value};
 
-/// Steps of a revolution at first.
+/// Steps of a revolution at first, and where Newton's method does not converge on them.
 const STEPS: f64 = 16.0;
+/// See [`STEPS`].
+const FINE_STEPS: f64 = 48.0;
 
 /// Steps of a cycle at most.
 pub const STEPS_MAX: usize = 20_000;
@@ -35,6 +37,11 @@ const CYCLES_AT_ONCE: usize = 10;
 
 /// Twists \[rad\] that count as none.
 const NO_TWIST: f64 = 1e-12;
+
+/// Damping that is added at first, and its smallest step, as shares of k/ω.
+const DAMPED: f64 = 1.0;
+/// See [`DAMPED`].
+const LEAST_STEP: f64 = 1e-3;
 
 /// Angles \[rad\] that are one.
 const SAME_ANGLE: f64 = 1e-9;
@@ -85,8 +92,16 @@ pub struct Request {
 /// None is found, or not as exactly as asked for.
 pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Result<Steady, Failure> {
     let equation = Equation { plan, q, chain };
-    let mut mesh = Mesh::new(&equation, first_edges(&kinks(plan, q)));
-    let (mut solution, mut monodromy, cycles) = found_roughly(equation, &mesh, request)?;
+    let kinks = kinks(plan, q);
+    let mut mesh = Mesh::new(&equation, first_edges(&kinks, STEPS));
+    let found = match at_once(equation, &mesh, request) {
+        Some(found) => found,
+        None => {
+            mesh = Mesh::new(&equation, first_edges(&kinks, FINE_STEPS));
+            found_roughly(equation, &mesh, request)?
+        }
+    };
+    let (mut solution, mut monodromy, cycles) = found;
     let mut reached = f64::INFINITY;
     for _ in 0..ROUNDS_MAX {
         let scale = scales(&solution, chain);
@@ -96,8 +111,8 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
         if reached <= request.accuracy {
             return Ok(Steady { mesh, solution, monodromy, reached, cycles });
         }
-        let kinks = speed_kinks(&equation, &mesh, &solution);
-        let edges = divided(&mesh.edges, &errors, request.accuracy, &kinks);
+        let speed_kinks = speed_kinks(&equation, &mesh, &solution);
+        let edges = divided(&mesh.edges, &errors, request.accuracy, &speed_kinks);
         if edges.len() > STEPS_MAX {
             break;
         }
@@ -121,36 +136,58 @@ fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: 
 }
 
 /// Even steps from kink to kink.
-fn first_edges(kinks: &[f64]) -> Vec<f64> {
+fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
     for pair in kinks.windows(2) {
         let length = pair[1] - pair[0];
-        let parts = (length * STEPS / std::f64::consts::TAU - 1e-9).ceil().max(1.0);
+        let parts = (length * steps / std::f64::consts::TAU - 1e-9).ceil().max(1.0);
         edges.extend((1..=parts as usize).map(|i| pair[0] + length * (i as f64 / parts)));
     }
     edges
 }
 
-/// The periodic solution on the first mesh, by Newton's method alone or behind cycles that are followed.
+/// Where the search begins: the crank at one speed, nothing twisted; and what twists and speeds are measured with before anything is
+/// known, a radian and the speed.
+fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
+    let speed = match chain.driver {
+        Driver::Motor => request.speed,
+        Driver::Held(speed) => speed,
+    };
+    let (m, others) = (chain.states(), chain.masses() - 1);
+    let start = (0..m).map(|r| if r + 1 < m { 0.0 } else { speed }).collect();
+    let scale = (0..m).map(|r| if r < others { 1.0 } else { speed }).collect();
+    (start, scale)
+}
+
+/// The periodic solution by Newton's method alone, unless cycles are to be followed first.
+fn at_once(equation: Equation<'_>, mesh: &Mesh, request: &Request) -> Option<(Solution, Vec<f64>, usize)> {
+    if request.cycles_first > 0 {
+        return None;
+    }
+    let (start, scale) = beginning(equation.chain, request);
+    let mut solution = Solution::constant(mesh, &start);
+    let monodromy = Cycle::new(equation, mesh).periodic(&mut solution, &scale)?;
+    Some((solution, monodromy, 0))
+}
+
+/// The periodic solution from that of a driveline with more damping, or behind cycles that are followed.
 fn found_roughly(
     equation: Equation<'_>,
     mesh: &Mesh,
     request: &Request,
 ) -> Result<(Solution, Vec<f64>, usize), Failure> {
-    let chain = equation.chain;
-    let mut start = vec![0.0; chain.states()];
-    let speed = match chain.driver {
-        Driver::Motor => request.speed,
-        Driver::Held(speed) => speed,
-    };
-    start[chain.states() - 1] = speed;
+    let (start, mut scale) = beginning(equation.chain, request);
+    let constant = Solution::constant(mesh, &start);
+    if request.cycles_first == 0 {
+        let found = from_damped(equation, mesh, &constant, &scale);
+        if let Some((solution, monodromy)) = found {
+            return Ok((solution, monodromy, 0));
+        }
+    }
     let mut cycle = Cycle::new(equation, mesh);
-    let (mut followed, mut cycles) = (Solution::constant(mesh, &start), 0);
-    // Before anything is known a radian and the speed are what twists and speeds are measured with.
-    let mut scale: Vec<f64> =
-        (0..chain.states()).map(|r| if r + 1 < chain.masses() { 1.0 } else { speed }).collect();
+    let (mut followed, mut cycles) = (constant, 0);
     loop {
-        if cycles >= request.cycles_first {
+        if cycles > 0 && cycles >= request.cycles_first {
             let mut tried = followed.clone();
             if let Some(monodromy) = cycle.periodic(&mut tried, &scale) {
                 return Ok((tried, monodromy, cycles));
@@ -166,8 +203,43 @@ fn found_roughly(
             followed.start = followed.stage(mesh.steps() - 1, S - 1).to_vec();
             cycles += 1;
         }
-        scale = scales(&followed, chain);
+        scale = scales(&followed, equation.chain);
     }
+}
+
+/// The periodic solution from that of a driveline with more damping, c + α k/ω, of which it is taken away step by step: near a resonance the damped motion is near the rigid one, and the other grows out of it.
+fn from_damped(
+    equation: Equation<'_>,
+    mesh: &Mesh,
+    guess: &Solution,
+    scale: &[f64],
+) -> Option<(Solution, Vec<f64>)> {
+    let omega = scale[scale.len() - 1];
+    let solved = |guess: &Solution, alpha: f64| {
+        let mut chain = equation.chain.clone();
+        for link in &mut chain.links {
+            link.damping += alpha * link.stiffness / omega;
+        }
+        let mut solution = guess.clone();
+        let monodromy =
+            Cycle::new(Equation { chain: &chain, ..equation }, mesh).periodic(&mut solution, scale)?;
+        Some((solution, monodromy))
+    };
+    let (mut alpha, mut step) = (DAMPED, 0.5 * DAMPED);
+    let mut known = solved(guess, alpha)?.0;
+    while step > LEAST_STEP {
+        // Below the last step nothing is left to take away.
+        let next = if alpha - step < LEAST_STEP { 0.0 } else { alpha - step };
+        match solved(&known, next) {
+            Some((solution, monodromy)) if next == 0.0 => return Some((solution, monodromy)),
+            Some((solution, _)) => {
+                (alpha, known) = (next, solution);
+                step = (1.5 * step).min(0.5 * alpha).max(2.0 * LEAST_STEP);
+            }
+            None => step *= 0.4,
+        }
+    }
+    None
 }
 
 /// What errors of the numbers of a state are compared with: the largest of each over the cycle. A speed against the crank counts

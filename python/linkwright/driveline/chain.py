@@ -71,10 +71,15 @@ def chain_of(machine: Machine) -> Chain:
         "driven": int(order[referred.mass[_driven(referred)]]),
         "held": None,
     }
+    shafts = tuple(referred.shafts[k] for k in row)
+    stations, ratio, mass = referred.discs, referred.speed * n, order[referred.mass]
     if isinstance(drive.motor, ConstantSpeedMotor):
         links |= _held(links, float(drive.motor.speed) / drive.gearbox.ratio)
-    shafts = tuple(referred.shafts[k] for k in row)
-    return Chain(referred.discs, referred.speed * n, order[referred.mass], shafts, lead, links, tuple(notes))
+        # The motor is the mass before the crank, which moves on by one.
+        held = links["driven"]
+        mass = np.append(held, np.where(mass == held, held + 1, mass))
+        stations, ratio = (MOTOR, *stations), np.append(drive.gearbox.ratio, ratio)
+    return Chain(stations, ratio, mass, shafts, lead, links, tuple(notes))
 
 
 def _has_hysteresis(drive: Drive) -> bool:
