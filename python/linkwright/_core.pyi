@@ -1142,6 +1142,74 @@ class GroupPath:
 def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
     """Steady motion, with curves at the angles `phi`."""
 
+class DrivelineCurves:
+    """Curves of a driveline over crank angles, (parts, n) each, all referred to the crank."""
+
+    time: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    twist: Final[_Floats]
+    torque: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+
+class DrivelineMotion:
+    """Steady motion of a driveline: extremes and means over its masses, or over its links.
+
+    All referred to the crank; torques and losses are those of the links.
+    """
+
+    period: Final[float]
+    speed: Final[Extremes]
+    acceleration: Final[Extremes]
+    twist: Final[Extremes]
+    torque: Final[Extremes]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    energy_drive: Final[float]
+    energy_load: Final[float]
+    monodromy: Final[_Floats]
+    accuracy: Final[float]
+    steps: Final[int]
+    cycles: Final[int]
+
+    def curves(self, phi: _Floats) -> DrivelineCurves:
+        """Curves at crank angles of the cycle."""
+
+class NoDrivelineMotion:
+    """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``."""
+
+    reason: Final[str]
+    crank_angle: Final[float]
+    speed: Final[float]
+    accuracy: Final[float]
+
+def driveline_motion(
+    plan: Plan,
+    q: _Floats,
+    *,
+    inertia: _Floats,
+    apart: float,
+    first: _Ints,
+    second: _Ints,
+    stiffness: _Floats,
+    damping: _Floats,
+    driven: int,
+    held: float | None,
+    accuracy: float,
+    speed: float,
+    fastest: float,
+    cycles_first: int,
+    cycles_max: int,
+) -> DrivelineMotion | NoDrivelineMotion:
+    """Steady motion of masses, the last of which is the crank, with links between them.
+
+    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `driven`: mass
+    of the motor, which keeps the speed `held`; `fastest`: size of the fastest eigenvalue that lasts; followed
+    for `cycles_first` cycles at first, for `cycles_max` at most.
+    """
+
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""
 

@@ -128,6 +128,7 @@ def test_every_text_is_found_when_it_is_said() -> None:
         "run topper",
         "torsion v8_diesel",
         "run flywheel_four_stroke",
+        f"run {EXAMPLES / 'elastic_coupling_of_carts' / 'machine.toml'}",
         f"torsion {EXAMPLES / 'ice_impacts' / 'machine.toml'}",
         f"torsion {EXAMPLES / 'twin_engine_ship' / 'machine.toml'}",
     ],

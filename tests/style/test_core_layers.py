@@ -29,6 +29,7 @@ STANDS_ON: dict[str, set[str]] = {
     "topper": {"kernel"},
     "plan": {"kernel", "linkage", "drive"},
     "derivatives": {"kernel", "linkage", "drive"},
+    "driveline": {"kernel", "linkage", "drive"},
 }
 
 # The border has no kernels: it converts what crosses it.

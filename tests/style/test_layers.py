@@ -55,6 +55,7 @@ HOUSE = {
 SUBJECTS = (
     "linkages",
     "drive",
+    "driveline",
     "kinetostatics",
     "cam",
     "torsion",
@@ -105,6 +106,14 @@ EDGES = {
     ("drive.commands", "kinetostatics"),
     ("drive", "kinetostatics.model"),
     ("drive.model", "torsion.model"),
+    # A torsionally flexible driveline is a train, and drives a mechanism against its loads.
+    ("driveline", "drive"),
+    ("driveline", "drive.model"),
+    ("driveline", "linkages"),
+    ("driveline", "torsion.model"),
+    ("driveline", "torsion.core"),
+    ("driveline", "torsion.excitation"),
+    ("driveline", "torsion.in_time"),
     # A machine without a motor has no forces in steady motion and no vibration of its driveline.
     ("kinetostatics.analyses", "drive"),
     ("torsion.analyses", "drive"),

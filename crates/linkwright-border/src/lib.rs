@@ -7,6 +7,7 @@ mod arrays;
 mod builder;
 mod cam;
 mod drive;
+mod driveline;
 mod equations;
 mod errors;
 mod guard;
@@ -72,6 +73,8 @@ pub mod _core {
         law_torques, motion_at, motor_torques, reductions, steady_rows, steady_state, transient,
         transient_along,
     };
+    #[pymodule_export]
+    use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

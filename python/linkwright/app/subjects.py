@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.axes import analyses as axes
 from linkwright.cam import analyses as cam
 from linkwright.drive import analyses as drive
+from linkwright.driveline import analyses as driveline
 from linkwright.kinetostatics import analyses as kinetostatics
 from linkwright.linkages import analyses as linkages
 from linkwright.pumping import analyses as pumping
@@ -17,7 +18,8 @@ ANALYSES = (
     *(cam.CAM, cam.SIZES, cam.CHECK),
     *(pumping.UNIT, pumping.GEARBOX, pumping.ROTATOR),
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
-    *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, kinetostatics.FORCES, kinetostatics.CYLINDER),
+    *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC),
+    *(kinetostatics.FORCES, kinetostatics.CYLINDER),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
     *(axes.AXIS, axes.BUS, axes.TIMING),
     *(torsion.TORSION, torsion.FREE, torsion.DAMPED, torsion.FORCED, torsion.STRESS),

@@ -41,7 +41,7 @@ def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | N
         *_unloaded(machine),
         *_reduced(machine, reduced),
         *first_revolution_words(machine),
-        *unjudged_limits(machine),
+        *unjudged_limits(machine, torques_are_judged=drive is not None and drive.motor is not None),
     ]
     if machine.axes and (drive is None or drive.motor is None):
         # Nothing but axes moves it: their motors are looked at instead.
@@ -60,12 +60,20 @@ def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | N
     return tuple(sentences)
 
 
-def unjudged_limits(machine: Machine) -> Iterator[str]:
-    """Limits of shafts that an analysis with rigid shafts does not judge."""
+def unjudged_limits(machine: Machine, *, torques_are_judged: bool = False) -> Iterator[str]:
+    """Limits of shafts that an analysis with rigid shafts does not judge.
+
+    `torques_are_judged`: by the elastic motion beside it; the stresses are not.
+    """
     drive = machine.drive
     shafts = {} if drive is None else {"motor_shaft": drive.motor_shaft, "crankshaft": drive.crankshaft}
     for name, shaft in shafts.items():
-        if shaft is not None and shaft.limit is not None:
+        if shaft is None or shaft.limit is None:
+            continue
+        if torques_are_judged:
+            if shaft.limit.needs_section:
+                yield f"The stresses of drive.{name}.limit are judged by `linkwright torsion`"
+        else:
             yield (
                 f"drive.{name}.limit is not judged here, where shafts are rigid: `linkwright torsion` judges "
                 "it by the torque that twists the shaft"

@@ -192,7 +192,11 @@ def _assumptions(study: TorsionStudy) -> Iterator[str]:
     yield "Loss factors η do not depend on the frequency."
     train = study.machine.train
     if train is None:
-        yield "The mechanism is a disc with its mean inertia; the variation of its inertia acts as a torque."
+        yield (
+            "The mechanism is a disc with its mean inertia; the variation of its inertia acts as a torque. "
+            "Modes and critical speeds are those of this disc; torques and speeds with the inertia at every "
+            "angle are those of the elastic driveline (elastic_motion)."
+        )
         return
     if train.installed:
         yield "A throw is a disc with its mean inertia; the variation of its inertia acts as a torque."

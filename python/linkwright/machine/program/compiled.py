@@ -288,6 +288,11 @@ class CompiledMachine:
         """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 
+    def driveline(self, accuracy: float, **chain: Any) -> _core.DrivelineMotion | _core.NoDrivelineMotion:
+        """Steady motion behind a torsionally flexible driveline; see `_core.driveline_motion`."""
+        require("driveline_motion")
+        return _core.driveline_motion(self.plan, self.one, accuracy=accuracy, **chain)
+
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
         return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)

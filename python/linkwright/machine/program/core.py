@@ -49,6 +49,8 @@ SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves
 SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
+DrivelineMotion = _core.DrivelineMotion
+NoDrivelineMotion = _core.NoDrivelineMotion
 motion_at = _core.motion_at
 
 # Systems of equations of one shape.

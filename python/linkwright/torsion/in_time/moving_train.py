@@ -97,7 +97,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     own[[inertia.on for inertia in inertias]] = 0.0
     by_mode = manoeuvre.loss_by == "mode" and bool(referred.loss_factor.any())
     ratios = _ratios(referred, by_mode=by_mode)
-    damping, notes = _mode_damping(referred) if by_mode else _shaft_damping(referred, manoeuvre)
+    damping, notes = _mode_damping(referred) if by_mode else shaft_damping(referred, manoeuvre.loss_mode)
     return moving(
         referred,
         own,
@@ -141,13 +141,16 @@ def _require_fit(train: Train, manoeuvre: TrainTransient, discs: tuple[str, ...]
         raise MachineError([Problem(".".join(map(str, place)), **words) for place, words in contexts])
 
 
-def _shaft_damping(referred: ReferredTrain, manoeuvre: TrainTransient) -> tuple[Floats, list[str]]:
-    """Damping of each shaft at its own speed, with that of its hysteresis, and a note about it."""
+def shaft_damping(referred: ReferredTrain, mode: int | None = None) -> tuple[Floats, list[str]]:
+    """Damping of each shaft at its own speed, with that of its hysteresis at the frequency of a mode.
+
+    And a note about it. `mode`: None for the lowest that twists the shaft considerably.
+    """
     lead = referred.lead
     own: Floats = referred.damping / lead**2
     if not referred.loss_factor.any():
         return own, []
-    omega, where = _loss_frequencies(referred, manoeuvre.loss_mode)
+    omega, where = _loss_frequencies(referred, mode)
     lossy = referred.loss_factor > 0
     low, high = (float(frequency) / (2 * np.pi) for frequency in (omega[lossy].min(), omega[lossy].max()))
     span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"

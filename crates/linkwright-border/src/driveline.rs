@@ -1,0 +1,200 @@
+//! Steady motion of torsionally flexible drivelines at the border.
+
+use linkwright_driveline::chain::{Chain, Driver, Link};
+use linkwright_driveline::equation::Equation;
+use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
+use linkwright_driveline::steady::{Failure, Request, Steady, steady};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::arrays::{as_indices, column};
+use crate::builder::Plan;
+use crate::guard::{guarded, require_room};
+use crate::torsion::Extremes;
+use crate::{Floats, Ints};
+
+type Array = Py<PyArray1<f64>>;
+type Table = Py<PyArray2<f64>>;
+
+const ANALYSIS: &str = "steady motion of the driveline";
+
+/// Curves of a driveline over crank angles, a row a part.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct DrivelineCurves {
+    time: Array,
+    speed: Table,
+    acceleration: Table,
+    twist: Table,
+    torque: Table,
+    torque_drive: Array,
+    torque_load: Array,
+}
+
+/// Steady motion of a driveline, an array over its masses or links each.
+#[pyclass(frozen, module = "linkwright._core")]
+pub(crate) struct DrivelineMotion {
+    #[pyo3(get)]
+    period: f64,
+    #[pyo3(get)]
+    speed: Py<Extremes>,
+    #[pyo3(get)]
+    acceleration: Py<Extremes>,
+    #[pyo3(get)]
+    twist: Py<Extremes>,
+    #[pyo3(get)]
+    torque: Py<Extremes>,
+    #[pyo3(get)]
+    torque_mean: Array,
+    #[pyo3(get)]
+    torque_rms: Array,
+    #[pyo3(get)]
+    loss: Array,
+    #[pyo3(get)]
+    energy_drive: f64,
+    #[pyo3(get)]
+    energy_load: f64,
+    #[pyo3(get)]
+    monodromy: Table,
+    #[pyo3(get)]
+    accuracy: f64,
+    #[pyo3(get)]
+    steps: usize,
+    #[pyo3(get)]
+    cycles: usize,
+    plan: Py<Plan>,
+    q: Vec<f64>,
+    chain: Chain,
+    steady: Steady,
+}
+
+/// Why a driveline has no steady motion.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct NoDrivelineMotion {
+    reason: &'static str,
+    crank_angle: f64,
+    speed: f64,
+    accuracy: f64,
+}
+
+/// Either of them.
+#[derive(IntoPyObject)]
+pub(crate) enum DrivelineOutcome {
+    Motion(Py<DrivelineMotion>),
+    None(NoDrivelineMotion),
+}
+
+fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
+    let of = |part: fn(&CoreExtremes) -> f64| column(py, list.iter().map(part).collect()).unbind();
+    let (greatest, greatest_at) = (of(|each| each.max), of(|each| each.max_at));
+    let (least, least_at) = (of(|each| each.min), of(|each| each.min_at));
+    Py::new(py, Extremes { greatest, greatest_at, least, least_at })
+}
+
+fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
+    let columns = list.len() / rows.max(1);
+    Ok(column(py, list).reshape([rows, columns])?.unbind())
+}
+
+#[pymethods]
+impl DrivelineMotion {
+    fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<DrivelineCurves> {
+        let (phi, n, links) = (phi.as_slice()?, self.chain.masses(), self.chain.links.len());
+        require_room(ANALYSIS, [3 + 2 * (n + links), phi.len()])?;
+        let equation = Equation { plan: &self.plan.get().0, q: &self.q, chain: &self.chain };
+        let found = guarded(py, ANALYSIS, || Reading { equation, steady: &self.steady }.curves(phi))?;
+        Ok(DrivelineCurves {
+            time: column(py, found.time).unbind(),
+            speed: rows(py, found.speed, n)?,
+            acceleration: rows(py, found.acceleration, n)?,
+            twist: rows(py, found.twist, links)?,
+            torque: rows(py, found.torque, links)?,
+            torque_drive: column(py, found.drive).unbind(),
+            torque_load: column(py, found.load).unbind(),
+        })
+    }
+}
+
+/// Links of a driveline from arrays over them.
+fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: usize) -> PyResult<Vec<Link>> {
+    let [first, second] = [as_indices(first.as_slice()?, masses)?, as_indices(second.as_slice()?, masses)?];
+    let [stiffness, damping] = [rates[0].as_slice()?, rates[1].as_slice()?];
+    if [first.len(), second.len(), stiffness.len()] != [damping.len(); 3] {
+        return Err(PyValueError::new_err("links: arrays of one length are needed"));
+    }
+    let link =
+        |i: usize| Link { first: first[i], second: second[i], stiffness: stiffness[i], damping: damping[i] };
+    Ok((0..first.len()).map(link).collect())
+}
+
+#[pyfunction]
+#[pyo3(signature = (
+    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
+))]
+pub(crate) fn driveline_motion(
+    py: Python<'_>,
+    plan: Bound<'_, Plan>,
+    q: Floats<'_>,
+    inertia: Floats<'_>,
+    apart: f64,
+    first: Ints<'_>,
+    second: Ints<'_>,
+    stiffness: Floats<'_>,
+    damping: Floats<'_>,
+    driven: usize,
+    held: Option<f64>,
+    accuracy: f64,
+    speed: f64,
+    fastest: f64,
+    cycles_first: usize,
+    cycles_max: usize,
+) -> PyResult<DrivelineOutcome> {
+    let known = plan.unbind();
+    let q = known.get().parameters(&q)?.to_vec();
+    let inertia = inertia.as_slice()?.to_vec();
+    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
+    let driver = held.map_or(Driver::Motor, Driver::Held);
+    let chain = Chain { inertia, apart, links, driven, driver };
+    if !chain.fits() {
+        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
+    }
+    let plan = &known.get().0;
+    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
+    let solved = guarded(py, ANALYSIS, || {
+        let found = steady(plan, &q, &chain, &request)?;
+        let equation = Equation { plan, q: &q, chain: &chain };
+        let measures = Reading { equation, steady: &found }.measures();
+        Ok::<_, Failure>((found, measures))
+    })?;
+    let none = |reason, crank_angle, speed, accuracy| {
+        Ok(DrivelineOutcome::None(NoDrivelineMotion { reason, crank_angle, speed, accuracy }))
+    };
+    match solved {
+        Err(Failure::Stops(stop)) => none("stops", stop.phi, stop.omega, f64::NAN),
+        Err(Failure::NotFound) => none("not found", f64::NAN, f64::NAN, f64::NAN),
+        Err(Failure::Inaccurate(reached)) => none("inaccurate", f64::NAN, f64::NAN, reached),
+        Ok((steady, measures)) => {
+            let motion = DrivelineMotion {
+                period: measures.period,
+                speed: extremes(py, &measures.speed)?,
+                acceleration: extremes(py, &measures.acceleration)?,
+                twist: extremes(py, &measures.twist)?,
+                torque: extremes(py, &measures.torque)?,
+                torque_mean: column(py, measures.torque_mean).unbind(),
+                torque_rms: column(py, measures.torque_rms).unbind(),
+                loss: column(py, measures.loss).unbind(),
+                energy_drive: measures.drive_work,
+                energy_load: measures.load_work,
+                monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
+                accuracy: steady.reached,
+                steps: steady.mesh.steps(),
+                cycles: steady.cycles,
+                plan: known.clone_ref(py),
+                q,
+                chain,
+                steady,
+            };
+            Ok(DrivelineOutcome::Motion(Py::new(py, motion)?))
+        }
+    }
+}

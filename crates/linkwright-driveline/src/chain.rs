@@ -1,0 +1,76 @@
+//! The driveline as masses and links, all referred to the speed of the crank.
+
+/// A spring with a damper between two masses: T = k Δ + c Δ˙, with the twist Δ of the first against the second.
+#[derive(Clone, Copy, Debug)]
+pub struct Link {
+    /// Mass that T holds back.
+    pub first: usize,
+    /// Mass that T drives.
+    pub second: usize,
+    /// k \[N m/rad\].
+    pub stiffness: f64,
+    /// c \[N m s/rad\].
+    pub damping: f64,
+}
+
+/// What drives a mass.
+#[derive(Clone, Copy, Debug)]
+pub enum Driver {
+    /// The motor of the machine, by its characteristic.
+    Motor,
+    /// A motor that keeps this speed \[rad/s\] whatever it takes.
+    Held(f64),
+}
+
+/// Masses with links between them. The last mass is the crank, with the mechanism.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// Inertias of the masses but the crank \[kg m²\].
+    pub inertia: Vec<f64>,
+    /// Inertia of the drive that does not turn with the crank as one \[kg m²\]: the reduction counts it there.
+    pub apart: f64,
+    /// What joins the masses.
+    pub links: Vec<Link>,
+    /// Mass that is driven.
+    pub driven: usize,
+    /// What drives it.
+    pub driver: Driver,
+}
+
+impl Chain {
+    /// Number of masses.
+    pub fn masses(&self) -> usize {
+        self.inertia.len() + 1
+    }
+
+    /// Whether all numbers of masses are those of masses.
+    pub fn fits(&self) -> bool {
+        let n = self.masses();
+        self.driven < n && self.links.iter().all(|link| link.first < n && link.second < n)
+    }
+
+    /// Numbers of a state: twist and speed against the crank of every mass but the crank, and the crank's speed.
+    pub fn states(&self) -> usize {
+        2 * self.masses() - 1
+    }
+
+    /// Twist of a link, and its rate.
+    pub fn twist(&self, link: &Link, y: &[f64]) -> [f64; 2] {
+        let others = self.masses() - 1;
+        let of = |mass: usize, first: usize| if mass < others { y[first + mass] } else { 0.0 };
+        [0, others].map(|first| of(link.first, first) - of(link.second, first))
+    }
+
+    /// Torque of a link \[N m\].
+    pub fn torque(&self, link: &Link, y: &[f64]) -> f64 {
+        let [twist, rate] = self.twist(link, y);
+        link.stiffness * twist + link.damping * rate
+    }
+
+    /// Speed of a mass \[rad/s\].
+    pub fn speed(&self, mass: usize, y: &[f64]) -> f64 {
+        let others = self.masses() - 1;
+        let crank = y[2 * others];
+        if mass < others { crank + y[others + mass] } else { crank }
+    }
+}

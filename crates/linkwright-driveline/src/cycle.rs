@@ -1,0 +1,235 @@
+//! The periodic solution on one mesh, by Newton's method on all stages and the closure of the cycle together.
+//!
+//! In every step the stages X_i of Radau IIA are unknowns, X_i = y + h Σ a_ij f(X_j). One sweep makes each step linear, which gives
+//! its end as p + U δy over its start; chained over the cycle, the closure y(end) = y(0) is one small system. The product of the U
+//! is the monodromy matrix, whose eigenvalues are the Floquet multipliers: shares of small disturbances that are left after a cycle.
+//!
+//! Source: Ascher, Mattheij, Russell, *Numerical Solution of Boundary Value Problems*, ch. 5; Hairer, Wanner, II, IV.8.
+
+use crate::elimination::solve;
+use crate::equation::{Equation, Rates};
+use crate::mesh::{Mesh, Solution};
+use linkwright_kernel::call::poll;
+use linkwright_kernel::radau::{A, S};
+
+/// Sweeps of Newton's method at most.
+const SWEEPS_MAX: usize = 25;
+
+/// Corrections, as a share of what they correct, at which the last sweep has been.
+const SMALL: f64 = 1e-9;
+
+/// Corrections that rounding leaves.
+const ROUNDING: f64 = 1e-12;
+
+/// A sweep lowers the speed of the crank to no less than this share.
+const SPEED_LEFT: f64 = 0.3;
+
+/// Largest correction, as a share of what it corrects, at which sweeps still come near.
+const FAR: f64 = 1e6;
+
+/// Where a motion ends that does not go on.
+#[derive(Clone, Copy, Debug)]
+pub struct Stop {
+    /// Crank angle from the start of the first cycle \[rad\].
+    pub phi: f64,
+    /// Last speed of the crank \[rad/s\].
+    pub omega: f64,
+}
+
+/// Works on one mesh, with its room.
+pub struct Cycle<'a> {
+    equation: Equation<'a>,
+    mesh: &'a Mesh,
+    rates: Rates,
+    /// Rows of one step's system, with its right sides.
+    table: Vec<f64>,
+    /// Rates and Jacobians at the stages of a step.
+    f: Vec<f64>,
+    jacobians: Vec<f64>,
+}
+
+impl<'a> Cycle<'a> {
+    /// On a mesh.
+    pub fn new(equation: Equation<'a>, mesh: &'a Mesh) -> Self {
+        let m = equation.chain.states();
+        Cycle {
+            equation,
+            mesh,
+            rates: Rates::new(equation.chain),
+            table: Vec::new(),
+            f: vec![0.0; S * m],
+            jacobians: vec![0.0; S * m * m],
+        }
+    }
+
+    /// Makes a step linear about its stages: corrections of the stages for the start as it is, and by that of the start where
+    /// `sides` has room for them, in the last columns of the table.
+    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool) {
+        let m = y.len();
+        let (h, n) = (self.mesh.length(k), S * m);
+        for i in 0..S {
+            self.equation.rates(&self.mesh.rows.row(k * S + i), &stages[i * m..][..m], &mut self.rates);
+            self.f[i * m..][..m].copy_from_slice(&self.rates.rate);
+            self.jacobians[i * m * m..][..m * m].copy_from_slice(&self.rates.jacobian);
+        }
+        let width = n + if with_start { 1 + m } else { 1 };
+        self.table.clear();
+        self.table.resize(n * width, 0.0);
+        for i in 0..S {
+            for r in 0..m {
+                let row = &mut self.table[(i * m + r) * width..][..width];
+                let mut right = y[r] - stages[i * m + r];
+                for j in 0..S {
+                    let weight = h * A[i][j];
+                    let jacobian = &self.jacobians[(j * m + r) * m..][..m];
+                    for (to, slope) in row[j * m..][..m].iter_mut().zip(jacobian) {
+                        *to = -weight * slope;
+                    }
+                    right += weight * self.f[j * m + r];
+                }
+                row[i * m + r] += 1.0;
+                row[n] = right;
+                if with_start {
+                    row[n + 1 + r] = 1.0;
+                }
+            }
+        }
+        solve(&mut self.table, n, width - n);
+    }
+
+    /// Newton's method for the periodic solution, from a guess. Gives the monodromy matrix, row by row, or nothing where it does
+    /// not converge.
+    pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
+        let m = solution.states();
+        let (n, width, steps) = (S * m, S * m + 1 + m, self.mesh.steps());
+        let mut solved = vec![0.0; steps * n * (1 + m)];
+        let mut last = f64::INFINITY;
+        for _ in 0..SWEEPS_MAX {
+            poll();
+            // End of the cycle over its start: columns of p and U.
+            let mut end = vec![0.0; m * (1 + m)];
+            for r in 0..m {
+                end[r * (1 + m) + 1 + r] = 1.0;
+            }
+            for k in 0..steps {
+                self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true);
+                let kept = &mut solved[k * n * (1 + m)..][..n * (1 + m)];
+                for (to, row) in kept.chunks_exact_mut(1 + m).zip(self.table.chunks_exact(width)) {
+                    to.copy_from_slice(&row[n..]);
+                }
+                end = chained(&kept[(n - m) * (1 + m)..], &end, m);
+            }
+            // (1 − U) δ = p + what the end is beside the start.
+            let close = solution.stage(steps - 1, S - 1);
+            let mut table = vec![0.0; m * (m + 1)];
+            for r in 0..m {
+                for c in 0..m {
+                    table[r * (m + 1) + c] = f64::from(u8::from(r == c)) - end[r * (1 + m) + 1 + c];
+                }
+                table[r * (m + 1) + m] = end[r * (1 + m)] + close[r] - solution.start[r];
+            }
+            solve(&mut table, m, 1);
+            let start: Vec<f64> = (0..m).map(|r| table[r * (m + 1) + m]).collect();
+            let size = self.correct(solution, &solved, &start, scale)?;
+            if size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL {
+                let monodromy = (0..m).flat_map(|r| end[r * (1 + m) + 1..][..m].to_vec()).collect();
+                return Some(monodromy);
+            }
+            last = size;
+        }
+        None
+    }
+
+    /// Corrects start and stages; the largest correction over what it corrects, if sweeps may come near.
+    fn correct(&self, solution: &mut Solution, solved: &[f64], start: &[f64], scale: &[f64]) -> Option<f64> {
+        let m = solution.states();
+        let n = S * m;
+        let mut corrections = Vec::with_capacity(solution.stages.len());
+        let mut before = start.to_vec();
+        for rows in solved.chunks_exact(n * (1 + m)) {
+            for row in rows.chunks_exact(1 + m) {
+                corrections.push(row[0] + row[1..].iter().zip(&before).map(|(u, d)| u * d).sum::<f64>());
+            }
+            before.copy_from_slice(&corrections[corrections.len() - m..]);
+        }
+        let (mut size, mut share) = (0.0_f64, 1.0_f64);
+        for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
+            for r in 0..m {
+                size = size.max(d[r].abs() / scale[r]);
+            }
+            if d[m - 1] < 0.0 {
+                share = share.min((1.0 - SPEED_LEFT) * y[m - 1] / -d[m - 1]);
+            }
+        }
+        if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
+            return None;
+        }
+        let share = share.min(1.0);
+        for (y, d) in solution.stages.iter_mut().zip(&corrections) {
+            *y += share * d;
+        }
+        for (y, d) in solution.start.iter_mut().zip(start) {
+            *y += share * d;
+        }
+        Some(if share < 1.0 { size.max(1.0) } else { size })
+    }
+
+    /// Follows the motion over one cycle, step by step, from the start of a solution.
+    ///
+    /// # Errors
+    /// Where the crank does not go on.
+    pub fn follow(&mut self, solution: &mut Solution, scale: &[f64]) -> Result<(), Stop> {
+        let m = solution.states();
+        let n = S * m;
+        for k in 0..self.mesh.steps() {
+            let y = solution.start_of(k).to_vec();
+            let mut stages = y.repeat(S);
+            if !self.solved_step(k, &y, &mut stages, scale) {
+                return Err(Stop { phi: self.mesh.edges[k], omega: y[m - 1] });
+            }
+            solution.stages[k * n..][..n].copy_from_slice(&stages);
+        }
+        Ok(())
+    }
+
+    fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
+        let m = y.len();
+        let n = S * m;
+        for _ in 0..SWEEPS_MAX {
+            poll();
+            self.linear_step(k, y, stages, false);
+            let (mut size, mut share) = (0.0_f64, 1.0_f64);
+            for (i, row) in self.table.chunks_exact(n + 1).enumerate() {
+                let d = row[n];
+                if d.is_nan() {
+                    return false;
+                }
+                size = size.max(d.abs() / scale[i % m]);
+                if i % m == m - 1 && d < 0.0 {
+                    share = share.min((1.0 - SPEED_LEFT) * stages[i] / -d);
+                }
+            }
+            for (x, row) in stages.iter_mut().zip(self.table.chunks_exact(n + 1)) {
+                *x += share * row[n];
+            }
+            if size <= SMALL {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// p and U of a step behind those of what is before it.
+fn chained(step: &[f64], before: &[f64], m: usize) -> Vec<f64> {
+    let mut found = vec![0.0; m * (1 + m)];
+    for (row, to) in step.chunks_exact(1 + m).zip(found.chunks_exact_mut(1 + m)) {
+        to[0] = row[0];
+        for (u, before) in row[1..].iter().zip(before.chunks_exact(1 + m)) {
+            for (to, x) in to.iter_mut().zip(before) {
+                *to += u * x;
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,134 @@
+//! Steps of a cycle with the mechanism at their stages, and a solution on them.
+
+use crate::equation::{Equation, Row};
+use linkwright_core::drive::law::LawGeometry;
+use linkwright_core::drive::reduce::{Reduction, reductions};
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::plane::Angle;
+use linkwright_kernel::radau::{C, N, S, through, value};
+
+/// Places of a step from one end to the other, and the mechanism there.
+pub struct Rows {
+    /// Inertia and loads.
+    pub reduced: Vec<Reduction<f64>>,
+    geometry: Vec<LawGeometry<f64>>,
+    laws: usize,
+}
+
+impl Rows {
+    /// The mechanism at crank angles.
+    pub fn at(equation: &Equation<'_>, angles: &[f64]) -> Self {
+        let Equation { plan, q, .. } = *equation;
+        let (mut geometry, laws) = (Vec::new(), plan.laws.len());
+        if laws > 0 {
+            let mut motion = Motion::new(&plan.mechanism, q);
+            for &phi in angles {
+                plan.mechanism.place::<f64, 2>(q, Angle::new(phi), &mut motion);
+                plan.add_geometry(q, phi, &motion, &mut geometry);
+            }
+        }
+        Rows { reduced: reductions(plan, q, angles, 1.0), geometry, laws }
+    }
+
+    /// The mechanism at one of them.
+    pub fn row(&self, i: usize) -> Row<'_> {
+        Row { reduced: self.reduced[i], geometry: &self.geometry[i * self.laws..][..self.laws] }
+    }
+}
+
+/// Ends of the steps of a cycle, and the mechanism at the stages.
+pub struct Mesh {
+    /// From 0 to the end of the cycle \[rad\].
+    pub edges: Vec<f64>,
+    /// At all stages of all steps.
+    pub rows: Rows,
+}
+
+/// A solution on a mesh.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// State at the start of the cycle.
+    pub start: Vec<f64>,
+    /// States at all stages of all steps.
+    pub stages: Vec<f64>,
+}
+
+impl Mesh {
+    /// Of steps with these ends.
+    pub fn new(equation: &Equation<'_>, edges: Vec<f64>) -> Self {
+        let at_stages = |pair: &[f64]| C.map(|c| pair[0] + c * (pair[1] - pair[0]));
+        let angles: Vec<f64> = edges.windows(2).flat_map(at_stages).collect();
+        Mesh { rows: Rows::at(equation, &angles), edges }
+    }
+
+    /// Number of steps.
+    pub fn steps(&self) -> usize {
+        self.edges.len() - 1
+    }
+
+    /// Length of a step \[rad\].
+    pub fn length(&self, k: usize) -> f64 {
+        self.edges[k + 1] - self.edges[k]
+    }
+}
+
+impl Solution {
+    /// Numbers of a state.
+    pub fn states(&self) -> usize {
+        self.start.len()
+    }
+
+    /// The same state everywhere.
+    pub fn constant(mesh: &Mesh, y: &[f64]) -> Self {
+        Solution { start: y.to_vec(), stages: y.repeat(mesh.steps() * S) }
+    }
+
+    /// State at a stage of a step.
+    pub fn stage(&self, k: usize, i: usize) -> &[f64] {
+        let m = self.states();
+        &self.stages[(k * S + i) * m..][..m]
+    }
+
+    /// State at the start of a step.
+    pub fn start_of(&self, k: usize) -> &[f64] {
+        if k == 0 { &self.start } else { self.stage(k - 1, S - 1) }
+    }
+
+    /// Coefficients of the quintic of a number of the state in a step, over its share.
+    pub fn quintic(&self, k: usize, number: usize) -> [f64; N] {
+        let mut values = [self.start_of(k)[number]; N];
+        for i in 0..S {
+            values[i + 1] = self.stage(k, i)[number];
+        }
+        through(&values)
+    }
+
+    /// State at a share of a step.
+    pub fn state(&self, k: usize, share: f64, to: &mut [f64]) {
+        for (number, to) in to.iter_mut().enumerate() {
+            *to = value(&self.quintic(k, number), share);
+        }
+    }
+
+    /// The same solution, read on the stages of another mesh.
+    pub fn on(&self, own: &Mesh, other: &Mesh) -> Solution {
+        let m = self.states();
+        let mut stages = vec![0.0; other.steps() * S * m];
+        let mut k = 0;
+        for (step, stages) in stages.chunks_exact_mut(S * m).enumerate() {
+            let (low, h) = (other.edges[step], other.length(step));
+            while k + 1 < own.steps() && own.edges[k + 1] <= low + 1e-12 * h {
+                k += 1;
+            }
+            let mut at = k;
+            for (c, to) in C.iter().zip(stages.chunks_exact_mut(m)) {
+                let phi = low + c * h;
+                while at + 1 < own.steps() && own.edges[at + 1] < phi {
+                    at += 1;
+                }
+                self.state(at, (phi - own.edges[at]) / own.length(at), to);
+            }
+        }
+        Solution { start: self.start.clone(), stages }
+    }
+}

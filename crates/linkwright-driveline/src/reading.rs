@@ -1,0 +1,300 @@
+//! Curves, extremes and power of a steady motion.
+
+use crate::chain::{Driver, Link};
+use crate::equation::{Equation, Rates, Row};
+use crate::mesh::Rows;
+use crate::steady::Steady;
+use linkwright_core::drive::structure::Plan;
+use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::plane::Angle;
+use linkwright_kernel::radau::{AT, B, N, S, value};
+
+/// Golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Narrowings of the place of an extreme: its value is known to rounding at half as many digits of its place.
+const NARROWINGS: usize = 36;
+
+/// Share of the range of a quantity by which a peak of its samples may lie below the highest and still be the highest.
+const LOWER: f64 = 0.05;
+
+/// How far inside a step its ends are read, as a share of it: kinks lie on them.
+const INSIDE: f64 = 1e-9;
+
+/// Minimum and maximum with their crank angles \[rad\].
+#[derive(Clone, Copy, Debug)]
+pub struct Extremes {
+    /// Minimum.
+    pub min: f64,
+    /// Where it is.
+    pub min_at: f64,
+    /// Maximum.
+    pub max: f64,
+    /// Where it is.
+    pub max_at: f64,
+}
+
+/// Curves over crank angles, one list after another for every part.
+#[derive(Clone, Debug, Default)]
+pub struct Curves {
+    /// From the start of the cycle \[s\].
+    pub time: Vec<f64>,
+    /// Of the masses \[rad/s\].
+    pub speed: Vec<f64>,
+    /// Of the masses \[rad/s²\].
+    pub acceleration: Vec<f64>,
+    /// Of the links \[rad\].
+    pub twist: Vec<f64>,
+    /// Of the links \[N m\].
+    pub torque: Vec<f64>,
+    /// Of the driver at its mass \[N m\].
+    pub drive: Vec<f64>,
+    /// Of the loads at the crank \[N m\].
+    pub load: Vec<f64>,
+}
+
+/// Extremes and means of a cycle.
+#[derive(Clone, Debug)]
+pub struct Measures {
+    /// Duration of a cycle \[s\].
+    pub period: f64,
+    /// Of the masses \[rad/s\].
+    pub speed: Vec<Extremes>,
+    /// Of the masses \[rad/s²\].
+    pub acceleration: Vec<Extremes>,
+    /// Of the links \[rad\].
+    pub twist: Vec<Extremes>,
+    /// Of the links \[N m\].
+    pub torque: Vec<Extremes>,
+    /// Mean torques of the links over time \[N m\].
+    pub torque_mean: Vec<f64>,
+    /// Root mean square torques over time \[N m\].
+    pub torque_rms: Vec<f64>,
+    /// Work that the dampers of the links take in a cycle \[J\].
+    pub loss: Vec<f64>,
+    /// Work of the driver in a cycle \[J\].
+    pub drive_work: f64,
+    /// Work that the loads take in a cycle \[J\].
+    pub load_work: f64,
+}
+
+/// A steady motion with the machine that it is of.
+pub struct Reading<'a> {
+    /// The machine.
+    pub equation: Equation<'a>,
+    /// Its motion.
+    pub steady: &'a Steady,
+}
+
+impl<'a> Reading<'a> {
+    fn plan(&self) -> &'a Plan {
+        self.equation.plan
+    }
+
+    /// Torque of the driver at its mass \[N m\]; one that keeps its speed gives what the links take.
+    fn drive(&self, y: &[f64]) -> f64 {
+        let chain = self.equation.chain;
+        match chain.driver {
+            Driver::Motor => self.equation.motor(chain.speed(chain.driven, y)).value,
+            Driver::Held(_) => {
+                let sign = |link: &Link| {
+                    f64::from(u8::from(link.first == chain.driven))
+                        - f64::from(u8::from(link.second == chain.driven))
+                };
+                chain.links.iter().map(|link| sign(link) * chain.torque(link, y)).sum()
+            }
+        }
+    }
+
+    /// Extremes, means and work of a cycle.
+    pub fn measures(&self) -> Measures {
+        let (chain, steady) = (self.equation.chain, self.steady);
+        let (n, links, steps) = (chain.masses(), &chain.links, steady.mesh.steps());
+        let mut rates = Rates::new(chain);
+        let mut accelerations = vec![0.0; n * steps * S];
+        let mut sums = vec![0.0; 3 + 3 * links.len()];
+        for k in 0..steps {
+            let h = steady.mesh.length(k);
+            for i in 0..S {
+                let (y, row) = (steady.solution.stage(k, i), steady.mesh.rows.row(k * S + i));
+                self.equation.rates(&row, y, &mut rates);
+                for mass in 0..n {
+                    accelerations[(mass * steps + k) * S + i] = rates.acceleration[mass];
+                }
+                let omega = chain.speed(n - 1, y);
+                let dt = h * B[i] / omega;
+                sums[0] += dt;
+                sums[1] += dt * self.drive(y) * chain.speed(chain.driven, y);
+                sums[2] += dt * self.equation.load(&row, omega).value * omega;
+                for (link, sums) in links.iter().zip(sums[3..].chunks_exact_mut(3)) {
+                    let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
+                    sums[0] += dt * torque;
+                    sums[1] += dt * torque * torque;
+                    sums[2] += dt * link.damping * rate * rate;
+                }
+            }
+        }
+        let of = |at: &dyn Fn(&[f64]) -> f64| self.of_state(at);
+        let period = sums[0];
+        let part = |k: usize| sums[3..].iter().skip(k).step_by(3).copied();
+        Measures {
+            period,
+            speed: (0..n).map(|mass| of(&|y| chain.speed(mass, y))).collect(),
+            acceleration: (0..n)
+                .map(|mass| self.acceleration(mass, &accelerations[mass * steps * S..][..steps * S]))
+                .collect(),
+            twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
+            torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
+            torque_mean: part(0).map(|sum| sum / period).collect(),
+            torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
+            loss: part(2).collect(),
+            drive_work: sums[1],
+            load_work: sums[2],
+        }
+    }
+
+    /// Extremes of something that the state tells.
+    fn of_state(&self, of: &dyn Fn(&[f64]) -> f64) -> Extremes {
+        let solution = &self.steady.solution;
+        let mut y = vec![0.0; solution.states()];
+        let sample =
+            |k: usize, j: usize| of(if j == 0 { solution.start_of(k) } else { solution.stage(k, j - 1) });
+        self.extremes(&sample, &mut |k, share| {
+            solution.state(k, share, &mut y);
+            of(&y)
+        })
+    }
+
+    /// Extremes of the acceleration of a mass, of which the stages have samples.
+    fn acceleration(&self, mass: usize, at_stages: &[f64]) -> Extremes {
+        let (steady, chain) = (self.steady, self.equation.chain);
+        let (plan, q) = (self.plan(), self.equation.q);
+        let mut motion = Motion::new(&plan.mechanism, q);
+        let mut geometry = Vec::new();
+        let (mut y, mut rates) = (vec![0.0; chain.states()], Rates::new(chain));
+        let sample = |k: usize, j: usize| at_stages[k * S + j.max(1) - 1];
+        self.extremes(&sample, &mut |k, share| {
+            steady.solution.state(k, share, &mut y);
+            let share = share.clamp(INSIDE, 1.0 - INSIDE);
+            let phi = steady.mesh.edges[k] + share * steady.mesh.length(k);
+            let reduced = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut motion);
+            geometry.clear();
+            plan.add_geometry(q, phi, &motion, &mut geometry);
+            self.equation.rates(&Row { reduced, geometry: &geometry }, &y, &mut rates);
+            rates.acceleration[mass]
+        })
+    }
+
+    /// Extremes by samples at start and stages of every step, and by values at any share of a step.
+    fn extremes(
+        &self,
+        sample: &dyn Fn(usize, usize) -> f64,
+        at: &mut dyn FnMut(usize, f64) -> f64,
+    ) -> Extremes {
+        let steps = self.steady.mesh.steps();
+        let samples: Vec<f64> =
+            (0..steps).flat_map(|k| (0..N).map(move |j| (k, j))).map(|(k, j)| sample(k, j)).collect();
+        let [low, high] = samples
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)]);
+        let mut best = [(low, 0.0), (high, 0.0)];
+        for ((value, angle), sign) in best.iter_mut().zip([-1.0, 1.0]) {
+            let (top, mut highest) = (if sign > 0.0 { high } else { -low }, f64::NEG_INFINITY);
+            let least = top - LOWER * (high - low);
+            for (i, &x) in samples.iter().enumerate() {
+                let near = |i: usize| samples.get(i).map_or(f64::NEG_INFINITY, |x| sign * x);
+                let before = if i == 0 { f64::NEG_INFINITY } else { near(i - 1) };
+                if sign * x < least || sign * x < before || sign * x < near(i + 1) {
+                    continue;
+                }
+                let (k, j) = (i / N, i % N);
+                let bracket = [AT[j.saturating_sub(1)], AT[(j + 1).min(N - 1)]];
+                let (share, found) = peak(bracket, &mut |share| sign * at(k, share));
+                if found > highest {
+                    highest = found;
+                    *angle = self.steady.mesh.edges[k] + share * self.steady.mesh.length(k);
+                    *value = sign * found;
+                }
+            }
+        }
+        let [(min, min_at), (max, max_at)] = best;
+        Extremes { min, min_at, max, max_at }
+    }
+
+    /// Curves at crank angles of the cycle.
+    pub fn curves(&self, phi: &[f64]) -> Curves {
+        let (steady, chain) = (self.steady, self.equation.chain);
+        let (mesh, solution) = (&steady.mesh, &steady.solution);
+        let times = self.times();
+        let rows = Rows::at(&self.equation, phi);
+        let (mut y, mut rates) = (vec![0.0; chain.states()], Rates::new(chain));
+        let mut found = Curves::default();
+        let (mut masses, mut links) = (Vec::new(), Vec::new());
+        for (i, &phi) in phi.iter().enumerate() {
+            let k = mesh.edges.partition_point(|&edge| edge <= phi).clamp(1, mesh.steps()) - 1;
+            let share = (phi - mesh.edges[k]) / mesh.length(k);
+            solution.state(k, share, &mut y);
+            let row = rows.row(i);
+            self.equation.rates(&row, &y, &mut rates);
+            found.time.push(times[k] + self.time_within(k, share));
+            found.drive.push(self.drive(&y));
+            found.load.push(self.equation.load(&row, y[chain.states() - 1]).value);
+            masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
+            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
+        }
+        let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
+            (0..parts)
+                .flat_map(|p| list.iter().skip(p).step_by(parts.max(1)).map(move |x| x[which]))
+                .collect()
+        };
+        [found.speed, found.acceleration] = [0, 1].map(|which| by_part(&masses, chain.masses(), which));
+        [found.twist, found.torque] = [0, 1].map(|which| by_part(&links, chain.links.len(), which));
+        found
+    }
+
+    /// Times at the starts of the steps \[s\].
+    fn times(&self) -> Vec<f64> {
+        let mut time = 0.0;
+        (0..self.steady.mesh.steps())
+            .map(|k| {
+                let start = time;
+                time += self.time_within(k, 1.0);
+                start
+            })
+            .collect()
+    }
+
+    /// Time from the start of a step to a share of it \[s\], by Radau's quadrature.
+    fn time_within(&self, k: usize, share: f64) -> f64 {
+        let speed = self.steady.solution.quintic(k, self.equation.chain.states() - 1);
+        let length = share * self.steady.mesh.length(k);
+        (0..S).map(|i| length * B[i] / value(&speed, share * AT[i + 1])).sum()
+    }
+}
+
+/// Place and value of a peak between two shares, by golden section; the ends count too.
+fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+    let mut best = [low, high].map(|share| (share, at(share)));
+    let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let mut values = inner.map(|share| at(share));
+    for _ in 0..NARROWINGS {
+        if values[0] >= values[1] {
+            high = inner[1];
+            (inner[1], values[1]) = (inner[0], values[0]);
+            inner[0] = high - GOLDEN * (high - low);
+            values[0] = at(inner[0]);
+        } else {
+            low = inner[0];
+            (inner[0], values[0]) = (inner[1], values[1]);
+            inner[1] = low + GOLDEN * (high - low);
+            values[1] = at(inner[1]);
+        }
+    }
+    let middle = if values[0] >= values[1] { (inner[0], values[0]) } else { (inner[1], values[1]) };
+    for end in [middle, best[1]] {
+        if end.1 > best[0].1 {
+            best[0] = end;
+        }
+    }
+    best[0]
+}

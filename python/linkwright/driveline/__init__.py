@@ -1,0 +1,13 @@
+"""Torsionally flexible drivelines with the mechanism that they drive: its inertia and loads at every angle.
+
+| module | |
+| --- | --- |
+| `analyses` | Its analysis, as study, report, studio and studies read it |
+| `chain` | The driveline as masses and links, referred to the crank |
+| `elastic_motion` | Steady motion: torques of shafts, motion of every station, Floquet multipliers |
+| `figures` | Torques of the shafts and speeds of the stations over the crank angle |
+| `permitted` | Torques of shafts against what is permitted |
+| `study` | The analysis in the study of a machine, its check and its warnings |
+| `tables` | A row a shaft, a row a station, energy and stability |
+| `words` | Formulas, sources and assumptions |
+"""

@@ -1,0 +1,24 @@
+"""The analysis of a torsionally flexible driveline with its mechanism."""
+
+from __future__ import annotations
+
+from linkwright.driveline.study import has_elastic_drive
+from linkwright.machine.analysis import Analysis, of
+
+ELASTIC = Analysis(
+    name="elastic_motion",
+    words="Elastic driveline",
+    function=of("driveline.elastic_motion:elastic_motion"),
+    applies=has_elastic_drive,
+    obstacle=of("driveline.study:no_elastic_motion"),
+    make=of("driveline.study:made_elastic_motion"),
+    warnings=of("driveline.study:elastic_warnings"),
+    check=of("driveline.study:check_driveline"),
+    summary=of("driveline.study:driveline_summary"),
+    tables=of("driveline.tables:elastic_tables", "elastic_motion"),
+    figures=of("driveline.figures:elastic_figures", "elastic_motion"),
+    headline=of("driveline.tables:elastic_headline", "elastic_motion"),
+    formulas=of("driveline.words:elastic_formulas", "elastic_motion"),
+    papers=of("driveline.words:elastic_papers", "elastic_motion"),
+    assumptions=of("driveline.words:elastic_assumptions", "elastic_motion"),
+)

@@ -1,0 +1,78 @@
+"""Torques of flexible shafts and couplings in steady motion against what is permitted.
+
+| limit | against |
+| --- | --- |
+| `torque_permitted` | largest torque either way |
+| `vibratory_torque_permitted` | half the peak-to-peak torque |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from linkwright.kernel.reader.numbers import quantity
+from linkwright.machine.machine import Machine
+from linkwright.torsion.model.drive_train import CRANKSHAFT, MOTOR_SHAFT
+
+if TYPE_CHECKING:
+    from linkwright.driveline.elastic_motion import ElasticMotion
+
+
+@dataclass(frozen=True)
+class TorqueJudgement:
+    """One limit, and whether the steady motion keeps it.
+
+    Attributes
+    ----------
+    part : str
+        Name of the shaft.
+    what : str
+        What is limited, in words.
+    found, permitted : float
+        [N m].
+    """
+
+    part: str
+    what: str
+    found: float
+    permitted: float
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the motion stays within the limit."""
+        return self.found <= self.permitted
+
+    @property
+    def words(self) -> str:
+        """The judgement as a sentence."""
+        verdict = "within limit" if self.is_kept else "limit exceeded"
+        return (
+            f"{self.part}: {self.what} {quantity(self.found, 'N m')} in steady motion, permitted "
+            f"{quantity(self.permitted, 'N m')}: {verdict}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and texts, ready for JSON."""
+        state = "ok" if self.is_kept else "exceeds"
+        keys = ("part", "what", "found", "permitted", "words")
+        return {key: getattr(self, key) for key in keys} | {"unit": "N m", "state": state}
+
+
+def judged(machine: Machine, motion: ElasticMotion) -> ElasticMotion:
+    """The motion with its torques judged; as it is without limits."""
+    return replace(motion, judgements=tuple(_judgements(machine, motion)))
+
+
+def _judgements(machine: Machine, motion: ElasticMotion) -> Iterator[TorqueJudgement]:
+    assert machine.drive is not None
+    for name, shaft in ((MOTOR_SHAFT, machine.drive.motor_shaft), (CRANKSHAFT, machine.drive.crankshaft)):
+        if shaft is None or shaft.limit is None:
+            continue
+        at = motion.shafts.index(name)
+        peak, vibratory = float(motion.torque_peak[at]), float(motion.torque_vibratory[at])
+        if shaft.limit.torque_permitted is not None:
+            yield TorqueJudgement(name, "torque", peak, shaft.limit.torque_permitted)
+        if shaft.limit.vibratory_torque_permitted is not None:
+            yield TorqueJudgement(name, "vibratory torque", vibratory, shaft.limit.vibratory_torque_permitted)

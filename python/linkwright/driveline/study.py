@@ -1,0 +1,120 @@
+"""The elastic driveline in the study of a machine: its result, its check and its warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.drive.obstacles import no_shaft
+from linkwright.drive.study import INTERVALS, has_motor
+from linkwright.driveline.chain import chain_of
+from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
+from linkwright.kernel.findings import Findings
+from linkwright.kernel.reader.numbers import number, quantity
+from linkwright.machine.analysis import Obstacle, Results
+from linkwright.machine.machine import Machine
+from linkwright.torsion.core.train import refer
+from linkwright.torsion.excitation.drive_line import drive_line
+
+# Share by which a natural frequency may differ from an order of the crank speed and still be excited by it.
+_NEAR = 0.05
+
+# Orders of the crank that are looked at.
+_ORDERS = 12
+
+# Share of a disturbance that is left after a cycle from which on a resonance can build up.
+_BUILDS_UP = 0.2
+
+# Speed fluctuation of the crank over that of the rigid driveline from which on it is worth a sentence.
+_GROWS = 1.1
+
+# Share of the maximum torque from which on a torque of the other sign is worth a sentence.
+_REVERSED = 0.01
+
+
+def has_elastic_drive(machine: Machine) -> bool:
+    """Whether a mechanism stands behind a torsionally flexible driveline."""
+    return machine.has_crank and machine.drive is not None and machine.drive.twists
+
+
+def no_elastic_motion(machine: Machine) -> Obstacle | None:
+    """A machine whose driveline is rigid, or without a motor."""
+    return no_shaft(machine)
+
+
+def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | None:
+    """Steady motion of an elastic driveline under a motor."""
+    if known.reduction is None or not has_motor(known.machine):
+        return None
+    return findings.of(elastic_motion, known.machine, n=INTERVALS)
+
+
+def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:
+    """Whether every station of the driveline has an inertia."""
+    findings.of(chain_of, machine)
+    yield "driveline: inertia of every station"
+
+
+def driveline_summary(machine: Machine) -> Iterator[tuple[str, str]]:
+    """Names of stations and shafts."""
+    chain = chain_of(machine)
+    yield "stations", ", ".join(chain.stations)
+    yield "flexible shafts", ", ".join(chain.shafts)
+
+
+def elastic_warnings(known: Results) -> Iterator[str]:
+    """What the designer should know of the elastic motion."""
+    motion = known.elastic_motion
+    if motion is None:
+        return
+    yield from _stability(motion)
+    yield from _resonance(known.machine, motion)
+    yield from _reversals(motion)
+    yield from _fluctuation(known, motion)
+
+
+def _stability(motion: ElasticMotion) -> Iterator[str]:
+    if not motion.is_stable:
+        yield (
+            "The steady motion of the elastic driveline is unstable: after every cycle a small disturbance "
+            f"is {number(motion.multiplier_max)} times as large; increase the damping or change the stiffness"
+        )
+
+
+def _resonance(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
+    """Natural frequencies by the mean inertia near orders of the crank, where disturbances last."""
+    if motion.multiplier_max < _BUILDS_UP:
+        return
+    omega, _ = refer(drive_line(machine)).modes()
+    for one in omega[omega > 0]:
+        order = float(one) / motion.speed_mean_time * motion.turns
+        nearest = round(order)
+        if 1 <= nearest <= _ORDERS * motion.turns and abs(order / nearest - 1) <= _NEAR:
+            yield (
+                "Resonance of the driveline: its natural frequency of "
+                f"{quantity(float(one) / (2 * np.pi), 'Hz')} is close to order "
+                f"{number(nearest / motion.turns)} of the crank speed"
+            )
+
+
+def _reversals(motion: ElasticMotion) -> Iterator[str]:
+    for name, low, high in zip(motion.shafts, motion.torque_min, motion.torque_max, strict=True):
+        if min(-low, high) > _REVERSED * max(-low, high):
+            yield (
+                f"The torque of {name} changes sign, from {quantity(low, 'N m')} to {quantity(high, 'N m')}: "
+                "backlash in gears and couplings is crossed with impacts, which are not computed"
+            )
+
+
+def _fluctuation(known: Results, motion: ElasticMotion) -> Iterator[str]:
+    rigid = known.steady_state
+    if rigid is None or not rigid.unevenness_time > 0:
+        return
+    own = float(motion.unevenness[motion.stations.index("crank")])
+    if own > _GROWS * rigid.unevenness_time:
+        yield (
+            f"With the elastic driveline the speed of the crank fluctuates by δ = {number(own)}, with a "
+            f"rigid one by {number(rigid.unevenness_time)}: steady motion, forces and run-up are those of "
+            "the rigid driveline"
+        )

@@ -1,0 +1,45 @@
+"""Formulas, sources and assumptions of an elastic driveline."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.kernel.page.formulas import Formula
+from linkwright.kernel.reader.numbers import number
+
+_SOURCE = "Dresig, Holzweißig, Dynamics of Machinery, Springer 2010, sections 2.3 and 4.3"
+
+_STATION = Formula("Motion of a station of the driveline", "J_i ε_i = M_d − Σ T", _SOURCE)
+_CRANK = Formula(
+    "Motion of the crank with the mechanism",
+    "J ε + frac(1|2) ω^2 frac(d J|d φ) = T − M_r",
+    _SOURCE,
+)
+_TORQUE = Formula("Torque of a flexible shaft with twist Δ", "T = k Δ + c frac(d Δ|d t)", _SOURCE)
+
+
+def elastic_formulas(motion: ElasticMotion) -> list[Formula]:
+    """Equations of motion and the torque of a shaft."""
+    return [_STATION, _CRANK, _TORQUE]
+
+
+def elastic_papers(motion: ElasticMotion) -> tuple[str, ...]:
+    """Where the formulas are from."""
+    return (_SOURCE,)
+
+
+def elastic_assumptions(motion: ElasticMotion) -> Iterator[str]:
+    """What is taken for granted of shafts and gearbox, and how the motion was found."""
+    yield (
+        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness and "
+        "viscous damping, and neither inertia nor backlash; the mechanism has its inertia and loads at every "
+        "crank angle and speed."
+    )
+    yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."
+    for note in motion.notes:
+        yield f"Elastic driveline: {note}."
+    yield (
+        "The steady motion of the elastic driveline is the periodic solution, by Newton's method on the "
+        f"cycle with {motion.steps} steps: relative error {number(motion.accuracy, 1)}."
+    )
