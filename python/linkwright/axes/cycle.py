@@ -63,6 +63,7 @@ class AxesCycle:
         """From the start of the cycle [s]."""
         return self.forces.time
 
+
 # Difference from it that is friction, as a share of the peak torque; less is the error of the polynomial.
 _FRICTION = 1e-5
 
