@@ -23,6 +23,7 @@ import numpy as np
 from linkwright.app.study import Study, study
 from linkwright.app.subjects import ANALYSES
 from linkwright.axes.analyses import AXIS, BUS, TIMING
+from linkwright.axes.axis import ServoAxis
 from linkwright.drive.obstacles import design_speed, no_mass
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
@@ -121,7 +122,8 @@ def fast(machine: Machine, *, held: bool) -> Answers:
             axes.add(analysis, findings)
     # The timing diagram is a picture of its own.
     known += [shown(name, axes[name]) for name in axes if not name.startswith(TIMING.name)]
-    known += [shown(f"{name}.motor", axes[name].motor) for name in axes if name.startswith(AXIS.name)]
+    duties = {name: result for name, result in axes.items() if isinstance(result, ServoAxis)}
+    known += [shown(f"{name}.motor", axis.motor) for name, axis in duties.items()]
     if tracks := axes.each(TIMING.name):
         views.append(timing_view(machine, tracks))
     return Answers(known, findings.findings, findings.warnings, scene, views=tuple(views))
