@@ -259,7 +259,8 @@ def shaft_torques(
     # in the cache.
     with np.errstate(invalid="ignore", over="ignore"):
         if referred.twist is not None:
-            return stiffness * np.einsum("sm,omw->osw", referred.joins, q)
+            of_meshes: Complexes = stiffness * np.einsum("sm,omw->osw", referred.joins, q)
+            return of_meshes
         for s, (first, second) in enumerate(referred.ends.tolist()):
             twist = (q[:, first] if first != HELD else 0.0) - (q[:, second] if second != HELD else 0.0)
             np.multiply(stiffness[:, s], twist, out=torques[:, s])

@@ -67,7 +67,8 @@ class Torques:
 
     def is_of(self, order: float) -> Bools:
         """Which lines are of an order alone, (orders,)."""
-        return (np.abs(self.orders - order) <= _EQUAL * order) & (self.offsets == 0)
+        same: Bools = (np.abs(self.orders - order) <= _EQUAL * order) & (self.offsets == 0)
+        return same
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -181,7 +181,12 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
         hertz = np.abs(order * rpm / 60 + offset / (2 * math.pi))
         axes.plot(rpm, hertz, color=SOFT, linewidth=0.5, linestyle="--", alpha=0.8, zorder=1)
         if hertz[-1] <= top:
-            where = {"textcoords": "offset points", "va": "center", "color": SOFT, "fontsize": SMALL}
+            where: dict[str, Any] = {
+                "textcoords": "offset points",
+                "va": "center",
+                "color": SOFT,
+                "fontsize": SMALL,
+            }
             axes.annotate(line_words(order, offset), (right, hertz[-1]), xytext=(3, 0), **where)
     for order in sorted(diagram.orders[fixed == 0].tolist()):
         axes.plot(

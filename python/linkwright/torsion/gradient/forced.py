@@ -203,7 +203,7 @@ class _Peaks:
     def _weights(self, t: Complexes, angles: tuple[float, ...], sign: float) -> Complexes:
         """What an extreme with each family at an angle owes to each order, dy = Re Σ w dt."""
         size = np.abs(t)
-        weights: Complexes = sign * np.conj(t) / np.where(size > 0, size, 1.0)
+        weights = np.asarray(sign * t.conj() / np.where(size > 0, size, 1.0), complex)
         for (places, family), tau in zip(self._orders.families, angles, strict=True):
             weights[places] = np.exp(1j * family.harmonic * tau)
         return weights

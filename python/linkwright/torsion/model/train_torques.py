@@ -173,7 +173,7 @@ class Excitation(CheckedDescription):
 
     def factor(self, speed: float) -> float:
         """Amplitudes at a speed over those given."""
-        if self.speeds is not None:
+        if self.speeds is not None and self.factors is not None:
             return float(np.interp(speed, self.speeds, self.factors))
         if self.speed is None:
             return 1.0

@@ -146,13 +146,10 @@ def _coupling(coupling: Coupling) -> Shaft:
 
 
 def _spring(name: str, ring: Damper | Pendulum) -> Shaft:
-    sprung = isinstance(ring, Damper)
     # No shaft of a file has the stiffness 0, which a fluid has.
+    stiffness, loss = (ring.stiffness or 0.0, ring.loss_factor) if isinstance(ring, Damper) else (0.0, 0.0)
     return Shaft.model_construct(
-        between=(ring.on, name),
-        stiffness=(ring.stiffness or 0.0) if sprung else 0.0,
-        damping=ring.damping,
-        loss_factor=ring.loss_factor if sprung else 0.0,
+        between=(ring.on, name), stiffness=stiffness, damping=ring.damping, loss_factor=loss
     )
 
 
