@@ -101,7 +101,7 @@ def _law_turns(machine: Machine, compiled: CompiledMachine, turns: int) -> int:
     """
     corners = {jump.name for jump in law_jumps(machine) if jump.order == 1}
     own = set(axis_drivers(machine)) - corners
-    ends: Floats = 2 * math.pi * turns * np.arange(1 + TURNS_MAX // turns) - _INSIDE
+    ends = np.array([2 * math.pi * turns * k - _INSIDE for k in range(1 + TURNS_MAX // turns)])
     ends[0] = _INSIDE
     repeats = np.full(len(ends) - 1, True)
     for name, driver in machine.linkage.laws().items():
