@@ -102,13 +102,15 @@ def test_the_rms_torque_of_a_motor_is_that_of_dense_samples() -> None:
             phi = 0.5 * (phi[1:] + phi[:-1]) + generator(KIND, number, 2).uniform(0, 1e-6)
             torque = lw.forces(machine, speed=made.speed, angles=phi).drives[axis.driver]
             rate = np.interp(phi, axis.crank_angle, axis.velocity)
-            gears = machine.axes[name].gearbox
-            lead = 1.0 if axis.turns else gears.per_turn / (2 * np.pi)
+            own = machine.axes[name]
+            gears, motor = own.gearbox, own.motor
+            assert motor is not None
+            lead = 1.0 if axis.turns else (gears.per_turn or 0.0) / (2 * np.pi)
             # At rest losses do not count.
             power = torque * np.where(np.abs(rate) > 1e-9 * np.abs(rate).max(), rate, 0.0)
             eta = np.where(power > 0, 1 / gears.efficiency, np.where(power < 0, gears.efficiency, 1.0))
             acceleration = np.interp(phi, axis.crank_angle, axis.acceleration)
-            inertia = machine.axes[name].motor.rotor
+            inertia = motor.rotor
             at_motor = inertia * gears.ratio * acceleration / lead + torque * lead / gears.ratio * eta
             assert axis.motor.torque_rms == pytest.approx(np.sqrt(np.mean(at_motor**2)), rel=2e-3), name
 
