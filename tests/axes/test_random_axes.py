@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from sizes import generator, random_cases
 
 import linkwright as lw
+from linkwright.axes.export.exported import exported, law_of
+from linkwright.axes.export.formats import FORMATS
 from linkwright.linkages.kinematics import kinematics_of
 from linkwright.machine.address import replace
 from linkwright.machine.program.compiled import compile_machine
@@ -100,13 +102,15 @@ def test_the_rms_torque_of_a_motor_is_that_of_dense_samples() -> None:
             phi = 0.5 * (phi[1:] + phi[:-1]) + generator(KIND, number, 2).uniform(0, 1e-6)
             torque = lw.forces(machine, speed=made.speed, angles=phi).drives[axis.driver]
             rate = np.interp(phi, axis.crank_angle, axis.velocity)
-            gears = machine.axes[name].gearbox
-            lead = 1.0 if axis.turns else gears.per_turn / (2 * np.pi)
+            own = machine.axes[name]
+            gears, motor = own.gearbox, own.motor
+            assert motor is not None
+            lead = 1.0 if axis.turns else (gears.per_turn or 0.0) / (2 * np.pi)
             # At rest losses do not count.
             power = torque * np.where(np.abs(rate) > 1e-9 * np.abs(rate).max(), rate, 0.0)
             eta = np.where(power > 0, 1 / gears.efficiency, np.where(power < 0, gears.efficiency, 1.0))
             acceleration = np.interp(phi, axis.crank_angle, axis.acceleration)
-            inertia = machine.axes[name].motor.rotor
+            inertia = motor.rotor
             at_motor = inertia * gears.ratio * acceleration / lead + torque * lead / gears.ratio * eta
             assert axis.motor.torque_rms == pytest.approx(np.sqrt(np.mean(at_motor**2)), rel=2e-3), name
 
@@ -182,3 +186,16 @@ def test_a_cylinder_needs_the_power_of_a_crank_by_the_law_of_cosines() -> None:
         assert push.torque_drive == pytest.approx(
             turn.torque_drive, abs=1e-8 * np.abs(turn.torque_drive).max()
         )
+
+
+def test_laws_of_axes_go_to_a_controller_and_back() -> None:
+    """Whatever the phase and the advance: polynomials and dense points with derivatives keep the law."""
+    for _, rng in random_cases(KIND + 2, 3, 100):
+        machine = lw.loads(random_machine(rng).text)
+        for name in machine.axes:
+            exact, dense = (exported(law_of(machine, name), FORMATS[form]) for form in ("codesys", "csv"))
+            assert exact.position_deviation <= 1e-8 * exact.position_peak, name
+            assert exact.velocity_deviation <= 1e-8 * exact.velocity_peak, name
+            # Points have one acceleration; some laws have another on each side of a boundary.
+            assert dense.position_deviation <= 1e-6 * dense.position_peak, name
+            assert dense.velocity_deviation <= 1e-3 * dense.velocity_peak, name

@@ -16,6 +16,7 @@ import numpy as np
 from linkwright.drive.steady_state import solved_state
 from linkwright.drive.study import has_motor
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.description.cycle import TURNS_MAX
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.public.in_range import in_range
@@ -26,7 +27,7 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import law_jumps, require_finite_accelerations
-from linkwright.linkages.whole_cycle import TURNS_MAX, over_known_cycle
+from linkwright.linkages.whole_cycle import over_known_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import axis_drivers, without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
@@ -127,7 +128,7 @@ def _law_turns(machine: Machine, compiled: CompiledMachine, turns: int) -> int:
     """
     corners = {jump.name for jump in law_jumps(machine) if jump.order == 1}
     own = set(axis_drivers(machine)) - corners
-    ends = 2 * math.pi * turns * np.arange(1 + TURNS_MAX // turns) - _INSIDE
+    ends = np.array([2 * math.pi * turns * k - _INSIDE for k in range(1 + TURNS_MAX // turns)])
     ends[0] = _INSIDE
     repeats = np.full(len(ends) - 1, True)
     for name, driver in machine.linkage.laws().items():
@@ -135,7 +136,7 @@ def _law_turns(machine: Machine, compiled: CompiledMachine, turns: int) -> int:
             continue
         law = Channel.Slide(compiled.slides[f"{name}.law"])
         ((_, slope, _),) = compiled.motion([law], ends)
-        ((_, within, _),) = compiled.motion([law], np.linspace(0.0, ends[1], _LEAST * turns))
+        ((_, within, _),) = compiled.motion([law], np.linspace(0.0, float(ends[1]), _LEAST * turns))
         repeats &= np.abs(slope[1:] - slope[0]) <= _REPEATS * np.abs(within).max()
         if not repeats.any():
             raise FindingError(

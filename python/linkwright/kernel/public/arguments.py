@@ -403,6 +403,7 @@ _CHECKS: dict[str, Check] = {
     "Mapping[str, Floats]": _mapping,
     "Mapping[str, float]": _mapping,
     "Mapping[str, str]": _mapping,
+    "Mapping[str, DriverCycle]": _mapping,
     "Mapping[str, Friction]": _mapping,
     "Mapping[str, MeasuredResponse]": _mapping,
     "Sequence[str]": _texts,
