@@ -91,11 +91,23 @@ def the_engine(machine: Machine) -> ReciprocatingEngine:
     return machine.train.engine
 
 
+def _require_orders(machine: Machine) -> None:
+    """Raise InputError if a torque of fixed frequency acts: it has no order at which a speed is measured."""
+    train = machine.train
+    for name, torque in () if train is None else train.excitations.items():
+        if getattr(torque, "frequency", None) is not None:
+            raise InputError(
+                f"train.excitations.{name}: found a fixed frequency, expected torques of orders of the engine "
+                "for its diagnosis; remove it, and measure at speeds at which it is weak"
+            )
+
+
 class EngineSpeed:
     """Speed of one disc of an engine at one speed of its crank. `speed`: mean speed of the crank [rad/s]."""
 
     def __init__(self, machine: Machine, speed: float, disc: str, *, rigid: bool = False) -> None:
         self.machine, self.engine, self.disc, self.rigid = machine, the_engine(machine), disc, rigid
+        _require_orders(machine)
         self.train = train_of(machine)
         self.referred = refer(self.train)
         self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(self.train))
