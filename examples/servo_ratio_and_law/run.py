@@ -15,7 +15,7 @@ HERE = Path(__file__).parent
 @cache
 def best(name: str):
     """The optimum of a study in this folder."""
-    return lw.optimise(lw.read_study(HERE / f"{name}.toml"), method="gradient", starts=3)
+    return lw.optimise(lw.read_study(HERE / f"{name}.toml"), method="gradient", starts=1)
 
 
 def study(machine: lw.Machine) -> dict[str, float]:

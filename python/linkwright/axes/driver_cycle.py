@@ -53,7 +53,9 @@ class Ends(NamedTuple):
         inside = np.clip(primal(self.share), _INSIDE, 1 - _INSIDE)
         place = np.concatenate([np.arange(n), np.repeat(at + inside, 2), self.own])
         order = np.argsort(place, kind="stable")
-        return [np.concatenate([column, *self._between(column), column[self.own]])[order] for column in columns]
+        return [
+            np.concatenate([column, *self._between(column), column[self.own]])[order] for column in columns
+        ]
 
     def _between(self, column: Any) -> list[Any]:
         """Values at the ends between samples, once for each side, in turn."""

@@ -148,7 +148,9 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
         torque = continued(cycle.angle, velocity.value, torque)
         slope = bend.value / cycle.forces.motion.speed
         drivers[name] = moved.along(velocity, slope), moved.along(bend), moved.along(torque)
-    scene = unit_scene_along(machine, program.variables, inertia_angles(round(cycle.angle[-1] / (2 * math.pi))))
+    scene = unit_scene_along(
+        machine, program.variables, inertia_angles(round(cycle.angle[-1] / (2 * math.pi)))
+    )
     inertias = inertias_in(scene, unknowns_along)
     return _Along(
         *(program, along, cycle, moved.along(time, 1 / cycle.forces.motion.speed)),
@@ -205,7 +207,9 @@ class _Samples:
             first = np.clip(np.arange(n) - _STENCIL // 2, 0, n - _STENCIL)
             weights = _difference_weights()[np.arange(n) - first]
             width = (self.angle[piece.stop - 1] - self.angle[piece.start]) / (n - 1)
-            slopes[piece] = (weights * values[piece][first[:, None] + np.arange(_STENCIL)]).sum(axis=1) / width
+            slopes[piece] = (weights * values[piece][first[:, None] + np.arange(_STENCIL)]).sum(
+                axis=1
+            ) / width
         return slopes
 
 
@@ -308,7 +312,8 @@ class _Found:
         """All of them."""
         program = self.along.program
         return Derivatives(
-            *(program.variables, self.tangents, self.ties, self.missing, program.refused, self.along.lost), **more
+            *(program.variables, self.tangents, self.ties, self.missing, program.refused, self.along.lost),
+            **more,
         )
 
 

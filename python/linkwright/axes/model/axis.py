@@ -69,7 +69,8 @@ class Axis(Description):
     """A servo axis: a driver of the mechanism with a motor of its own."""
 
     driver: str | None = Field(
-        None, description="Crank, linear driver, cylinder or cam that it drives. Default: the name of the axis."
+        None,
+        description="Crank, linear driver, cylinder or cam that it drives. Default: the name of the axis.",
     )
     sections: tuple[AxisSection, ...] = Field(
         (),
@@ -81,7 +82,9 @@ class Axis(Description):
     advance: Angle = Field(
         0.0, description="Advance of a crank per cycle: index steps add up. Default: it returns."
     )
-    travel: Length = Field(0.0, description="Advance of a linear driver or cylinder per cycle. Default: it returns.")
+    travel: Length = Field(
+        0.0, description="Advance of a linear driver or cylinder per cycle. Default: it returns."
+    )
     motor: ServoMotor | None = Field(None, description="Servo motor.")
     gearbox: AxisGearbox = Field(
         default_factory=AxisGearbox, description="Gearbox between motor and driver. Default: a direct drive."
