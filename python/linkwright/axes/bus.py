@@ -19,7 +19,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 
-
 _EXTREMES: tuple[Literal["max", "min"], ...] = ("max", "min")
 
 

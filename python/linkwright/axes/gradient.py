@@ -1,10 +1,11 @@
 r"""Derivatives of servo axes and their DC bus by entries of the machine.
 
-Torques follow the equilibrium at fixed angles of the master (`linkwright.kinetostatics.gradient`). The samples
-of a cycle lie between the ends of sections and the kinks of loads, and move with them: at a sample whose angle
-:math:`\varphi` follows an entry p,
+Torques follow the equilibrium at fixed angles of the master (`linkwright.kinetostatics.gradient`). The
+samples of a cycle lie between the ends of sections and the kinks of loads, and move with them: at a sample
+whose angle :math:`\varphi` follows an entry p,
 
-.. math:: \frac{\mathrm d f}{\mathrm dp} = \frac{\partial f}{\partial p} + f' \frac{\mathrm d\varphi}{\mathrm dp}
+.. math::
+   \frac{\mathrm d f}{\mathrm dp} = \frac{\partial f}{\partial p} + f' \frac{\mathrm d\varphi}{\mathrm dp}
 
 From there on the formulas are those of the results themselves, in tangents.
 """

@@ -90,10 +90,7 @@ _OTHER_FORM = (
     "structure changes"
 )
 
-_PARTING = (
-    "it separates segment boundaries that coincide on two cams, at which velocity or acceleration of both "
-    "followers jumps"
-)
+_PARTING = "it separates segment boundaries of two laws that coincide, at which velocity or acceleration of both jumps"
 
 CHANGE_POINTS = (
     "the mechanism passes change points, which exist only for these exact lengths; vary other entries, or "
