@@ -160,7 +160,7 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
 
 
 def _off_ends(angle: Floats) -> Floats:
-    """Angles of a cycle with the ends of pieces inside them: the core has one side of a kink that it is on."""
+    """Angles of a cycle with the ends of pieces inside them: on a kink the core has one side."""
     ends = np.flatnonzero(np.diff(angle) == 0)
     inside = angle.copy()
     inside[[0, *(ends + 1)]] += _OFF
