@@ -90,8 +90,10 @@ _OTHER_FORM = (
     "structure changes"
 )
 
-_PARTING = "it separates segment boundaries of two laws that coincide, at which velocity or acceleration of both jumps"
-
+_PARTING = (
+    "it separates segment boundaries of two laws that coincide, at which velocity or acceleration of both "
+    "jumps"
+)
 CHANGE_POINTS = (
     "the mechanism passes change points, which exist only for these exact lengths; vary other entries, or "
     "choose lengths away from change points"

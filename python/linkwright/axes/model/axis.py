@@ -75,8 +75,8 @@ class Axis(Description):
     sections: tuple[AxisSection, ...] = Field(
         (),
         description="Motion over a cycle, as that of cams: `swing` for a crank, `lift` for a linear driver "
-        "or cylinder; over an `angle` of the master or a `time`. The rest of the cycle is a dwell. Default: the "
-        "driver's own motion.",
+        "or cylinder; over an `angle` of the master or a `time`. The rest of the cycle is a dwell. Default: "
+        "the driver's own motion.",
     )
     phase: Angle = Field(0.0, description="Angle of the master at which the first section begins.")
     advance: Angle = Field(
