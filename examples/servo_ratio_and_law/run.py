@@ -22,8 +22,8 @@ def study(machine: lw.Machine) -> dict[str, float]:
     """Ratio and torque beside their closed forms, and the power of the bus before and after."""
     by_ratio, by_phase = best("ratio"), best("phase")
     rotor, table = machine.axes["left"].motor.inertia, machine.bodies["left"].inertia
-    # Two strokes of 90 deg by the polynomial 3-4-5 in 1/3 s each; the rest of the second is dwell.
-    rate = sqrt(120 / 7) * (pi / 2) * 9 * sqrt(2 / 3)
+    # The modified sine is best of these laws: peak 4π²/(4 + π) h/T², all of it in waves, which halve the square.
+    rate = 4 * pi**2 / (4 + pi) / sqrt(2) * (pi / 2) * 9 * sqrt(2 / 3)
     return {
         "ratio": by_ratio.variables["ratio"],
         "ratio_beside_root": by_ratio.variables["ratio"] / sqrt(table / rotor) - 1,
