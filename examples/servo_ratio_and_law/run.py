@@ -22,7 +22,7 @@ def study(machine: lw.Machine) -> dict[str, float]:
     """Ratio and torque beside their closed forms, and the power of the bus before and after."""
     by_ratio, by_phase = best("ratio"), best("phase")
     rotor, table = machine.axes["left"].motor.inertia, machine.bodies["left"].inertia
-    # The modified sine is best of these laws: peak 4π²/(4 + π) h/T², all of it in waves, which halve the square.
+    # The modified sine is best: peak 4π²/(4 + π) h/T², all of it in waves, which halve the square.
     rate = 4 * pi**2 / (4 + pi) / sqrt(2) * (pi / 2) * 9 * sqrt(2 / 3)
     return {
         "ratio": by_ratio.variables["ratio"],
