@@ -1,4 +1,4 @@
-"""Which ratio and law need the least torque of a servo motor, and which phase the least power of the DC bus?
+"""Which ratio and law minimise the torque of a servo motor, and which phase minimises the power of the DC bus?
 
 For a pure inertia J_L on a rotor J_M the best ratio is the root of J_L/J_M, whatever the law.
 """
@@ -40,7 +40,7 @@ def figure(machine: lw.Machine):
     drawing = Figure(figsize=(8, 3.2), layout="constrained")
     axes = drawing.subplots()
     axes.set(xlabel="master angle [deg]", ylabel="power of the DC bus [W]", xlim=(0, 360))
-    for of, label in ((machine, "both at once"), (best("phase").machine, "phase of least peak")):
+    for of, label in ((machine, "both at once"), (best("phase").machine, "phase of minimum peak")):
         bus = lw.dc_bus(of)
         axes.plot(bus.crank_angle * 180 / pi, bus.power, label=label)
     axes.legend()

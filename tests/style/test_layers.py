@@ -130,7 +130,6 @@ EDGES = {
     ("axes", "drive"),
     ("axes", "kinetostatics"),
     ("axes", "linkages"),
-    ("axes", "linkages.model"),
     ("axes.commands", "drive"),
     # A knife moves by a law, or by a mechanism, and takes a force.
     ("topping", "cam.laws"),

@@ -36,7 +36,7 @@ _STENCIL, _TURNS, _ROUNDS = 7, 4, 6
 # How far a rival may seem to stay below the peak, as a share of the range, and how many are compared.
 _DOUBT, _COMPARED = 1e-2, 24
 
-# An end between two samples is told apart from these by this share of the interval.
+# An end between two samples differs from both by this share of the interval.
 _INSIDE = 1e-9
 
 
