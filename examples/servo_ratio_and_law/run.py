@@ -1,4 +1,4 @@
-"""Which ratio and law minimise the torque of a servo motor, and which phase minimises the power of the DC bus?
+"""Which ratio and law minimise a servo motor's torque, and which phase the peak power of the DC bus?
 
 For a pure inertia J_L on a rotor J_M the best ratio is the root of J_L/J_M, whatever the law.
 """
