@@ -196,7 +196,7 @@ def test_followers_that_jump_together(law: str) -> None:
     phases = {f"mechanism.cams.{cam}.phase" for cam in "cd"}
     if law == '"parabolic"':
         assert joints | phases >= set(found.refused) & (joints | phases) >= phases
-        with pytest.raises(InputError, match="coincide on two cams"):
+        with pytest.raises(InputError, match="boundaries of two laws that coincide"):
             lw.gradient(machine, ["steady_state.period"], ["mechanism.cams.d.phase"])
     else:
         assert not found.refused

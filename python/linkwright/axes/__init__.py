@@ -13,6 +13,7 @@
 | `duty` | What an axis asks of its motor over the cycle, and whether the motor stands it |
 | `export/` | Laws as cam tables of motion controllers, read back and compared |
 | `feasibility` | Accelerating factor and load factor: which ratios are feasible for a motor |
+| `gradient` | Derivatives of axes and their DC bus by entries of the machine |
 | `figures` | Timing diagram, torque over speed, power of the bus |
 | `gradient` | Derivatives of axes and bus |
 | `inertia` | Inertia at each driver, all others held |

@@ -1,8 +1,8 @@
 r"""Speed and torque at a driver over a cycle, piece by piece, and their means over time.
 
 Each piece is integrated for itself, with polynomials through neighbouring samples, and so are extremes found
-between these: means and peaks are exact for a law of pieces. It is divided where the power changes its sign, since losses jump there. Samples may carry tangents;
-their instants then move with the ends of the pieces.
+between these: means and peaks are exact for a law of pieces. It is divided where the power changes its
+sign, since losses jump there. Samples may carry tangents; their instants then move with the ends of pieces.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _STENCIL, _TURNS, _ROUNDS = 7, 4, 6
 # How far a rival may seem to stay below the peak, as a share of the range, and how many are compared.
 _DOUBT, _COMPARED = 1e-2, 24
 
-# An end between two samples is told apart from these by this share of the interval.
+# An end between two samples differs from both by this share of the interval.
 _INSIDE = 1e-9
 
 
@@ -199,7 +199,7 @@ def running_integral(time: Any, values: Any) -> Any:
 
 
 def _intervals(time: Any) -> Iterator[tuple[Any, Any, Any]]:
-    """Samples at the ends of the intervals of each piece, those that each integral takes, and their weights."""
+    """End of each interval of each piece, samples that its integral takes, and their weights."""
     ends = np.flatnonzero(np.diff(primal(time)) == 0) + 1
     for first, last in zip([0, *ends], [*ends, len(primal(time))], strict=True):
         n = last - first
@@ -253,7 +253,7 @@ class Place(NamedTuple):
 
 
 class Peak(NamedTuple):
-    """A curve of which one value is wanted: the largest in size, with its sign, the maximum or the minimum."""
+    """A curve of which one value is wanted: the largest in size, the maximum or the minimum."""
 
     time: Any
     curve: Any

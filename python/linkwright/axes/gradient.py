@@ -1,10 +1,11 @@
 r"""Derivatives of servo axes and their DC bus by entries of the machine.
 
-Torques follow the equilibrium at fixed angles of the master (`linkwright.kinetostatics.gradient`). The samples
-of a cycle lie between the ends of sections and the kinks of loads, and move with them: at a sample whose angle
-:math:`\varphi` follows an entry p,
+Torques follow the equilibrium at fixed angles of the master (`linkwright.kinetostatics.gradient`). The
+samples of a cycle lie between the ends of sections and the kinks of loads, and move with them: at a sample
+whose angle :math:`\varphi` follows an entry p,
 
-.. math:: \frac{\mathrm d f}{\mathrm dp} = \frac{\partial f}{\partial p} + f' \frac{\mathrm d\varphi}{\mathrm dp}
+.. math::
+   \frac{\mathrm d f}{\mathrm dp} = \frac{\partial f}{\partial p} + f' \frac{\mathrm d\varphi}{\mathrm dp}
 
 From there on the formulas are those of the results themselves, in tangents.
 """
@@ -159,7 +160,7 @@ def _cycle_along(machine: Machine, variables: Sequence[str]) -> _Along:
 
 
 def _off_ends(angle: Floats) -> Floats:
-    """Angles of a cycle with the ends of pieces inside them: the core has one side of a kink that it is on."""
+    """Angles of a cycle with the ends of pieces inside them: on a kink the core has one side."""
     ends = np.flatnonzero(np.diff(angle) == 0)
     inside = angle.copy()
     inside[[0, *(ends + 1)]] += _OFF

@@ -36,7 +36,7 @@ def driver_inertias(machine: Machine, turns: int) -> dict[str, float]:
 
 
 def inertia_angles(turns: int) -> Floats:
-    """Angles of the master at which it is worked out: beside the ends of sections, where nothing is special."""
+    """Angles of the master at which it is worked out, beside the ends of sections."""
     n = _ANGLES * turns
     return 2 * np.pi * turns * (np.arange(n) + 0.37) / n
 

@@ -91,10 +91,9 @@ _OTHER_FORM = (
 )
 
 _PARTING = (
-    "it separates segment boundaries that coincide on two cams, at which velocity or acceleration of both "
-    "followers jumps"
+    "it separates segment boundaries of two laws that coincide, at which velocity or acceleration of both "
+    "jumps"
 )
-
 CHANGE_POINTS = (
     "the mechanism passes change points, which exist only for these exact lengths; vary other entries, or "
     "choose lengths away from change points"
