@@ -314,8 +314,8 @@ def _failure(
         )
     return ConvergenceError(
         "steady motion of the elastic driveline was found to a relative accuracy of "
-        f"{motion.accuracy:.1e} only, {accuracy:g} is required, with at most 20 000 steps per "
-        "cycle: leave out a stiffness that is rigid at this speed, give its shaft damping, smooth jumps of loads, or "
+        f"{motion.accuracy:.1e} only, {accuracy:g} is required, with at most 20 000 steps per cycle: leave "
+        "out a stiffness that is rigid at this speed, give its shaft damping, smooth jumps of loads, or "
         "reduce the accuracy",
         method="collocation",
     )
