@@ -323,8 +323,8 @@ def _failure(
 
 def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
     """From the largest on; without that by which a motor of constant speed keeps its speed."""
-    found = np.linalg.eigvals(motion.monodromy)
-    found = found[np.argsort(-np.abs(found), kind="stable")].astype(complex)
+    found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
+    found = found[np.argsort(-np.abs(found), kind="stable")]
     multipliers: Complexes = found if chain.links["held"] is None else found[:-1]
     return multipliers
 
