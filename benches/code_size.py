@@ -29,7 +29,7 @@ LARGEST, ALL = 64 * 1024, 4_500_000
 CALLS = 700
 
 # Of which crate a function is: the first in its name of those that stand highest.
-CRATES = ("border", "derivatives", "core", "torsion", "cam", "topper", "kernel")
+CRATES = ("border", "derivatives", "driveline", "core", "torsion", "cam", "topper", "kernel")
 
 SHOWN = 12
 

@@ -1,7 +1,7 @@
 """What load does an elastic coupling carry between a drive and carts that shake it?
 
-A rigid driveline promises a mean torque with peaks of about twice as much. With a coupling the motor side and
-the crank side swing against each other, since the inertia of the carts changes by a third over the revolution.
+A rigid driveline promises a mean torque with peaks of about twice as much. With a coupling the motor side
+and the crank side swing against each other: the inertia of the carts changes by a third over the revolution.
 """
 
 from pathlib import Path

@@ -276,7 +276,7 @@ impl<'a> Reading<'a> {
 fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
     let mut best = [low, high].map(|share| (share, at(share)));
     let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-    let mut values = inner.map(|share| at(share));
+    let mut values = inner.map(&mut *at);
     for _ in 0..NARROWINGS {
         if values[0] >= values[1] {
             high = inner[1];

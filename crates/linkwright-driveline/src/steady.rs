@@ -274,7 +274,7 @@ fn divided(edges: &[f64], errors: &[f64], accuracy: f64, kinks: &[f64]) -> Vec<f
     for &kink in kinks {
         let behind = finer.partition_point(|&edge| edge < kink);
         let near = |i: usize| finer.get(i).is_some_and(|edge| (edge - kink).abs() < SAME_ANGLE);
-        if !near(behind) && !(behind > 0 && near(behind - 1)) {
+        if !(near(behind) || behind > 0 && near(behind - 1)) {
             finer.insert(behind, kink);
         }
     }

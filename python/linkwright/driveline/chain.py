@@ -88,7 +88,7 @@ def _has_hysteresis(drive: Drive) -> bool:
 
 def _order(masses: int, crank: int) -> Integers:
     """New number of each mass: the crank comes last."""
-    order = np.arange(masses)
+    order: Integers = np.arange(masses, dtype=np.int32)
     order[crank + 1 :] -= 1
     order[crank] = masses - 1
     return order

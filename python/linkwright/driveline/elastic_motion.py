@@ -314,8 +314,8 @@ def _failure(
         )
     return ConvergenceError(
         "steady motion of the elastic driveline was found to a relative accuracy of "
-        f"{motion.accuracy:.1e} only, {accuracy:g} is required, with at most 20 000 steps per "
-        "cycle: leave out a stiffness that is rigid at this speed, give its shaft damping, smooth jumps of loads, or "
+        f"{motion.accuracy:.1e} only, {accuracy:g} is required, with at most 20 000 steps per cycle: leave "
+        "out a stiffness that is rigid at this speed, give its shaft damping, smooth jumps of loads, or "
         "reduce the accuracy",
         method="collocation",
     )
@@ -323,8 +323,8 @@ def _failure(
 
 def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
     """From the largest on; without that by which a motor of constant speed keeps its speed."""
-    found = np.linalg.eigvals(motion.monodromy)
-    found = found[np.argsort(-np.abs(found), kind="stable")].astype(complex)
+    found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
+    found = found[np.argsort(-np.abs(found), kind="stable")]
     multipliers: Complexes = found if chain.links["held"] is None else found[:-1]
     return multipliers
 

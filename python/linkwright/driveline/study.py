@@ -35,7 +35,7 @@ _REVERSED = 0.01
 
 def has_elastic_drive(machine: Machine) -> bool:
     """Whether a mechanism stands behind a torsionally flexible driveline."""
-    return machine.has_crank and machine.drive is not None and machine.drive.twists
+    return machine.drive is not None and machine.drive.twists and machine.has_crank
 
 
 def no_elastic_motion(machine: Machine) -> Obstacle | None:
