@@ -57,7 +57,8 @@ KEPT = {
     "kloss, drehmoment und schlüpfung des drehstrommotors, archiv für elektrotechnik, #",
     *("steady gradient", "fine steady motion", "slides along a jump at", "ground of", "too many steps"),
     *("a unit with a load", "has motors with", "expected at most", "the most powerful of these motors"),
-    *("the series", "is now study"),
+    *("the series", "is now study", "offset points"),
+    "dresig, holzweißig, dynamics of machinery, springer #, sections # and #",
 }
 
 # Two words, no name of a file and no option; a formula stands between signs.

@@ -97,8 +97,8 @@ def _require_orders(machine: Machine) -> None:
     for name, torque in () if train is None else train.excitations.items():
         if getattr(torque, "frequency", None) is not None:
             raise InputError(
-                f"train.excitations.{name}: found a fixed frequency, expected torques of orders of the engine "
-                "for its diagnosis; remove it, and measure at speeds at which it is weak"
+                f"train.excitations.{name}: found a fixed frequency, expected torques of orders of the "
+                "engine for its diagnosis; remove it, and measure at speeds at which it is weak"
             )
 
 
