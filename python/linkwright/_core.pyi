@@ -32,6 +32,8 @@ __all__ = [
     "Condition",
     "Curve",
     "Drive",
+    "DrivelineCurves",
+    "DrivelineMotion",
     "Element",
     "Extremes",
     "Formula",
@@ -46,6 +48,7 @@ __all__ = [
     "Motor",
     "MotorTorques",
     "NetTorques",
+    "NoDrivelineMotion",
     "NoSteadyMotion",
     "OtherMotion",
     "Periodic",
@@ -76,6 +79,7 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_motion",
     "follow_group",
     "gaps",
     "in_line",
@@ -1142,6 +1146,7 @@ class GroupPath:
 def steady_state(plan: Plan, q: _Floats, accuracy: float, phi: _Floats) -> SteadyMotion | NoSteadyMotion:
     """Steady motion, with curves at the angles `phi`."""
 
+@final
 class DrivelineCurves:
     """Curves of a driveline over crank angles, (parts, n) each, all referred to the crank."""
 
@@ -1153,6 +1158,7 @@ class DrivelineCurves:
     torque_drive: Final[_Floats]
     torque_load: Final[_Floats]
 
+@final
 class DrivelineMotion:
     """Steady motion of a driveline: extremes and means over its masses, or over its links.
 
@@ -1177,6 +1183,7 @@ class DrivelineMotion:
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
 
+@final
 class NoDrivelineMotion:
     """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``."""
 

@@ -60,7 +60,7 @@ COMMANDS = {
     "sensitivity": Place(
         "Derivatives of the results by the entries of the file.", "sensitivity.commands:sensitivity"
     ),
-    "law": Place("Export the law of a cam to a motion controller.", "axes.export.command:law"),
+    "law": Place("Export the law of a cam or axis to a motion controller.", "axes.export.command:law"),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
     "papers": Place("Recompute a published paper and compare.", "app.commands.papers:papers", False),

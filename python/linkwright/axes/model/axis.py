@@ -31,11 +31,13 @@ class Master(CheckedDescription):
     )
     start_time: Annotated[float, positive(TIME)] | None = Field(
         None,
-        description="Time in which the speed of the master rises from rest, evenly, from φ = 0 on. Default: "
-        "starts are not looked at.",
+        description="Time in which the speed of the master rises from rest, evenly, from φ = 0 on, over at "
+        "most 120 revolutions. Default: starts are not considered.",
     )
     stop_time: Annotated[float, positive(TIME)] | None = Field(
-        None, description="Time in which it falls to rest, from φ = 0 on. Default: stops are not looked at."
+        None,
+        description="Time in which it falls to rest, from φ = 0 on, over at most 120 revolutions. Default: "
+        "stops are not considered.",
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -83,7 +85,7 @@ class Axis(Description):
         0.0, description="Advance of a crank per cycle: index steps add up. Default: it returns."
     )
     travel: Length = Field(
-        0.0, description="Advance of a linear driver or cylinder per cycle. Default: it returns."
+        0.0, description="Advance of a linear driver per cycle; a cylinder returns. Default: it returns."
     )
     motor: ServoMotor | None = Field(None, description="Servo motor.")
     gearbox: AxisGearbox = Field(

@@ -19,8 +19,8 @@ class AxisGearbox(Gears, CheckedDescription):
 
     per_turn: Annotated[float, positive(LENGTH)] | None = Field(
         None,
-        description="Travel of a linear driver per revolution of the gearbox output: lead of the screw, "
-        "circumference of the pinion or pulley.",
+        description="Travel of a linear driver or cylinder per revolution of the gearbox output: lead of the "
+        "screw, circumference of the pinion or pulley.",
     )
     torque_max: Annotated[float, positive(TORQUE)] | None = Field(
         None, description="Peak torque permitted at the output. Default: not limited."

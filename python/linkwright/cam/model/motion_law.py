@@ -186,11 +186,11 @@ class SCurveLaw(Law):
 
 
 class LimitedLaw(Law):
-    """Trapezoidal velocity, or with a limit of the jerk an S-curve, that keeps limits by the cam angle."""
+    """Trapezoidal velocity, or with a limit of the jerk an S-curve, within limits per angle of the cam."""
 
     kind: Literal["limited"]
     velocity_max: Annotated[float, positive(LIFT_D1)] | None = Field(
-        None, description="Maximum lift per cam angle. Default: no limit."
+        None, description="Maximum lift per angle of the cam or master. Default: no limit."
     )
     acceleration_max: Annotated[float, positive(LIFT_D2)] | None = Field(
         None, description="Maximum second derivative."
@@ -199,7 +199,7 @@ class LimitedLaw(Law):
         None, description="Maximum third derivative. Default: the acceleration jumps."
     )
     swing_velocity_max: Annotated[float, positive(RATIO)] | None = Field(
-        None, description="For an oscillating follower: maximum angle per cam angle."
+        None, description="For a swing: maximum angle per angle of the cam or master."
     )
     swing_acceleration_max: Annotated[float, positive(SWING_D2)] | None = Field(
         None, description="Maximum second derivative of its angle."

@@ -56,7 +56,7 @@ class Gears(Description):
         float | Literal["same"] | None, BeforeValidator(_reverse), WithJsonSchema(_REVERSE_SCHEMA)
     ] = Field(
         None,
-        description="The same factor while the load drives the motor: a number, "
+        description="The same factor while the load drives the motor: 1/η for the back-driving efficiency η, "
         '"same" for the value of `efficiency`, or 0 for a self-locking gearbox, which holds any load that '
         "drives (worm, screw). Default: 1/efficiency.",
     )
