@@ -90,3 +90,9 @@ def test_jumps_of_its_law_are_warned_of_and_met_by_samples() -> None:
     jumps = [text for text in lw.study(one).warnings if "acceleration of the law of Z jumps" in text]
     assert len(jumps) == 3
     assert lw.servo_axis(one).torque_rms == pytest.approx(lw.servo_axis(other).torque_rms, rel=1e-10)
+
+
+def test_the_rod_of_a_cylinder_returns() -> None:
+    text = (CYLINDER + MOTOR.replace("LAW", "cycloidal")).replace('lift = "-100 mm"', 'lift = "-80 mm"')
+    with pytest.raises(lw.MachineError, match="expected: nothing for a cylinder"):
+        lw.loads(text.replace('phase = "30 deg"', 'phase = "30 deg"\ntravel = "20 mm"'))

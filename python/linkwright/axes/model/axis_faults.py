@@ -86,6 +86,9 @@ def _own_faults(machine: Any, axis: Axis, driver: str) -> Iterator[InitErrorDeta
     if other in axis.model_fields_set:
         kind = "crank, which turns" if family == "swing" else "driver along a line"
         yield fault(other, found=getattr(axis, other), expected=f"{key}: {driver} is a {kind}")
+    if axis.travel and driver in machine.mechanism.cylinders:
+        expected, remedy = "nothing for a cylinder", "its rod returns in every cycle"
+        yield fault("travel", found=axis.travel, expected=expected, remedy=remedy)
     if getattr(own, "start_length", 0.0) is None:
         expected = f"start_length of {driver}, its length at the start of the sections"
         yield fault("driver", found=driver, expected=expected)
