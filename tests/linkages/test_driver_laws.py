@@ -100,7 +100,7 @@ def test_a_corner_beside_the_masses_is_a_warning() -> None:
     ("name", "words", "remedy"),
     [
         ("law_that_saturates", "the law of A stays at 1;", "advance, 57.2958 deg,"),
-        ("packaging", "the law of dial stays at 1.047;", "add the key advance, 60 deg, beside the law"),
+        ("packaging", "the law of dial stays at 1.047;", "add mechanism.cranks.dial.advance, 60 deg"),
     ],
 )
 def test_a_law_that_saturates_is_told_with_its_remedy(name: str, words: str, remedy: str) -> None:

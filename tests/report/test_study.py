@@ -120,7 +120,7 @@ def test_instability_is_told() -> None:
     [
         ((), "no motor"),
         ((), "no loads"),
-        (("bodies={}", 'loads.fall={kind="torque", on="A", torque=-2}'), "falls to zero"),
+        (('mechanism.sliders.S={crank="A", rod=0.3}', "bodies={S={mass=1}}"), "falls to zero"),
         (("bodies={}",), "no masses, loads or motor"),
         (('loads.fall={kind="torque", on="A", torque=2}',), "loads drive the machine"),
         (('drive.motor={kind="constant_speed", speed=5}',), "has no run-up"),

@@ -140,10 +140,11 @@ def has_reactions(forces: Forces) -> bool:
 def _given(forces: Forces) -> str:
     most = quantity(forces.torque_drive_max, "N m")
     if forces.laws:
-        each = ", ".join(
-            f"{name} {quantity(value, forces.drive_unit(name))}" for name, value in forces.drive_max.items()
+        each = "; ".join(
+            f"peak drive at {name} {quantity(value, forces.drive_unit(name))}"
+            for name, value in forces.drive_max.items()
         )
-        return f"Peak torques of the drives: {each}. The peak {forces.shaft} is {most}."
+        return f"{each[0].upper()}{each[1:]}. The peak {forces.shaft} is {most}."
     return f"Peak driving torque at the crank: {most}."
 
 

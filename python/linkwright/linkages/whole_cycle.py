@@ -133,11 +133,12 @@ def _law_that_goes_on(compiled: CompiledMachine) -> str:
             continue  # a steady advance, as that of index steps
         driver = name.removesuffix(".law")
         kind = LENGTH if driver in compiled.slides else ANGLE
+        table = "linear_drivers" if driver in compiled.slides else "cranks"
+        place = f"mechanism.{table}.{driver}.advance"
         advance = worded(float(first[-1] - first[0]), kind)
         return (
-            f"φ continues beyond 2π, where the law of {driver} {does}; add the key advance, {advance}, "
-            "beside the law: it then starts again in every revolution from where it ended; sections in "
-            f"[axes.{driver}] do the same"
+            f"φ continues beyond 2π, where the law of {driver} {does}; add {place}, {advance}: it then "
+            f"starts again in every revolution from where it ended; sections in [axes.{driver}] do the same"
         )
     return ""
 

@@ -101,8 +101,8 @@ class ReciprocatingEngine(CheckedDescription):
 
     machine: Literal["engine", "compressor"] = Field(
         "engine",
-        description="What it is: a compressor is driven, by default at the first disc of [train.discs], with "
-        "the mean torque that balances its own.",
+        description="Kind of machine; a compressor is driven, by default at the first disc of [train.discs], "
+        "with the mean torque that balances its own.",
     )
     strokes: Literal[2, 4] = Field(4, description="Strokes of a working cycle.")
     bore: PositiveLength = Field(description="Diameter of the cylinders.")
