@@ -99,7 +99,7 @@ def test_a_corner_beside_the_masses_is_a_warning() -> None:
 @pytest.mark.parametrize(
     ("name", "words", "remedy"),
     [
-        ("law_that_saturates", "the law of A stays at 1;", "advance, 57.2958 deg,"),
+        ("law_that_saturates", "the law of A stays at 1;", "advance, 57.2958 deg"),
         ("packaging", "the law of dial stays at 1.047;", "add mechanism.cranks.dial.advance, 60 deg"),
     ],
 )
