@@ -24,6 +24,7 @@ from linkwright.kernel.reader.numbers import degrees, quantity
 from linkwright.kernel.result import Result
 from linkwright.kinetostatics.forces import forces
 from linkwright.kinetostatics.model.cylinder_loads import push_of
+from linkwright.kinetostatics.motion import has_speed
 from linkwright.kinetostatics.result import Forces
 from linkwright.linkages.closure import closure, turn_angles
 from linkwright.linkages.kinematics import kinematics_of
@@ -157,8 +158,7 @@ def cylinder_force(machine: Machine, name: str | None = None, motion: Forces | N
 
 def forces_of_cylinders(machine: Machine) -> Forces:
     """Forces along the motion of a machine: of its drive, or its flow; else at rest at every angle."""
-    has_motor = machine.drive is not None and machine.drive.motor is not None
-    return forces(machine, speed=None if has_motor or machine.design_speed is not None else 0.0)
+    return forces(machine, speed=None if has_speed(machine) else 0.0)
 
 
 def _duty(machine: Machine, name: str, known: Forces) -> CylinderForce:

@@ -28,7 +28,7 @@ from linkwright.kinetostatics.applied import AppliedLoad, together
 from linkwright.kinetostatics.collect import Collector
 from linkwright.kinetostatics.equilibrium import Equilibrium, Solution
 from linkwright.kinetostatics.forces import acting, solved
-from linkwright.kinetostatics.motion import Motion, motion_at, over_turns
+from linkwright.kinetostatics.motion import Motion, has_speed, motion_at, over_turns
 from linkwright.kinetostatics.pairs import PairModel
 from linkwright.kinetostatics.places import Scene
 from linkwright.kinetostatics.wrench import Wrenches
@@ -132,8 +132,7 @@ def drives_along(machine: Machine, variables: Sequence[str], angles: Floats) -> 
     program = entries.program
     solution = _solution(machine, program)
     if solution is None:
-        has_motor = machine.drive is not None and machine.drive.motor is not None
-        speed = None if has_motor or machine.design_speed is not None else 0.0
+        speed = None if has_speed(machine) else 0.0
         motion = motion_at(machine, None, speed=speed, angles=angles)
     else:
         motion = _read(machine, solution, angles)
