@@ -34,6 +34,8 @@ __all__ = [
     "Drive",
     "DrivelineCurves",
     "DrivelineMotion",
+    "DrivelineStation",
+    "DrivelineTorque",
     "Element",
     "Extremes",
     "Formula",
@@ -1159,6 +1161,34 @@ class DrivelineCurves:
     torque_load: Final[_Floats]
 
 @final
+class DrivelineTorque:
+    """A torque on a mass of a driveline from outside, referred to the crank."""
+
+    @staticmethod
+    def own(mass: int) -> DrivelineTorque:
+        """The motor of the plan at the crank."""
+
+    @staticmethod
+    def held(mass: int, speed: float) -> DrivelineTorque:
+        """A motor that keeps a speed."""
+
+    @staticmethod
+    def motor(mass: int, plan: Plan, q: _Floats) -> DrivelineTorque:
+        """The motor of another plan, through its gearbox."""
+
+    @staticmethod
+    def power(mass: int, *, torque: float, speed: float, exponent: float) -> DrivelineTorque:
+        """A power of the speed of the mass, positive if it drives."""
+
+@final
+class DrivelineStation:
+    """A further mechanism; its crank is at `ratio` times the angle of its mass plus `phase`."""
+
+    def __new__(
+        cls, mass: int, plan: Plan, q: _Floats, *, ratio: float, phase: float
+    ) -> DrivelineStation: ...
+
+@final
 class DrivelineMotion:
     """Steady motion of a driveline: extremes and means over its masses, or over its links.
 
@@ -1173,7 +1203,9 @@ class DrivelineMotion:
     torque_mean: Final[_Floats]
     torque_rms: Final[_Floats]
     loss: Final[_Floats]
-    energy_drive: Final[float]
+    torque_drive: Final[Extremes]
+    torque_drive_mean: Final[_Floats]
+    energy_drive: Final[_Floats]
     energy_load: Final[float]
     monodromy: Final[_Floats]
     accuracy: Final[float]
@@ -1202,8 +1234,10 @@ def driveline_motion(
     second: _Ints,
     stiffness: _Floats,
     damping: _Floats,
-    driven: int,
-    held: float | None,
+    drivers: Sequence[DrivelineTorque],
+    loads: Sequence[DrivelineTorque],
+    stations: Sequence[DrivelineStation],
+    swing: tuple[_Floats, _Floats] | None,
     accuracy: float,
     speed: float,
     fastest: float,
@@ -1212,9 +1246,9 @@ def driveline_motion(
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
-    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `driven`: mass
-    of the motor, which keeps the speed `held`; `fastest`: size of the fastest eigenvalue that lasts; followed
-    for `cycles_first` cycles at first, for `cycles_max` at most.
+    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `swing`: damping
+    of every mass against the rotation of all, and its share in that; `fastest`: size of the fastest
+    eigenvalue that lasts; followed for `cycles_first` cycles at first, for `cycles_max` at most.
     """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:

@@ -1,6 +1,6 @@
 //! Steady motion of torsionally flexible drivelines at the border.
 
-use linkwright_driveline::chain::{Chain, Driver, Link};
+use linkwright_driveline::chain::{Chain, Link, Swing};
 use linkwright_driveline::equation::Equation;
 use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
 use linkwright_driveline::steady::{Failure, Request, Steady, steady};
@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{as_indices, column};
 use crate::builder::Plan;
+use crate::builder::driveline::{DrivelineStation, DrivelineTorque};
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
 use crate::{Floats, Ints};
@@ -27,7 +28,7 @@ pub(crate) struct DrivelineCurves {
     acceleration: Table,
     twist: Table,
     torque: Table,
-    torque_drive: Array,
+    torque_drive: Table,
     torque_load: Array,
 }
 
@@ -51,7 +52,11 @@ pub(crate) struct DrivelineMotion {
     #[pyo3(get)]
     loss: Array,
     #[pyo3(get)]
-    energy_drive: f64,
+    torque_drive: Py<Extremes>,
+    #[pyo3(get)]
+    torque_drive_mean: Array,
+    #[pyo3(get)]
+    energy_drive: Array,
     #[pyo3(get)]
     energy_load: f64,
     #[pyo3(get)]
@@ -100,7 +105,8 @@ fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
 impl DrivelineMotion {
     fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<DrivelineCurves> {
         let (phi, n, links) = (phi.as_slice()?, self.chain.masses(), self.chain.links.len());
-        require_room(ANALYSIS, [3 + 2 * (n + links), phi.len()])?;
+        let drivers = self.chain.drivers.len();
+        require_room(ANALYSIS, [2 + drivers + 2 * (n + links), phi.len()])?;
         let equation = Equation { plan: &self.plan.get().0, q: &self.q, chain: &self.chain };
         let found = guarded(py, ANALYSIS, || Reading { equation, steady: &self.steady }.curves(phi))?;
         Ok(DrivelineCurves {
@@ -109,7 +115,7 @@ impl DrivelineMotion {
             acceleration: rows(py, found.acceleration, n)?,
             twist: rows(py, found.twist, links)?,
             torque: rows(py, found.torque, links)?,
-            torque_drive: column(py, found.drive).unbind(),
+            torque_drive: rows(py, found.drive, drivers)?,
             torque_load: column(py, found.load).unbind(),
         })
     }
@@ -129,7 +135,8 @@ fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: u
 
 #[pyfunction]
 #[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
+    plan, q, *, inertia, apart, first, second, stiffness, damping, drivers, loads, stations, swing, accuracy, speed, fastest,
+    cycles_first, cycles_max
 ))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
@@ -141,8 +148,10 @@ pub(crate) fn driveline_motion(
     second: Ints<'_>,
     stiffness: Floats<'_>,
     damping: Floats<'_>,
-    driven: usize,
-    held: Option<f64>,
+    drivers: Vec<PyRef<'_, DrivelineTorque>>,
+    loads: Vec<PyRef<'_, DrivelineTorque>>,
+    stations: Vec<PyRef<'_, DrivelineStation>>,
+    swing: Option<(Floats<'_>, Floats<'_>)>,
     accuracy: f64,
     speed: f64,
     fastest: f64,
@@ -153,10 +162,17 @@ pub(crate) fn driveline_motion(
     let q = known.get().parameters(&q)?.to_vec();
     let inertia = inertia.as_slice()?.to_vec();
     let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
-    let driver = held.map_or(Driver::Motor, Driver::Held);
-    let chain = Chain { inertia, apart, links, driven, driver };
+    let [drivers, loads] = [drivers, loads].map(|list| list.iter().map(|each| each.core()).collect());
+    let stations = stations.iter().map(|each| each.core()).collect();
+    let swing = match &swing {
+        None => None,
+        Some((damping, share)) => {
+            Some(Swing { damping: damping.as_slice()?.to_vec(), share: share.as_slice()?.to_vec() })
+        }
+    };
+    let chain = Chain { inertia, apart, links, drivers, loads, stations, swing };
     if !chain.fits() {
-        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
+        return Err(PyIndexError::new_err("driveline: a link, a torque or a mechanism is at no mass"));
     }
     let plan = &known.get().0;
     let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
@@ -183,7 +199,9 @@ pub(crate) fn driveline_motion(
                 torque_mean: column(py, measures.torque_mean).unbind(),
                 torque_rms: column(py, measures.torque_rms).unbind(),
                 loss: column(py, measures.loss).unbind(),
-                energy_drive: measures.drive_work,
+                torque_drive: extremes(py, &measures.drive)?,
+                torque_drive_mean: column(py, measures.drive_mean).unbind(),
+                energy_drive: column(py, measures.drive_work).unbind(),
                 energy_load: measures.load_work,
                 monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
                 accuracy: steady.reached,

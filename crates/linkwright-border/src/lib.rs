@@ -50,6 +50,8 @@ pub mod _core {
     #[pymodule_export]
     use super::builder::drive::{Drive, Motor, Span};
     #[pymodule_export]
+    use super::builder::driveline::{DrivelineStation, DrivelineTorque};
+    #[pymodule_export]
     use super::builder::elements::{Element, GroundPoint};
     #[pymodule_export]
     use super::builder::loads::{At, Body, What};

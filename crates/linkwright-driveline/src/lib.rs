@@ -2,7 +2,8 @@
 //!
 //! | module | answers |
 //! | --- | --- |
-//! | [`chain`] | masses, and the springs with dampers between them |
+//! | [`chain`] | masses, the springs with dampers between them, torques from outside |
+//! | [`station`] | further mechanisms, at angles that the state tells |
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
@@ -18,4 +19,5 @@ pub mod equation;
 pub mod error;
 pub mod mesh;
 pub mod reading;
+pub mod station;
 pub mod steady;

@@ -7,10 +7,14 @@ use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
 use linkwright_kernel::radau::{C, N, S, through, value};
 
+/// Distance \[rad\] within which a kink lies on the end of a step.
+const NEAR: f64 = 1e-7;
+
 /// Places of a step from one end to the other, and the mechanism there.
 pub struct Rows {
     /// Inertia and loads.
     pub reduced: Vec<Reduction<f64>>,
+    angles: Vec<f64>,
     geometry: Vec<LawGeometry<f64>>,
     laws: usize,
 }
@@ -27,12 +31,13 @@ impl Rows {
                 plan.add_geometry(q, phi, &motion, &mut geometry);
             }
         }
-        Rows { reduced: reductions(plan, q, angles, 1.0), geometry, laws }
+        Rows { reduced: reductions(plan, q, angles, 1.0), angles: angles.to_vec(), geometry, laws }
     }
 
     /// The mechanism at one of them.
     pub fn row(&self, i: usize) -> Row<'_> {
-        Row { reduced: self.reduced[i], geometry: &self.geometry[i * self.laws..][..self.laws] }
+        let geometry = &self.geometry[i * self.laws..][..self.laws];
+        Row { phi: self.angles[i], reduced: self.reduced[i], geometry }
     }
 }
 
@@ -64,6 +69,13 @@ impl Mesh {
     /// Number of steps.
     pub fn steps(&self) -> usize {
         self.edges.len() - 1
+    }
+
+    /// Whether a step ends at an angle.
+    pub fn has_edge(&self, phi: f64) -> bool {
+        let behind = self.edges.partition_point(|&edge| edge < phi);
+        let beside = [behind.saturating_sub(1), behind.min(self.steps())];
+        beside.iter().any(|&i| (self.edges[i] - phi).abs() < NEAR)
     }
 
     /// Length of a step \[rad\].

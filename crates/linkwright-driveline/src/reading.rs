@@ -1,6 +1,5 @@
 //! Curves, extremes and power of a steady motion.
 
-use crate::chain::{Driver, Link};
 use crate::equation::{Equation, Rates, Row};
 use crate::mesh::Rows;
 use crate::steady::Steady;
@@ -47,9 +46,9 @@ pub struct Curves {
     pub twist: Vec<f64>,
     /// Of the links \[N m\].
     pub torque: Vec<f64>,
-    /// Of the driver at its mass \[N m\].
+    /// Of the drivers at their masses \[N m\].
     pub drive: Vec<f64>,
-    /// Of the loads at the crank \[N m\].
+    /// Of all loads, referred to the crank \[N m\].
     pub load: Vec<f64>,
 }
 
@@ -72,9 +71,13 @@ pub struct Measures {
     pub torque_rms: Vec<f64>,
     /// Work that the dampers of the links take in a cycle \[J\].
     pub loss: Vec<f64>,
-    /// Work of the driver in a cycle \[J\].
-    pub drive_work: f64,
-    /// Work that the loads take in a cycle \[J\].
+    /// Torques of the drivers \[N m\].
+    pub drive: Vec<Extremes>,
+    /// Mean torques of the drivers over time \[N m\].
+    pub drive_mean: Vec<f64>,
+    /// Work of the drivers in a cycle \[J\].
+    pub drive_work: Vec<f64>,
+    /// Work that loads and damping from outside take in a cycle \[J\].
     pub load_work: f64,
 }
 
@@ -91,42 +94,32 @@ impl<'a> Reading<'a> {
         self.equation.plan
     }
 
-    /// Torque of the driver at its mass \[N m\]; one that keeps its speed gives what the links take.
-    fn drive(&self, y: &[f64]) -> f64 {
-        let chain = self.equation.chain;
-        match chain.driver {
-            Driver::Motor => self.equation.motor(chain.speed(chain.driven, y)).value,
-            Driver::Held(_) => {
-                let sign = |link: &Link| {
-                    f64::from(u8::from(link.first == chain.driven))
-                        - f64::from(u8::from(link.second == chain.driven))
-                };
-                chain.links.iter().map(|link| sign(link) * chain.torque(link, y)).sum()
-            }
-        }
-    }
-
     /// Extremes, means and work of a cycle.
     pub fn measures(&self) -> Measures {
         let (chain, steady) = (self.equation.chain, self.steady);
         let (n, links, steps) = (chain.masses(), &chain.links, steady.mesh.steps());
         let mut rates = Rates::new(chain);
-        let mut accelerations = vec![0.0; n * steps * S];
-        let mut sums = vec![0.0; 3 + 3 * links.len()];
+        // Of accelerations, then drivers, what stages have.
+        let drivers = chain.drivers.len();
+        let mut at_stages = vec![0.0; (n + drivers) * steps * S];
+        let (mut period, mut load_work) = (0.0, 0.0);
+        let (mut drives, mut sums) = (vec![[0.0; 2]; drivers], vec![0.0; 3 * links.len()]);
         for k in 0..steps {
             let h = steady.mesh.length(k);
             for i in 0..S {
                 let (y, row) = (steady.solution.stage(k, i), steady.mesh.rows.row(k * S + i));
                 self.equation.rates(&row, y, &mut rates);
-                for mass in 0..n {
-                    accelerations[(mass * steps + k) * S + i] = rates.acceleration[mass];
+                for (part, &x) in rates.acceleration.iter().chain(&rates.drive).enumerate() {
+                    at_stages[(part * steps + k) * S + i] = x;
                 }
-                let omega = chain.speed(n - 1, y);
-                let dt = h * B[i] / omega;
-                sums[0] += dt;
-                sums[1] += dt * self.drive(y) * chain.speed(chain.driven, y);
-                sums[2] += dt * self.equation.load(&row, omega).value * omega;
-                for (link, sums) in links.iter().zip(sums[3..].chunks_exact_mut(3)) {
+                let dt = h * B[i] / chain.speed(n - 1, y);
+                period += dt;
+                load_work += dt * rates.load_power;
+                for ((sums, torque), driver) in drives.iter_mut().zip(&rates.drive).zip(&chain.drivers) {
+                    sums[0] += dt * torque;
+                    sums[1] += dt * torque * chain.speed(driver.mass, y);
+                }
+                for (link, sums) in links.iter().zip(sums.chunks_exact_mut(3)) {
                     let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
                     sums[0] += dt * torque;
                     sums[1] += dt * torque * torque;
@@ -135,21 +128,25 @@ impl<'a> Reading<'a> {
             }
         }
         let of = |at: &dyn Fn(&[f64]) -> f64| self.of_state(at);
-        let period = sums[0];
-        let part = |k: usize| sums[3..].iter().skip(k).step_by(3).copied();
+        let part = |k: usize| sums.iter().skip(k).step_by(3).copied();
+        let stages = |part: usize| &at_stages[part * steps * S..][..steps * S];
         Measures {
             period,
             speed: (0..n).map(|mass| of(&|y| chain.speed(mass, y))).collect(),
             acceleration: (0..n)
-                .map(|mass| self.acceleration(mass, &accelerations[mass * steps * S..][..steps * S]))
+                .map(|mass| self.of_rates(stages(mass), &|rates| rates.acceleration[mass]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
             torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
             torque_mean: part(0).map(|sum| sum / period).collect(),
             torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
             loss: part(2).collect(),
-            drive_work: sums[1],
-            load_work: sums[2],
+            drive: (0..drivers)
+                .map(|driver| self.of_rates(stages(n + driver), &|rates| rates.drive[driver]))
+                .collect(),
+            drive_mean: drives.iter().map(|sums| sums[0] / period).collect(),
+            drive_work: drives.iter().map(|sums| sums[1]).collect(),
+            load_work,
         }
     }
 
@@ -165,8 +162,8 @@ impl<'a> Reading<'a> {
         })
     }
 
-    /// Extremes of the acceleration of a mass, of which the stages have samples.
-    fn acceleration(&self, mass: usize, at_stages: &[f64]) -> Extremes {
+    /// Extremes of an acceleration or the torque of a driver, of which the stages have samples.
+    fn of_rates(&self, at_stages: &[f64], of: &dyn Fn(&Rates) -> f64) -> Extremes {
         let (steady, chain) = (self.steady, self.equation.chain);
         let (plan, q) = (self.plan(), self.equation.q);
         let mut motion = Motion::new(&plan.mechanism, q);
@@ -180,8 +177,8 @@ impl<'a> Reading<'a> {
             let reduced = plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut motion);
             geometry.clear();
             plan.add_geometry(q, phi, &motion, &mut geometry);
-            self.equation.rates(&Row { reduced, geometry: &geometry }, &y, &mut rates);
-            rates.acceleration[mass]
+            self.equation.rates(&Row { phi, reduced, geometry: &geometry }, &y, &mut rates);
+            of(&rates)
         })
     }
 
@@ -230,6 +227,9 @@ impl<'a> Reading<'a> {
         let (mut y, mut rates) = (vec![0.0; chain.states()], Rates::new(chain));
         let mut found = Curves::default();
         let (mut masses, mut links) = (Vec::new(), Vec::new());
+        let drivers = chain.drivers.len();
+        found.drive = vec![0.0; drivers * phi.len()];
+        let angles = phi.len();
         for (i, &phi) in phi.iter().enumerate() {
             let k = mesh.edges.partition_point(|&edge| edge <= phi).clamp(1, mesh.steps()) - 1;
             let share = (phi - mesh.edges[k]) / mesh.length(k);
@@ -237,8 +237,10 @@ impl<'a> Reading<'a> {
             let row = rows.row(i);
             self.equation.rates(&row, &y, &mut rates);
             found.time.push(times[k] + self.time_within(k, share));
-            found.drive.push(self.drive(&y));
-            found.load.push(self.equation.load(&row, y[chain.states() - 1]).value);
+            for (driver, &torque) in rates.drive.iter().enumerate() {
+                found.drive[driver * angles + i] = torque;
+            }
+            found.load.push(rates.load);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
             links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
         }

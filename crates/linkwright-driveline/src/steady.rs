@@ -3,11 +3,12 @@
 //! Newton's method begins with the crank at one speed, on few steps from kink to kink; steps whose error is too large are divided.
 //! Where it does not converge the motion is followed from cycle to cycle first, which also tells where a machine stalls.
 
-use crate::chain::{Chain, Driver};
+use crate::chain::{Chain, Source};
 use crate::cycle::{Cycle, Stop};
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::mesh::{Mesh, Solution};
+use crate::station::station_kinks;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::radau::{S, value};
@@ -108,11 +109,12 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
         let mut errors = errors(&equation, &mesh, &solution, &scale);
         add_vibration(&mut errors, &mesh, &solution, request);
         reached = errors.iter().copied().fold(0.0, f64::max);
-        if reached <= request.accuracy {
+        let mut kinks = station_kinks(chain, &mesh, &solution);
+        if reached <= request.accuracy && kinks.iter().all(|&kink| mesh.has_edge(kink)) {
             return Ok(Steady { mesh, solution, monodromy, reached, cycles });
         }
-        let speed_kinks = speed_kinks(&equation, &mesh, &solution);
-        let edges = divided(&mesh.edges, &errors, request.accuracy, &speed_kinks);
+        kinks.extend(speed_kinks(&equation, &mesh, &solution));
+        let edges = divided(&mesh.edges, &errors, request.accuracy, &kinks);
         if edges.len() > STEPS_MAX {
             break;
         }
@@ -149,10 +151,11 @@ fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
 /// Where the search begins: the crank at one speed, nothing twisted; and what twists and speeds are measured with before anything is
 /// known, a radian and the speed.
 fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
-    let speed = match chain.driver {
-        Driver::Motor => request.speed,
-        Driver::Held(speed) => speed,
-    };
+    let held = chain.drivers.iter().find_map(|driver| match driver.source {
+        Source::Held(speed) => Some(speed),
+        _ => None,
+    });
+    let speed = held.unwrap_or(request.speed);
     let (m, others) = (chain.states(), chain.masses() - 1);
     let start = (0..m).map(|r| if r + 1 < m { 0.0 } else { speed }).collect();
     let scale = (0..m).map(|r| if r < others { 1.0 } else { speed }).collect();
@@ -281,16 +284,11 @@ fn divided(edges: &[f64], errors: &[f64], accuracy: f64, kinks: &[f64]) -> Vec<f
     finer
 }
 
-/// Crank angles at which the motor, or the crank, passes a speed at which its characteristic has a kink.
+/// Crank angles at which a mass passes a speed at which a characteristic of its motor, or a load over its speed, has a kink.
 fn speed_kinks(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) -> Vec<f64> {
-    let (chain, drive) = (equation.chain, &equation.plan.drive);
-    let speeds: Vec<f64> = drive.speed_kinks(&equation.plan.tables, equation.q);
-    if speeds.is_empty() {
-        return Vec::new();
-    }
+    let (chain, others) = (equation.chain, equation.chain.masses() - 1);
     let mut found = Vec::new();
-    let others = chain.masses() - 1;
-    for mass in [chain.driven, others] {
+    for (mass, speeds) in speeds_with_kinks(equation) {
         for k in 0..mesh.steps() {
             let mut speed = solution.quintic(k, chain.states() - 1);
             if mass < others {
@@ -305,6 +303,27 @@ fn speed_kinks(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) -> Vec
             }
         }
     }
+    found
+}
+
+/// Masses with the speeds at which what acts on them has a kink.
+fn speeds_with_kinks(equation: &Equation<'_>) -> Vec<(usize, Vec<f64>)> {
+    let chain = equation.chain;
+    let of = |plan: &Plan, q: &[f64]| plan.drive.speed_kinks(&plan.tables, q);
+    let own: Vec<f64> = of(equation.plan, equation.q);
+    let mut found = vec![(chain.masses() - 1, own.clone())];
+    for driver in &chain.drivers {
+        match &driver.source {
+            Source::Own => found.push((driver.mass, own.clone())),
+            Source::Motor(part) => found.push((driver.mass, of(&part.plan, &part.q))),
+            Source::Held(_) | Source::Power { .. } => {}
+        }
+    }
+    for station in &chain.stations {
+        let speeds = of(&station.part.plan, &station.part.q);
+        found.push((station.mass, speeds.into_iter().map(|speed| speed / station.ratio).collect()));
+    }
+    found.retain(|(_, speeds)| !speeds.is_empty());
     found
 }
 

@@ -7,7 +7,8 @@ stiffness k and damping c; the last one is the mechanism, with its reduced inert
     J(\varphi)\,\ddot\varphi + \tfrac12 J'(\varphi)\,\dot\varphi^2 = T - M_r(\varphi, \dot\varphi), \qquad
     T = k\,\Delta + c\,\dot\Delta
 
-The solution that repeats after every cycle of the crank is found by Newton's method on all stages of a
+A train may have several motors, loads over the speed, and several mechanisms, the further ones at angles that
+the twists have part in. The solution that repeats after every cycle of the crank is found by Newton's method on all stages of a
 collocation, not by waiting; the eigenvalues of the monodromy matrix are its Floquet multipliers.
 """
 
@@ -22,6 +23,7 @@ from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.steady_state import require_accuracy
 from linkwright.driveline.chain import Chain, chain_of, fastest
+from linkwright.driveline.train_chain import driven_train
 from linkwright.driveline.permitted import TorqueJudgement, judged
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
@@ -63,6 +65,8 @@ class ElasticMotion(Result):
         tuple[str, ...], About("What turns, from the motor on; the mechanism is on the crank.")
     ]
     shafts: Annotated[tuple[str, ...], About("What twists, from the motor on.")]
+    motors: Annotated[tuple[str, ...], About("What drives: the motor, or motors and drivers of a train.")]
+    crank: Annotated[str, About("Station whose crank angle counts; of a train that of the first mechanism.")]
     ratio: Annotated[Floats, Label("speed over that of the crank", "i", "", shape="(stations,)")]
     speed: Annotated[Floats, Label("speed of each station", "ω", "rad/s", shape="(stations, n + 1)")]
     acceleration: Annotated[
@@ -72,7 +76,29 @@ class ElasticMotion(Result):
     twist: Annotated[Floats, Label("twist of each shaft", "Δ", "rad", _OWN, shape="(shafts, n + 1)")]
     torque_drive: Annotated[
         Floats,
-        Label("driving torque referred to the crank", "M_d", "N m", "Of the motor, behind the gearbox."),
+        Label("driving torque referred to the crank", "M_d", "N m", "Of all motors, behind the gearbox."),
+    ]
+    torque_motor: Annotated[
+        Floats,
+        Label(
+            "torque of each motor",
+            "M_m",
+            "N m",
+            "At its own speed, less gear losses.",
+            shape="(motors, n + 1)",
+        ),
+    ]
+    torque_motor_min: Annotated[
+        Floats, Label("minimum torque of each motor", "M_m,min", "N m", shape="(motors,)")
+    ]
+    torque_motor_max: Annotated[
+        Floats, Label("maximum torque of each motor", "M_m,max", "N m", shape="(motors,)")
+    ]
+    torque_motor_mean: Annotated[
+        Floats, Label("mean torque of each motor", "M_m,m", "N m", "Over time.", shape="(motors,)")
+    ]
+    power_motor: Annotated[
+        Floats, Label("mean power of each motor", "P_m", "W", "Less gear losses.", shape="(motors,)")
     ]
     torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m")]
     speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s", shape="(stations,)")]
@@ -196,7 +222,7 @@ class ElasticMotion(Result):
         results = super().to_dict(curves=curves)
         results["multipliers"] = [[float(each.real), float(each.imag)] for each in self.multipliers]
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
-        names = {"(shafts,)": self.shafts, "(stations,)": self.stations}
+        names = {"(shafts,)": self.shafts, "(stations,)": self.stations, "(motors,)": self.motors}
         for name, (_, mark) in declared(type(self)).items():
             if isinstance(mark, Label) and mark.shape in names:
                 values = getattr(self, name)
@@ -216,7 +242,8 @@ def elastic_motion(
     Parameters
     ----------
     machine : Machine
-        With a mechanism, a motor, and a [drive] of which something twists.
+        With a mechanism, a motor, and a [drive] of which something twists; or with a [train] that has
+        mechanisms and motors.
     accuracy : float
         Relative accuracy of speeds and twists, down to 1e-13.
     n : int
@@ -246,34 +273,41 @@ def elastic_motion(
     ----------
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
-    drive = machine.drive
-    if drive is None or not drive.twists:
-        raise InputError(
-            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}"
-        )
-    if drive.motor is None:
-        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     require_accuracy(accuracy)
-    compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
-    compiled = over_whole_cycle(compiled)
-    require_same_turns(machine)
-    require_sound_loads(compiled, machine)
-    chain = chain_of(machine)
-    motion = _solved(compiled, chain, accuracy)
+    compiled, chain, speed = driven_chain(machine)
+    motion = _solved(compiled, chain, accuracy, speed)
     multipliers = _multipliers(motion, chain)
     if abs(multipliers[0]) >= 1:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, _AWAY))
+        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, _AWAY))
         if isinstance(other, DrivelineMotion):
             motion, multipliers = other, _multipliers(other, chain)
     phi = turn_angles(n, compiled.turns) if angles is None else angles
     return _result(machine, motion, chain, phi, compiled.turns, multipliers)
 
 
-def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, Any]:
+def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
+    """The mechanism at the crank over a cycle, the driveline, and the speed with which the search begins."""
+    if machine.train is not None and machine.train.mechanisms:
+        return driven_train(machine)
+    drive = machine.drive
+    if drive is None or not drive.twists:
+        raise InputError(
+            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}, or "
+            "[train.mechanisms] and [train.motors]"
+        )
+    if drive.motor is None:
+        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
+    compiled = compile_machine(machine)
+    require_full_turn(compiled, machine)
+    compiled = over_whole_cycle(compiled)
+    require_same_turns(machine)
+    require_sound_loads(compiled, machine)
+    return compiled, chain_of(machine), compiled.speed_guess
+
+
+def _search(compiled: CompiledMachine, chain: Chain, speed: float, cycles: int) -> dict[str, Any]:
     """Where the search begins, and for how long it follows the motion."""
-    speed = compiled.speed_guess
     period = compiled.cycle / speed
     inertia = compiled.reductions(turn_angles(_ANGLES, compiled.turns)).inertia.min()
     return {
@@ -284,15 +318,15 @@ def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, A
     }
 
 
-def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float) -> DrivelineMotion:
-    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, 0))
+def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float) -> DrivelineMotion:
+    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, 0))
     if isinstance(motion, NoDrivelineMotion):
-        raise _failure(motion, compiled, chain, accuracy)
+        raise _failure(motion, compiled, chain, accuracy, speed)
     return motion
 
 
 def _failure(
-    motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain, accuracy: float
+    motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float
 ) -> Exception:
     angles = turn_angles(360, compiled.turns)
     if not (compiled.reductions(angles).inertia - chain.links["apart"]).min() > 0:
@@ -300,7 +334,7 @@ def _failure(
     if motion.reason == "stops":
         turned = motion.crank_angle / (2 * np.pi)
         return SteadyStateError(
-            f"no steady motion of the elastic driveline: started at {compiled.speed_guess:.4g} rad/s, the "
+            f"no steady motion of the elastic driveline: started at {speed:.4g} rad/s, the "
             f"crank comes to rest or turns back after {turned:.4g} revolutions, at φ = "
             f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
             "larger flywheel or motor, or follow the motion in time (torsion_transient)"
@@ -325,7 +359,7 @@ def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
     """From the largest on; without that by which a motor of constant speed keeps its speed."""
     found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
     found = found[np.argsort(-np.abs(found), kind="stable")]
-    multipliers: Complexes = found if chain.links["held"] is None else found[:-1]
+    multipliers: Complexes = found if chain.held is None else found[:-1]
     return multipliers
 
 
@@ -333,18 +367,25 @@ def _result(
     machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int, multipliers: Complexes
 ) -> ElasticMotion:
     curves = motion.curves(np.ascontiguousarray(phi, dtype=np.float64))
-    at, ratio, lead = chain.mass, chain.ratio, chain.lead
+    at, ratio, lead, of_motor = chain.mass, chain.ratio, chain.lead, chain.motor_ratio
     found = ElasticMotion(
         crank_angle=phi,
         time=curves.time,
         stations=chain.stations,
         shafts=chain.shafts,
+        motors=chain.motors,
+        crank=chain.crank,
         ratio=ratio,
         speed=ratio[:, None] * curves.speed[at],
         acceleration=ratio[:, None] * curves.acceleration[at],
         torque=curves.torque / lead[:, None],
         twist=curves.twist * lead[:, None],
-        torque_drive=curves.torque_drive,
+        torque_drive=curves.torque_drive.sum(axis=0),
+        torque_motor=curves.torque_drive / of_motor[:, None],
+        torque_motor_min=motion.torque_drive.least / of_motor,
+        torque_motor_max=motion.torque_drive.greatest / of_motor,
+        torque_motor_mean=motion.torque_drive_mean / of_motor,
+        power_motor=motion.energy_drive / motion.period,
         torque_load=curves.torque_load,
         speed_min=ratio * motion.speed.least[at],
         speed_max=ratio * motion.speed.greatest[at],
@@ -363,7 +404,7 @@ def _result(
         power_dissipated=motion.loss / motion.period,
         period=motion.period,
         multipliers=multipliers,
-        energy_drive=motion.energy_drive / turns,
+        energy_drive=float(motion.energy_drive.sum()) / turns,
         energy_load=motion.energy_load / turns,
         accuracy=motion.accuracy,
         steps=motion.steps,

@@ -66,13 +66,27 @@ def judged(machine: Machine, motion: ElasticMotion) -> ElasticMotion:
 
 
 def _judgements(machine: Machine, motion: ElasticMotion) -> Iterator[TorqueJudgement]:
-    assert machine.drive is not None
-    for name, shaft in ((MOTOR_SHAFT, machine.drive.motor_shaft), (CRANKSHAFT, machine.drive.crankshaft)):
-        if shaft is None or shaft.limit is None:
+    for name, part in _limited(machine):
+        if name not in motion.shafts:
             continue
         at = motion.shafts.index(name)
         peak, vibratory = float(motion.torque_peak[at]), float(motion.torque_vibratory[at])
-        if shaft.limit.torque_permitted is not None:
-            yield TorqueJudgement(name, "torque", peak, shaft.limit.torque_permitted)
-        if shaft.limit.vibratory_torque_permitted is not None:
-            yield TorqueJudgement(name, "vibratory torque", vibratory, shaft.limit.vibratory_torque_permitted)
+        permitted = getattr(part, "torque_permitted", None)
+        if permitted is not None:
+            yield TorqueJudgement(name, "torque", peak, permitted)
+        permitted = getattr(part, "vibratory_torque_permitted", None)
+        if permitted is not None:
+            yield TorqueJudgement(name, "vibratory torque", vibratory, permitted)
+
+
+def _limited(machine: Machine) -> Iterator[tuple[str, Any]]:
+    """Shafts with the limit that they have; couplings and gears have theirs themselves."""
+    drive, train = machine.drive, machine.train
+    if train is not None and train.mechanisms:
+        yield from ((name, shaft.limit) for name, shaft in train.shafts.items())
+        yield from train.couplings.items()
+        yield from train.gears.items()
+    elif drive is not None:
+        for name, shaft in ((MOTOR_SHAFT, drive.motor_shaft), (CRANKSHAFT, drive.crankshaft)):
+            if shaft is not None:
+                yield name, shaft.limit

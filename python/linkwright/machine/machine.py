@@ -243,9 +243,11 @@ def _faults_of_train(machine: object, train: object) -> Iterator[InitErrorDetail
     if train is not None:
         from linkwright.torsion.model.drive_train import two_trains
         from linkwright.torsion.model.train_faults import train_faults
+        from linkwright.torsion.model.train_mechanism import mechanism_faults
 
         yield from train_faults(train)
         yield from two_trains(machine)
+        yield from mechanism_faults(machine)
 
 
 def _faults_of_unit(machine: object) -> Iterator[InitErrorDetails]:

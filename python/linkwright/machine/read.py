@@ -160,6 +160,16 @@ def loads_as(
             from linkwright.axes.model.axis_catalogue import with_servo_motors_of_files
 
             with_servo_motors_of_files(tables, Path(path).parent, allow_outside=allow_outside)
+        if "train" in tables:
+            from linkwright.machine.train_machines import with_machines_of_train
+
+            with_machines_of_train(
+                tables,
+                Path(path).parent,
+                lambda file: tables_of(_text(file, "a machine file"), str(file)),
+                lambda file: read_as(Machine, file, allow_outside=allow_outside),
+                allow_outside=allow_outside,
+            )
         with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         described = model.model_validate(tables)

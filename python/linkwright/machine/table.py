@@ -27,7 +27,7 @@ _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 # Tables of a train, in the order of the report.
 _TRAIN = (
     *("engines", "discs", "shafts", "gears", "planetaries", "couplings", "dampers", "pendulums"),
-    *("drivers", "loads", "excitations"),
+    *("motors", "mechanisms", "drivers", "loads", "excitations"),
 )
 
 # Significant digits of what a file gives: no fewer than it has, as a rule.

@@ -10,6 +10,7 @@
 //! | `train` | masses, links and torques of a train in motion |
 
 pub(crate) mod drive;
+pub(crate) mod driveline;
 pub(crate) mod elements;
 pub(crate) mod loads;
 pub(crate) mod numbers;

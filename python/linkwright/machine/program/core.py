@@ -51,6 +51,8 @@ SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
 DrivelineMotion = _core.DrivelineMotion
 NoDrivelineMotion = _core.NoDrivelineMotion
+DrivelineTorque = _core.DrivelineTorque
+DrivelineStation = _core.DrivelineStation
 motion_at = _core.motion_at
 
 # Systems of equations of one shape.

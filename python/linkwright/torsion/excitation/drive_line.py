@@ -53,8 +53,26 @@ _STEP = 1e-5
 
 
 def train_of(machine: Machine) -> Train:
-    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline."""
-    return whole_train(drive_line(machine) if machine.train is None else machine.train)
+    """The train of a machine, as discs, shafts and gears: that of its file, or that of its driveline.
+
+    A mechanism counts with its mean inertia.
+    """
+    if machine.train is None:
+        return whole_train(drive_line(machine))
+    whole = whole_train(machine.train)
+    discs = dict(whole.discs)
+    for name, mechanism in machine.train.mechanisms.items():
+        disc = discs[mechanism.on]
+        inertia = disc.inertia + mean_inertia(mechanism_of(machine, name))
+        discs[mechanism.on] = disc.model_copy(update={"inertia": inertia})
+    return whole.model_copy(update={"discs": discs}) if machine.train.mechanisms else whole
+
+
+def mechanism_of(machine: Machine, name: str) -> Machine:
+    """The machine that a mechanism of a train is: that of its file, or the mechanism beside the train."""
+    assert machine.train is not None
+    mounted: Machine | None = machine.train.mechanisms[name].machine
+    return machine.with_entries({"train": None}) if mounted is None else mounted
 
 
 @public

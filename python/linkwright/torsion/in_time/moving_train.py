@@ -17,6 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.core.curve import Curve, odd, product, straight, switched
 from linkwright.kernel.core.curve import smooth as smooth_curve
@@ -82,6 +83,11 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
         found, expected = f"the pendulum {next(iter(train.pendulums))}", "none in a motion in time"
         remedy = "leave [train.transient] out; forced vibration has pendulums"
         raise MachineError([Problem("train.transient", found, expected, remedy)])
+    _require_motors_of_torque(manoeuvre)
+    if train.mechanisms:
+        found, expected = f"the mechanism {next(iter(train.mechanisms))}", "none in a motion in time"
+        remedy = "leave [train.transient] out; steady motion (elastic_motion) has mechanisms"
+        raise MachineError([Problem("train.transient", found, expected, remedy)])
     if referred.twist is not None:
         name = next(name for name, gear in expanded.gears.items() if gear.carrier)
         remedy = "leave [train.transient] out; modes and forced vibration have such stages"
@@ -113,6 +119,13 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
         notes=notes,
     )
+
+
+def _require_motors_of_torque(manoeuvre: TrainTransient) -> None:
+    for name, motor in manoeuvre.motors.items():
+        if isinstance(motor.motor, ConstantSpeedMotor):
+            expected = "a motor whose torque follows its speed, to move in time"
+            raise MachineError([Problem(f"train.motors.{name}.motor.kind", "constant_speed", expected)])
 
 
 def _ratios(referred: ReferredTrain, *, by_mode: bool) -> Floats:

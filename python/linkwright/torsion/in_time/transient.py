@@ -229,7 +229,8 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         train, manoeuvre = moving_drive(machine, manoeuvre)
         moved = _followed(train, manoeuvre, manoeuvre.speed)
     else:
-        moved = _train_moved(machine.train, manoeuvre)
+        motors = {**machine.train.motors, **manoeuvre.motors}
+        moved = _train_moved(machine.train, manoeuvre.model_copy(update={"motors": motors}))
     notes = (*moved.notes, *unjudged(machine, moved))
     return replace(moved, judgements=judged(machine, moved), notes=notes)
 

@@ -49,6 +49,7 @@ from linkwright.torsion.model.train_base import (
     PositiveStiffness,
     PositiveTorque,
 )
+from linkwright.torsion.model.train_mechanism import TrainMechanism
 from linkwright.torsion.model.train_torques import (
     Excitation,
     InstalledEngine,
@@ -56,7 +57,7 @@ from linkwright.torsion.model.train_torques import (
     TrainEngine,
     TrainLoad,
 )
-from linkwright.torsion.model.train_transient import TrainTransient
+from linkwright.torsion.model.train_transient import TrainMotor, TrainTransient
 
 _BELOW = "a ratio from 0 to below 1, for an oscillatory mode"
 
@@ -467,6 +468,15 @@ class Train(Description):
         default_factory=dict,
         description="Several turbines or motors that drive the loads, by name, instead of one driver.",
     )
+    motors: dict[Name, TrainMotor] = Field(
+        default_factory=dict,
+        description="Motors by name, for steady motion and motion in time; their inertias belong to the discs.",
+    )
+    mechanisms: dict[Name, TrainMechanism] = Field(
+        default_factory=dict,
+        description="Mechanisms by name, with their inertia and loads at every crank angle; the crank angle of "
+        "the first one counts the motion.",
+    )
     inertia: ShaftInertia = Field(
         "ends",
         description='Inertia of shafts with a density or own_inertia, unless the shaft states it: "ends" '
@@ -513,7 +523,9 @@ class Train(Description):
             return {}
         sharing = [driver for driver in self.drivers.values() if driver.torque is None]
         if not sharing:
-            return {} if self.drivers else {self.driver or next(iter(self.discs)): 1.0}
+            driving = [self.driver] if self.driver else [motor.on for motor in self.motors.values()]
+            driving = driving or [next(iter(self.discs))]
+            return {} if self.drivers else {on: driving.count(on) / len(driving) for on in driving}
         total = sum(driver.share for driver in sharing)
         shares: dict[str, float] = {}
         for driver in sharing:

@@ -21,7 +21,7 @@ from linkwright.torsion.model.whole_train import Contradiction, RodShaft, parts_
 _TABLES = ("shafts", "couplings", "gears")
 _MEMBERS = ("sun", "ring", "carrier")
 _NUMBERS = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
-_ON = ("dampers", "pendulums", "loads", "excitations", "drivers")
+_ON = ("dampers", "pendulums", "loads", "excitations", "drivers", "motors", "mechanisms")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -62,6 +62,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
             yield _no_throw(error)
             return
         yield from _speed_faults(train, expanded)
+        yield from _motor_faults(train)
         yield from transient_faults(train, (*discs, *train.dampers, *train.pendulums))
 
 
@@ -156,6 +157,14 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
     yield from _seat_faults(train, discs)
 
 
+def _motor_faults(train: Train) -> Iterator[InitErrorDetails]:
+    """Motors of the train and of its manoeuvre of one name."""
+    for name in train.transient.motors if train.transient is not None else ():
+        if name in train.motors:
+            expected = "another name than that of a motor in [train.motors]"
+            yield fault("train", "transient", "motors", name, found=name, expected=expected)
+
+
 def _member_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetails]:
     """Members of planetary stages and carriers of gears that are no discs."""
     for table, members in (("planetaries", _MEMBERS), ("gears", ("carrier",))):
@@ -244,7 +253,7 @@ def _speed_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:
         found = f"no speed of {_listed(undetermined)} relative to {next(iter(expanded.discs))}"
         remedy = "hold a member by a shaft to the ground, or give carrier_speed of the stage"
         yield fault("train", found=found, expected="one speed of every disc", remedy=remedy)
-    for table in ("loads", "excitations", "drivers"):
+    for table in ("loads", "excitations", "drivers", "motors", "mechanisms"):
         for name, entry in getattr(train, table).items():
             if turning[entry.on] == 0:
                 expected = "a disc that turns with the train"

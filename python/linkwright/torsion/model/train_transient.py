@@ -21,7 +21,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.drive.model.motor import ConstantTorqueMotor, DcMotor, InductionMotor, TableMotor
+from linkwright.drive.model.motor import (
+    ConstantSpeedMotor,
+    ConstantTorqueMotor,
+    DcMotor,
+    InductionMotor,
+    TableMotor,
+)
 from linkwright.kernel.description.base import (
     CheckedDescription,
     Description,
@@ -162,7 +168,8 @@ AnyTrainEvent = Annotated[
 
 
 TrainDrive = Annotated[
-    InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor, Field(discriminator="kind")
+    InductionMotor | DcMotor | TableMotor | ConstantTorqueMotor | ConstantSpeedMotor,
+    Field(discriminator="kind"),
 ]
 
 
@@ -213,7 +220,9 @@ class TrainTransient(CheckedDescription):
         description="Speed for which the gas torques over the crank angle are computed. Default: the "
         "initial speed, or the service speed.",
     )
-    motors: dict[Name, TrainMotor] = Field(default_factory=dict, description="Motors by name.")
+    motors: dict[Name, TrainMotor] = Field(
+        default_factory=dict, description="Motors of the manoeuvre alone, beside those of [train.motors]."
+    )
     events: tuple[AnyTrainEvent, ...] = Field((), description="Events of the manoeuvre.")
     sample_time: Annotated[float, positive(TIME)] | None = Field(
         None, description="Sampling interval of the result. Default: at most 0.5 ms."
@@ -257,6 +266,7 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
     manoeuvre = train.transient
     if manoeuvre is None:
         return
+    motors = {**train.motors, **manoeuvre.motors}
     for name, motor in manoeuvre.motors.items():
         yield from _unknown(motor.on, discs, "disc", "motors", name, "on")
     twisting = [name for table in (train.shafts, train.couplings) for name in table]
@@ -269,7 +279,7 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
             case LoadStep(load=load):
                 yield from _unknown(load, train.loads, "load", "events", n, "load")
             case MotorSwitch(motor=name):
-                yield from _unknown(name, manoeuvre.motors, "motor", "events", n, "motor")
+                yield from _unknown(name, motors, "motor", "events", n, "motor")
             case Misfire() | FuelSwitch():
                 yield from _engine_faults(train, event, n)
             case _:
