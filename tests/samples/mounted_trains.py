@@ -85,7 +85,9 @@ def random_train(rng: Generator, ratio: float) -> MountedTrain:
     k = (omega * 10 ** rng.uniform(0.5, 1.6, 4)) ** 2 * swing / own**2
     c = 2 * rng.uniform(0.03, 0.3, 4) * np.sqrt(k * swing) / own
     fan = float(rng.choice([0.0, 0.2])) * swing
-    mean = sum(_mean(one, omega * n) * n for one, n in zip(cranks, (1.0, ratio), strict=True)) + fan * omega**2
+    mean = (
+        sum(_mean(one, omega * n) * n for one, n in zip(cranks, (1.0, ratio), strict=True)) + fan * omega**2
+    )
     no_load = omega * rng.uniform(1.1, 1.25, 2)
     share = rng.uniform(0.3, 0.7)
     stall = mean * np.array([share, 1 - share]) / (1 - omega / no_load)

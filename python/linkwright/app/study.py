@@ -188,7 +188,7 @@ def study(machine: Machine, *, accuracy: float = 1e-10, step: float | None = Non
     require_accuracy(accuracy)
     if step is not None:
         whole_steps(step)
-    if machine.is_train_alone:
+    if machine.is_train_alone and not machine.has_mounted_mechanisms:
         # Nothing but torsional vibration, which is a study of its own: the error says so.
         compile_machine(machine)
     known, findings = Study(machine, accuracy, step), Findings()

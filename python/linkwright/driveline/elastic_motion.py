@@ -7,9 +7,10 @@ stiffness k and damping c; the last one is the mechanism, with its reduced inert
     J(\varphi)\,\ddot\varphi + \tfrac12 J'(\varphi)\,\dot\varphi^2 = T - M_r(\varphi, \dot\varphi), \qquad
     T = k\,\Delta + c\,\dot\Delta
 
-A train may have several motors, loads over the speed, and several mechanisms, the further ones at angles that
-the twists have part in. The solution that repeats after every cycle of the crank is found by Newton's method on all stages of a
-collocation, not by waiting; the eigenvalues of the monodromy matrix are its Floquet multipliers.
+A train may have several motors, loads over the speed, and several mechanisms, the further ones at angles in
+which the twists have a part. The solution that repeats after every cycle of the crank is found by Newton's
+method on all stages of a collocation, not by waiting; the eigenvalues of the monodromy matrix are its Floquet
+multipliers.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.steady_state import require_accuracy
 from linkwright.driveline.chain import Chain, chain_of, fastest
-from linkwright.driveline.train_chain import driven_train
 from linkwright.driveline.permitted import TorqueJudgement, judged
+from linkwright.driveline.train_chain import driven_train
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
@@ -288,7 +289,7 @@ def elastic_motion(
 
 def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
     """The mechanism at the crank over a cycle, the driveline, and the speed with which the search begins."""
-    if machine.train is not None and machine.train.mechanisms:
+    if machine.has_mounted_mechanisms:
         return driven_train(machine)
     drive = machine.drive
     if drive is None or not drive.twists:

@@ -82,7 +82,7 @@ def _judgements(machine: Machine, motion: ElasticMotion) -> Iterator[TorqueJudge
 def _limited(machine: Machine) -> Iterator[tuple[str, Any]]:
     """Shafts with the limit that they have; couplings and gears have theirs themselves."""
     drive, train = machine.drive, machine.train
-    if train is not None and train.mechanisms:
+    if train is not None:
         yield from ((name, shaft.limit) for name, shaft in train.shafts.items())
         yield from train.couplings.items()
         yield from train.gears.items()

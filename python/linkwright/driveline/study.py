@@ -8,14 +8,15 @@ import numpy as np
 
 from linkwright.drive.obstacles import no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
-from linkwright.driveline.chain import chain_of
+from linkwright.driveline.chain import Chain, chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
+from linkwright.driveline.train_chain import train_chain
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.machine.analysis import Obstacle, Results
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import refer
-from linkwright.torsion.excitation.drive_line import drive_line
+from linkwright.torsion.excitation.drive_line import train_of
 
 # Share by which a natural frequency may differ from an order of the crank speed and still be excited by it.
 _NEAR = 0.05
@@ -34,33 +35,45 @@ _REVERSED = 0.01
 
 
 def has_elastic_drive(machine: Machine) -> bool:
-    """Whether a mechanism stands behind a torsionally flexible driveline."""
+    """Whether a mechanism stands behind a torsionally flexible driveline, or on a train."""
+    if machine.has_mounted_mechanisms:
+        return True
     return machine.drive is not None and machine.drive.twists and machine.has_crank
 
 
 def no_elastic_motion(machine: Machine) -> Obstacle | None:
     """A machine whose driveline is rigid, or without a motor."""
-    return no_shaft(machine)
+    if machine.train is None or not machine.has_mounted_mechanisms:
+        return no_shaft(machine)
+    is_driven = machine.train.motors or machine.train.drivers
+    return None if is_driven else Obstacle("The train has no motor: give [train.motors].")
 
 
 def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | None:
     """Steady motion of an elastic driveline under a motor."""
-    if known.reduction is None or not has_motor(known.machine):
+    is_driven = no_elastic_motion(known.machine) is None
+    if not known.machine.has_mounted_mechanisms:
+        is_driven = known.reduction is not None and has_motor(known.machine)
+    if not is_driven:
         return None
     return findings.of(elastic_motion, known.machine, n=INTERVALS)
 
 
 def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:
-    """Whether every station of the driveline has an inertia."""
-    findings.of(chain_of, machine)
+    """Whether every station of the driveline has an inertia, and every mechanism a full revolution."""
+    findings.of(_chain, machine)
     yield "driveline: inertia of every station"
 
 
 def driveline_summary(machine: Machine) -> Iterator[tuple[str, str]]:
     """Names of stations and shafts."""
-    chain = chain_of(machine)
+    chain = _chain(machine)
     yield "stations", ", ".join(chain.stations)
     yield "flexible shafts", ", ".join(chain.shafts)
+
+
+def _chain(machine: Machine) -> Chain:
+    return train_chain(machine) if machine.has_mounted_mechanisms else chain_of(machine)
 
 
 def elastic_warnings(known: Results) -> Iterator[str]:
@@ -86,7 +99,7 @@ def _resonance(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
     """Natural frequencies by the mean inertia near orders of the crank, where disturbances last."""
     if motion.multiplier_max < _BUILDS_UP:
         return
-    omega, _ = refer(drive_line(machine)).modes()
+    omega, _ = refer(train_of(machine)).modes()
     for one in omega[omega > 0]:
         order = float(one) / motion.speed_mean_time * motion.turns
         nearest = round(order)
@@ -111,7 +124,7 @@ def _fluctuation(known: Results, motion: ElasticMotion) -> Iterator[str]:
     rigid = known.steady_state
     if rigid is None or not rigid.unevenness_time > 0:
         return
-    own = float(motion.unevenness[motion.stations.index("crank")])
+    own = float(motion.unevenness[motion.stations.index(motion.crank)])
     if own > _GROWS * rigid.unevenness_time:
         yield (
             f"With the elastic driveline the speed of the crank fluctuates by δ = {number(own)}, with a "

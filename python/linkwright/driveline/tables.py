@@ -20,9 +20,10 @@ def elastic_headline(motion: ElasticMotion) -> Iterator[tuple[str, str, str]]:
 
 
 def elastic_tables(motion: ElasticMotion) -> Iterator[Table]:
-    """Torques of the shafts, motion of the stations, energy and stability, limits."""
+    """Torques of the shafts, motion of the stations, motors, energy and stability, limits."""
     yield _shafts(motion)
     yield _stations(motion)
+    yield _motors(motion)
     heads = ("quantity", "", "value", "")
     yield Table(
         "elastic_motion", "Elastic driveline: cycle and stability", heads, rows_in(motion, "elastic_motion")
@@ -70,6 +71,13 @@ def _stations(motion: ElasticMotion) -> Table:
     cells = ("name", "", "speed_min", "speed_max", "unevenness", "acceleration_min", "acceleration_max")
     title = "Elastic driveline: motion of the stations"
     return part_table("elastic_stations", title, parts_of(motion, "stations"), heads, *cells)
+
+
+def _motors(motion: ElasticMotion) -> Table:
+    heads = ("motor", "", "minimum torque", "maximum torque", "mean torque", "mean power")
+    cells = ("name", "", "torque_motor_min", "torque_motor_max", "torque_motor_mean", "power_motor")
+    title = "Elastic driveline: torques of the motors, less gear losses"
+    return part_table("elastic_motors", title, parts_of(motion, "motors"), heads, *cells)
 
 
 def _limits(motion: ElasticMotion) -> Table:

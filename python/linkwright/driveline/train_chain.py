@@ -193,8 +193,8 @@ def _drivers(
     for name, driver in train.drivers.items():
         if driver.torque is None:
             raise InputError(
-                f"train.drivers.{name}.torque: found nothing, expected the torque of a driver in steady motion "
-                "with mechanisms; give it, or describe the motor as [train.motors]"
+                f"train.drivers.{name}.torque: found nothing, expected the torque of a driver in steady "
+                "motion with mechanisms; give it, or describe the motor as [train.motors]"
             )
         yield name, _power(place[driver.on], driver.torque, driver.speed or 1.0, driver.exponent)
     if not (train.motors or train.drivers):
@@ -263,8 +263,8 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
             return float(speeds[k] + share * (speeds[k + 1] - speeds[k]))
         if not (net > 0).any():
             raise SteadyStateError(
-                f"no steady motion of the train: up to {highest:.4g} rad/s of the first crank the mean torque "
-                f"of the loads exceeds that of the motors, at {speeds[net.argmax()]:.4g} rad/s by "
+                f"no steady motion of the train: up to {highest:.4g} rad/s of the first crank the mean "
+                f"torque of the loads exceeds that of the motors, at {speeds[net.argmax()]:.4g} rad/s by "
                 f"{-net.max():.4g} N m; choose larger motors or smaller loads"
             )
         highest *= 2

@@ -188,6 +188,11 @@ class Machine(WholeDescription):
         return self.train is not None and self.pumping_unit is None and _is_left_out(self)
 
     @property
+    def has_mounted_mechanisms(self) -> bool:
+        """Whether mechanisms stand on discs of its train."""
+        return self.train is not None and bool(self.train.mechanisms)
+
+    @property
     def is_topper_alone(self) -> bool:
         """Whether it is a topper whose knife moves by a law, and nothing else."""
         return self.topper is not None and self.pumping_unit is None and _is_left_out(self)

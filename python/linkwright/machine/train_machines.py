@@ -21,8 +21,8 @@ def with_machines_of_train(
 ) -> None:
     """Put the machine of each file that a mechanism of a train names in its place; `tables` is changed.
 
-    `tables_of_file`, `read`: tables of a machine file, and its machine. Raises MachineFileError: the file lies
-    outside, cannot be read, describes no machine, or has a train itself.
+    `tables_of_file`, `read`: tables of a machine file, and its machine. Raises MachineFileError: the file
+    lies outside, cannot be read, describes no machine, or has a train itself.
     """
     listed = look(tables.get("train"), "mechanisms")
     for name, entry in listed.items() if isinstance(listed, dict) else ():

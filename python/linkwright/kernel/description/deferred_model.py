@@ -16,6 +16,7 @@ class DeferredModel:
 
     module: str  # name of the module below the package
     name: str  # name of the model in it
+    is_file: bool = False  # whether a machine file names a file that describes it, in its place
 
     def model(self) -> type[BaseModel]:
         """The model, imported now."""
@@ -29,7 +30,9 @@ class DeferredModel:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        """That of the model, once for all places that it has."""
+        """That of the model, once for all places that it has; a text where a file is named."""
+        if self.is_file:
+            return {"type": "string"}
         model = self.model()
         model.model_rebuild()
         core: Any = dict(model.__pydantic_core_schema__)

@@ -470,12 +470,12 @@ class Train(Description):
     )
     motors: dict[Name, TrainMotor] = Field(
         default_factory=dict,
-        description="Motors by name, for steady motion and motion in time; their inertias belong to the discs.",
+        description="Motors by name, for steady motion and motion in time; the discs have their inertias.",
     )
     mechanisms: dict[Name, TrainMechanism] = Field(
         default_factory=dict,
-        description="Mechanisms by name, with their inertia and loads at every crank angle; the crank angle of "
-        "the first one counts the motion.",
+        description="Mechanisms by name, with their inertia and loads at every crank angle; motion is "
+        "counted by the crank angle of the first one.",
     )
     inertia: ShaftInertia = Field(
         "ends",

@@ -18,7 +18,7 @@ from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.units.marks import Angle
 
 # A whole machine, which is described above the parts of a train.
-MachineOfFile = Annotated[Any, DeferredModel("machine.machine", "Machine")]
+MachineOfFile = Annotated[Any, DeferredModel("machine.machine", "Machine", is_file=True)]
 
 
 class TrainMechanism(Description):
