@@ -65,6 +65,18 @@ class MountedTrain:
     no_load: np.ndarray  # (2,)
     stall: np.ndarray
     fan: float  # torque at the hub over the square of its speed
+    outside: np.ndarray  # (discs,) damping against the rotation of the whole train
+
+    @property
+    def share(self) -> np.ndarray:
+        """Weight of the speed of each disc in that of the whole train, with mean inertias, (discs,)."""
+        speed = np.array([1.0, 1.0, 1.0, 1.0, self.ratio])
+        J = self.inertia.copy()
+        phi = 2 * np.pi * np.arange(720) / 720
+        for n, crank in enumerate(self.cranks):
+            J[3 + n] += crank.at(phi, 1.0)[0].mean()
+        share: np.ndarray = J * speed / (J @ speed**2)
+        return share
 
     @property
     def turns(self) -> int:
@@ -73,7 +85,10 @@ class MountedTrain:
 
 
 def random_train(rng: Generator, ratio: float) -> MountedTrain:
-    """Soft to stiff shafts, with and without dry friction and a fan; `ratio`: of the second crank's speed."""
+    """Soft to stiff shafts; with and without dry friction, a fan and damping from outside.
+
+    `ratio`: speed of the second crank over that of the first.
+    """
     omega = rng.uniform(5.0, 20.0)
     cranks = tuple(_slider(rng, omega * n) for n in (1.0, ratio))
     phase = tuple(rng.uniform(0.0, 2 * np.pi, 2))
@@ -84,6 +99,7 @@ def random_train(rng: Generator, ratio: float) -> MountedTrain:
     own = np.array([1.0, 1.0, 1.0, ratio])
     k = (omega * 10 ** rng.uniform(0.5, 1.6, 4)) ** 2 * swing / own**2
     c = 2 * rng.uniform(0.03, 0.3, 4) * np.sqrt(k * swing) / own
+    outside = float(rng.choice([0.0, 0.05])) * omega * swing * rng.uniform(0.0, 1.0, 5) / at**2
     fan = float(rng.choice([0.0, 0.2])) * swing
     mean = (
         sum(_mean(one, omega * n) * n for one, n in zip(cranks, (1.0, ratio), strict=True)) + fan * omega**2
@@ -92,7 +108,9 @@ def random_train(rng: Generator, ratio: float) -> MountedTrain:
     share = rng.uniform(0.3, 0.7)
     stall = mean * np.array([share, 1 - share]) / (1 - omega / no_load)
     lines = ['format = 1\nname = "line shaft"', "[train.discs]"]
-    lines += [f"{name} = {{ inertia = {j} }}" for name, j in zip(DISCS, J, strict=True)]
+    lines += [
+        f"{name} = {{ inertia = {j}, damping = {c} }}" for name, j, c in zip(DISCS, J, outside, strict=True)
+    ]
     lines += [f"wheel = {{ inertia = {wheel} }}", "[train.shafts]"]
     ends = (("m1", "hub"), ("m2", "hub"), ("hub", "c1"), ("wheel", "c2"))
     lines += [
@@ -113,7 +131,7 @@ def random_train(rng: Generator, ratio: float) -> MountedTrain:
     assert tables.train is not None
     machine = tables.with_entries({"train": tables.train.with_entries({"mechanisms": mounted})})
     J[2] += wheel * ratio**2
-    return MountedTrain(machine, cranks, phase, ratio, J, k, c, no_load, stall, fan)
+    return MountedTrain(machine, cranks, phase, ratio, J, k, c, no_load, stall, fan, outside)
 
 
 def _slider(rng: Generator, omega: float) -> SliderCrank:
@@ -138,7 +156,9 @@ def accelerations(
     slip = _slips(train, speed)
     torque = train.stiffness[:, None] * twist + train.damping[:, None] * slip
     J = np.repeat(train.inertia[:, None], speed.shape[1], axis=1)
-    net = np.zeros_like(speed)
+    together = train.share @ speed
+    rigid = np.array([1.0, 1.0, 1.0, 1.0, r])[:, None] * together
+    net = -train.outside[:, None] * (speed - rigid)
     for n in range(2):
         net[n] += train.stall[n] * (1 - speed[n] / train.no_load[n]) - torque[n]
     net[2] += torque[0] + torque[1] - torque[2] - r * torque[3] - train.fan * speed[2] ** 2

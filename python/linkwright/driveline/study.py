@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.drive.obstacles import no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
-from linkwright.driveline.chain import Chain, chain_of
+from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
 from linkwright.driveline.train_chain import train_chain
 from linkwright.kernel.findings import Findings
@@ -61,19 +61,23 @@ def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | N
 
 def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:
     """Whether every station of the driveline has an inertia, and every mechanism a full revolution."""
-    findings.of(_chain, machine)
-    yield "driveline: inertia of every station"
+    if not machine.has_mounted_mechanisms:
+        findings.of(chain_of, machine)
+        yield "driveline: inertia of every station"
+        return
+    findings.of(train_chain, machine)
+    yield "driveline: mechanisms of the train close over the full revolution"
 
 
 def driveline_summary(machine: Machine) -> Iterator[tuple[str, str]]:
-    """Names of stations and shafts."""
-    chain = _chain(machine)
+    """Names of stations and shafts; of a train, which has its own summary, those of motors and mechanisms."""
+    if machine.train is not None:
+        yield "mechanisms", ", ".join(machine.train.mechanisms)
+        yield "motors", ", ".join([*machine.train.motors, *machine.train.drivers])
+        return
+    chain = chain_of(machine)
     yield "stations", ", ".join(chain.stations)
     yield "flexible shafts", ", ".join(chain.shafts)
-
-
-def _chain(machine: Machine) -> Chain:
-    return train_chain(machine) if machine.has_mounted_mechanisms else chain_of(machine)
 
 
 def elastic_warnings(known: Results) -> Iterator[str]:

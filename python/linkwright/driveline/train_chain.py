@@ -25,7 +25,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.driveline.carried import require_carried
 from linkwright.driveline.chain import Chain, links_of, order_of
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import AssemblyError, InputError, SteadyStateError
+from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
 from linkwright.linkages.model.element import Crank
 from linkwright.linkages.model.mechanism import Mechanism
@@ -33,7 +33,7 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.excitation.drive_line import mechanism_alone, mechanism_of
+from linkwright.torsion.excitation.drive_line import mounted_mechanism
 from linkwright.torsion.in_time.moving_train import shaft_damping
 from linkwright.torsion.model.train import Train
 
@@ -159,10 +159,7 @@ def _mounted(machine: Machine, train: Train, referred: ReferredTrain) -> list[_M
     lead = 0.0
     for name, mechanism in train.mechanisms.items():
         disc = referred.discs.index(mechanism.on)
-        try:
-            compiled = mechanism_alone(mechanism_of(machine, name))
-        except AssemblyError as error:
-            raise AssemblyError(f"train.mechanisms.{name}: {error}") from None
+        compiled = mounted_mechanism(machine, name)
         ratio = float(referred.speed[disc] / referred.speed[found[0].disc]) if found else 1.0
         lead = lead if found else mechanism.phase
         found.append(_Mounted(name, compiled, disc, ratio, mechanism.phase - ratio * lead))
@@ -179,7 +176,7 @@ def _turns(mounted: list[_Mounted]) -> int:
             raise InputError(
                 f"train.mechanisms.{one.name}: its crank turns {one.ratio:.8g} times as fast as that of "
                 f"{mounted[0].name}, so that both do not repeat together within {_TURNS_MAX} revolutions; "
-                "choose gears whose ratio is one of small whole numbers, or follow the motion in time"
+                "choose gears whose ratio is one of small whole numbers"
             )
         turns = together
     return turns

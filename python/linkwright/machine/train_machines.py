@@ -31,6 +31,9 @@ def with_machines_of_train(
             continue
         key = join(("train", "mechanisms", name, "machine"))
         path = named_file(file, folder, key, allow_outside=allow_outside)
+        if not path.is_file():
+            expected = "a machine file in the folder of this one, or below it"
+            raise MachineFileError([Problem(key, f"{show(file)}, no such file", expected)])
         # A train could name this file again, and so on.
         if "train" in tables_of_file(path):
             expected = "a machine file with a [mechanism], without [train]"

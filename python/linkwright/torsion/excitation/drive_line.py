@@ -31,7 +31,7 @@ from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.drive.reduction import law_harmonics, mean_laws, mean_over_turn
 from linkwright.drive.steady_state import steady_state
 from linkwright.kernel.arrays import Bools, Complexes, Floats
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import RANGES
@@ -63,16 +63,22 @@ def train_of(machine: Machine) -> Train:
     discs = dict(whole.discs)
     for name, mechanism in machine.train.mechanisms.items():
         disc = discs[mechanism.on]
-        inertia = disc.inertia + mean_inertia(mechanism_of(machine, name))
+        inertia = disc.inertia + _mean_inertia(mounted_mechanism(machine, name))
         discs[mechanism.on] = disc.model_copy(update={"inertia": inertia})
     return whole.model_copy(update={"discs": discs}) if machine.train.mechanisms else whole
 
 
-def mechanism_of(machine: Machine, name: str) -> Machine:
-    """The machine that a mechanism of a train is: that of its file, or the mechanism beside the train."""
+def mounted_mechanism(machine: Machine, name: str) -> CompiledMachine:
+    """A mechanism of a train without its drive, if its revolutions can be determined. In the core's terms.
+
+    That of its file, or the mechanism beside the train.
+    """
     assert machine.train is not None
     mounted: Machine | None = machine.train.mechanisms[name].machine
-    return machine.with_entries({"train": None}) if mounted is None else mounted
+    try:
+        return mechanism_alone(machine.with_entries({"train": None}) if mounted is None else mounted)
+    except AssemblyError as error:
+        raise AssemblyError(f"train.mechanisms.{name}: {error}") from None
 
 
 @public
@@ -106,7 +112,10 @@ def drive_line(machine: Machine) -> Train:
 
 def mean_inertia(machine: Machine) -> float:
     """Mean reduced inertia of the mechanism at the crank, without that of the drive [kg m²]."""
-    compiled = mechanism_alone(machine)
+    return _mean_inertia(mechanism_alone(machine))
+
+
+def _mean_inertia(compiled: CompiledMachine) -> float:
     turn = turn_curve(lambda phi: compiled.reductions(phi).inertia[None], compiled.kinks(), "reduced inertia")
     return float(turn.mean()[0])
 

@@ -43,7 +43,7 @@ def mechanism_faults(machine: Any) -> Iterator[InitErrorDetails]:
         if not has_own:
             remedy = 'name its machine file, machine = "press.toml", or describe it as [mechanism]'
             yield fault("train", "mechanisms", name, "machine", expected="a mechanism", remedy=remedy)
-    if own and look(look(machine, "drive"), "motor") is not None:
+    if keys(listed) and look(look(machine, "drive"), "motor") is not None:
         remedy = "give it as [train.motors], on the disc that it drives"
         yield fault("drive", "motor", found="one beside [train.mechanisms]", expected="none", remedy=remedy)
     for name in keys(listed):
