@@ -158,7 +158,7 @@ def test_a_driveline_is_the_same_as_drive_and_as_train() -> None:
 
 
 def test_a_motor_that_keeps_its_speed_holds_its_disc(tmp_path: Path) -> None:
-    """The hub turns evenly, and the torque of the motor is what both shafts take from it."""
+    """The hub turns at one speed, and the torque of the motor is what both shafts take from it."""
     motor = {"kind": "constant_speed", "speed": 20.0}
     machine = lw.replace(line_shaft(tmp_path), {"train.motors.motor.motor": motor})
     motion = lw.elastic_motion(machine)

@@ -152,7 +152,7 @@ def accelerations(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Accelerations of the discs and torques of the shafts, (parts, …)."""
     r = train.ratio
-    first, second = phi, r * (phi - train.phase[0] + twist[2]) - twist[3] + train.phase[1]
+    first, second = phi, _second(train, phi, twist)
     slip = _slips(train, speed)
     torque = train.stiffness[:, None] * twist + train.damping[:, None] * slip
     J = np.repeat(train.inertia[:, None], speed.shape[1], axis=1)
@@ -167,6 +167,12 @@ def accelerations(
         J[3 + n] += inertia
         net[3 + n] += torque[2 + n] - load
     return net / J, torque
+
+
+def _second(train: MountedTrain, phi: float | np.ndarray, twist: np.ndarray) -> np.ndarray:
+    """Angle of the second crank."""
+    angle: np.ndarray = train.ratio * (phi - train.phase[0] + twist[2]) - twist[3] + train.phase[1]
+    return angle
 
 
 def _slips(train: MountedTrain, speed: np.ndarray) -> np.ndarray:
@@ -205,6 +211,10 @@ def cycle(train: MountedTrain, start: np.ndarray, steps: np.ndarray) -> Cycle:
         solved = solve_ivp(rate, (low, low + np.pi), y, "DOP853", rtol=1e-11, atol=1e-13, dense_output=True)
         y = solved.y[:, -1]
         at = np.unique(np.concatenate([np.linspace(low, low + np.pi, 4001), solved.t]))
+        sine = np.sin(_second(train, at, solved.sol(at).reshape(-1, copies, len(at))[:4, 0]))
+        # Friction has a kink where the second slider turns back: samples lie close there.
+        turns = np.flatnonzero(sine[:-1] * sine[1:] < 0)
+        at = np.unique(np.concatenate([at, *(np.linspace(at[j], at[j + 1], 200) for j in turns)]))
         states = solved.sol(at).reshape(-1, copies, len(at))[:m, 0]
         samples.append([states[4:9], *accelerations(train, at, states[:4], states[4:9])])
     y = y.reshape(-1, copies)

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`chain`] | masses, the springs with dampers between them, torques from outside |
 //! | [`station`] | further mechanisms, at angles that the state tells |
+//! | [`station_kinks`] | where they pass kinks of their own |
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
@@ -20,4 +21,5 @@ pub mod error;
 pub mod mesh;
 pub mod reading;
 pub mod station;
+pub mod station_kinks;
 pub mod steady;

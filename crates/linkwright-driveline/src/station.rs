@@ -10,14 +10,11 @@
 //!
 //! Source: e.g. Dresig, Holzweißig, *Dynamics of Machinery*, sections 2.3 and 4.3.
 
-use crate::chain::{Chain, Station};
-use crate::mesh::{Mesh, Solution};
-use linkwright_core::drive::kinks::kinks;
+use crate::chain::Station;
 use linkwright_core::drive::law::LawGeometry;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::dual::Dual;
 use linkwright_kernel::plane::Angle;
-use linkwright_kernel::radau::{S, value};
 
 type Number = Dual<f64>;
 
@@ -87,40 +84,4 @@ impl Place {
         }
         felt
     }
-}
-
-/// Crank angles at which further mechanisms pass kinks of their own.
-pub fn station_kinks(chain: &Chain, mesh: &Mesh, solution: &Solution) -> Vec<f64> {
-    let mut found = Vec::new();
-    for station in &chain.stations {
-        let own = kinks(&station.part.plan, &station.part.q);
-        let cycle = own[own.len() - 1];
-        for k in 0..mesh.steps() {
-            let (low, h) = (mesh.edges[k], mesh.length(k));
-            let twist = (station.mass + 1 < chain.masses()).then(|| solution.quintic(k, station.mass));
-            let psi = |share: f64| {
-                let twist = twist.as_ref().map_or(0.0, |twist| value(twist, share));
-                station.ratio * (low + share * h + twist) + station.phase
-            };
-            // A crank that turns forward passes what lies between the ends of the step, once.
-            let (first, last) = (psi(0.0), psi(1.0));
-            for turn in (first / cycle).floor() as i64..=(last / cycle).floor() as i64 {
-                let passed = own[1..].iter().map(|kink| kink + cycle * turn as f64);
-                for kink in passed.filter(|kink| (first..last).contains(kink)) {
-                    found.push(low + h * share_of(|share| psi(share) - kink));
-                }
-            }
-        }
-    }
-    found
-}
-
-/// Share of a step at which something that grows is zero, by bisection.
-fn share_of(at: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..10 * S {
-        let middle = 0.5 * (low + high);
-        if at(middle) < 0.0 { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }

@@ -8,7 +8,7 @@ use crate::cycle::{Cycle, Stop};
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::mesh::{Mesh, Solution};
-use crate::station::station_kinks;
+use crate::station_kinks::station_kinks;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::radau::{S, value};

@@ -3,11 +3,13 @@
 | module | |
 | --- | --- |
 | `analyses` | Its analysis, as study, report, studio and studies read it |
+| `carried` | What of a train its steady motion does not carry, and the analysis that does |
 | `chain` | The driveline as masses and links, referred to the crank |
 | `elastic_motion` | Steady motion: torques of shafts, motion of every station, Floquet multipliers |
 | `figures` | Torques of the shafts and speeds of the stations over the crank angle |
 | `permitted` | Torques of shafts against what is permitted |
 | `study` | The analysis in the study of a machine, its check and its warnings |
 | `tables` | A row a shaft, a row a station, energy and stability |
+| `train_chain` | A train with motors and mechanisms as masses and links |
 | `words` | Formulas, sources and assumptions |
 """

@@ -20,5 +20,5 @@ ELASTIC = Analysis(
     headline=of("driveline.tables:elastic_headline", "elastic_motion"),
     formulas=of("driveline.words:elastic_formulas", "elastic_motion"),
     papers=of("driveline.words:elastic_papers", "elastic_motion"),
-    assumptions=of("driveline.words:elastic_assumptions", "elastic_motion"),
+    assumptions=of("driveline.words:elastic_assumptions", "machine", "elastic_motion"),
 )

@@ -20,18 +20,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkwright.drive.model.drive import Drive, Gearbox
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.driveline.carried import require_carried
 from linkwright.driveline.chain import Chain, links_of, order_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
-from linkwright.linkages.model.element import Crank
-from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
+from linkwright.torsion.core.torque import motor_program
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mounted_mechanism
 from linkwright.torsion.in_time.moving_train import shaft_damping
@@ -136,7 +134,9 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
         "swing": (damped, mean / mean.sum()) if damped.any() else None,
     }
     on = [_on(train, name) for name in drivers]
-    held = [place[motor.on][0] for motor in train.motors.values() if _keeps_speed(motor.motor)]
+    held = [
+        place[motor.on][0] for motor in train.motors.values() if isinstance(motor.motor, ConstantSpeedMotor)
+    ]
     chain = Chain(
         referred.discs,
         ratio,
@@ -203,27 +203,12 @@ def _on(train: Train, name: str) -> str:
     return train.motors[name].on if name in train.motors else train.drivers[name].on
 
 
-def _keeps_speed(motor: Any) -> bool:
-    return isinstance(motor, ConstantSpeedMotor)
-
-
 def _motor(motor: Any, mass: int, ratio: float) -> DrivelineTorque:
     """A motor whose disc turns at a ratio to the crank, which stands for its gears."""
     if isinstance(motor, ConstantSpeedMotor):
         return DrivelineTorque.held(mass, float(motor.speed) / ratio)
-    compiled = _motor_program(motor, ratio)
+    compiled = motor_program(motor, ratio)
     return DrivelineTorque.motor(mass, compiled.plan, compiled.one)
-
-
-def _motor_program(motor: Any, ratio: float) -> CompiledMachine:
-    """A machine with nothing but a motor and its gears."""
-    bare = Machine(
-        format=1,
-        name="motor",
-        drive=Drive(motor=motor, gearbox=Gearbox(ratio=ratio)),
-        mechanism=Mechanism(cranks={"A": Crank(radius=1.0)}),
-    )
-    return compile_machine(bare)
 
 
 def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> DrivelineTorque:
@@ -247,8 +232,8 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
             for motor in train.motors.values()
             if isinstance(motor.motor, ConstantSpeedMotor)
         )
-    given = [*train.loads.values(), *(one for one in train.drivers.values() if one.speed is not None)]
-    known += [2 * one.speed / ratio[one.on] for one in given if one.speed is not None]
+    known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
+    known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
     highest = max(known, default=100.0)
     for _ in range(_DOUBLINGS):
         speeds = np.linspace(highest / _SPEEDS, highest, _SPEEDS)
@@ -276,7 +261,7 @@ def _net(train: Train, ratio: dict[str, float], mounted: list[_Mounted], speeds:
     """Mean torque of drivers less that of loads at speeds of the first crank, referred to that [N m]."""
     net: Floats = -np.sum([one.torque(speeds) for one in mounted], axis=0)
     for motor in train.motors.values():
-        net = net + _motor_program(motor.motor, ratio[motor.on]).motor_torques(speeds).crank
+        net = net + motor_program(motor.motor, ratio[motor.on]).motor_torques(speeds).crank
     for name in train.drivers:
         driver = train.drivers[name]
         net = net + np.array([ratio[driver.on] * driver.torque_at(ratio[driver.on] * w) for w in speeds])

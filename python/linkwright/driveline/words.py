@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from linkwright.driveline.elastic_motion import ElasticMotion
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.reader.numbers import number
+from linkwright.machine.machine import Machine
 
 _SOURCE = "Dresig, Holzweißig, Dynamics of Machinery, Springer 2010, sections 2.3 and 4.3"
 
@@ -29,17 +30,31 @@ def elastic_papers(motion: ElasticMotion) -> tuple[str, ...]:
     return (_SOURCE,)
 
 
-def elastic_assumptions(motion: ElasticMotion) -> Iterator[str]:
+def elastic_assumptions(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
     """What is taken for granted of shafts and gearbox, and how the motion was found."""
-    yield (
-        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness and "
-        "viscous damping, and neither inertia nor backlash; the mechanism has its inertia and loads at every "
-        "crank angle and speed."
-    )
-    yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."
+    yield from _of_train() if machine.has_mounted_mechanisms else _of_drive()
     for note in motion.notes:
         yield f"Elastic driveline: {note}."
     yield (
         "The steady motion of the elastic driveline is the periodic solution, by Newton's method on the "
         f"cycle with {motion.steps} steps: relative error {number(motion.accuracy, 1)}."
     )
+
+
+def _of_train() -> Iterator[str]:
+    """What is taken for granted of a train."""
+    yield (
+        "Elastic driveline: discs, motors and cranks are rigid; shafts, couplings and elastic meshes between "
+        "them have stiffness and viscous damping, and neither inertia nor backlash; every mechanism has its "
+        "inertia and loads at every crank angle and speed, where the twists have its crank."
+    )
+
+
+def _of_drive() -> Iterator[str]:
+    """What is taken for granted of a driveline that [drive] describes."""
+    yield (
+        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness and "
+        "viscous damping, and neither inertia nor backlash; the mechanism has its inertia and loads at every "
+        "crank angle and speed."
+    )
+    yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."

@@ -15,6 +15,7 @@
 | `size_limits` | Limits of a size by its tolerance, and by the clearance of a joint |
 | `table` | The entries of a machine as rows of words, each number with its unit |
 | `tolerances` | Tolerances behind the values of entries, and by address |
+| `train_machines` | Machine files of the mechanisms on a train |
 | `whole_mechanism` | The whole mechanism of a machine |
 | `write` | Write a machine as a TOML file |
 """

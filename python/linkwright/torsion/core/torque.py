@@ -26,14 +26,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkwright.drive.model.drive import Drive
+from linkwright.drive.model.drive import Drive, Gearbox
 from linkwright.drive.model.motor import Motor
 from linkwright.kernel.core.curve import Curve, smooth, straight
 from linkwright.kernel.core.periodic_table import PeriodicTable
 from linkwright.linkages.model.element import Crank
 from linkwright.linkages.model.mechanism import Mechanism
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 
 @dataclass(frozen=True)
@@ -132,12 +132,16 @@ def motor_curve(motor: Motor) -> Curve:
         return straight(*line[:2], beyond="straight" if line[2] else "held")
     assert motor.speed_without_load is not None
     speeds = np.linspace(0.0, 2 * motor.speed_without_load, _POINTS)
-    # The torque is the core's own, that of a machine with nothing but this motor.
+    torque = motor_program(motor).motor_torques(speeds).motor
+    return smooth(speeds, torque, np.gradient(torque, speeds, edge_order=2), beyond="held")
+
+
+def motor_program(motor: Motor, ratio: float = 1.0) -> CompiledMachine:
+    """A machine with nothing but a motor and gears in the core's terms, for the core's own torque."""
     bare = Machine(
         format=1,
         name="motor",
-        drive=Drive(motor=motor),
+        drive=Drive(motor=motor, gearbox=Gearbox(ratio=ratio)),
         mechanism=Mechanism(cranks={"A": Crank(radius=1.0)}),
     )
-    torque = compile_machine(bare).motor_torques(speeds).motor
-    return smooth(speeds, torque, np.gradient(torque, speeds, edge_order=2), beyond="held")
+    return compile_machine(bare)

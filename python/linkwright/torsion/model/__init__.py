@@ -15,6 +15,7 @@
 | `train` | A torsional train: discs, shafts, gear stages; speeds and orders of its forced vibration |
 | `train_base` | Quantities that several parts of a train have |
 | `train_faults` | What is wrong with a train as a whole |
+| `train_mechanism` | A mechanism on a disc, with a machine file of its own |
 | `train_torques` | Torques on a train from outside: what it drives, and what makes it pulsate |
 | `train_transient` | A manoeuvre of a train, followed in time, and its events |
 | `whole_train` | Engine, couplings and dampers written out as discs and shafts; how fast each disc turns |
