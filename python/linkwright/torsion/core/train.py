@@ -35,7 +35,7 @@ import numpy as np
 from linkwright import _core
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.numerics.tangent import numbers, primal
+from linkwright.kernel.numerics.tangent import numbers, primal, zeros_for
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
@@ -109,8 +109,9 @@ class ReferredTrain:
         Of a mesh on a carrier with the share of the carrier.
         """
         if self.twist is not None:
-            shares = self.twist * self.scale / self.lead[:, None]
-            return np.array([np.bincount(self.mass, row, len(self.inertia)) for row in shares])
+            onto = (self.mass[:, None] == np.arange(len(self.inertia))).astype(float)
+            shares: Floats = np.einsum("sd,dm->sm", self.twist * self.scale / self.lead[:, None], onto)
+            return shares
         joins = np.zeros((len(self.ends), len(self.inertia) + 1))
         # The last column is that of the ground.
         for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
@@ -237,7 +238,7 @@ def refer(train: Train) -> ReferredTrain:
         damping=factor * numbers([part.damping for part in twisting.values()]),
         loss_factor=numbers([part.loss_factor for part in twisting.values()]),
         rods=tuple(_rods(list(twisting.values()), factor)),
-        twist=_twist(twisting, {name: primal(speed) for name, speed in signed.items()}),
+        twist=_twist(twisting, signed),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
 
@@ -247,16 +248,16 @@ def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float
     if not any(isinstance(part, TrainGear) and part.carrier for part in twisting.values()):
         return None
     place = {name: n for n, name in enumerate(signed)}
-    twist = np.zeros((len(twisting), len(place)))
-    for row, part in zip(twist, twisting.values(), strict=True):
-        ratio = primal(part.speed_ratio) if isinstance(part, TrainGear) else 1.0
+    ratios = [part.speed_ratio if isinstance(part, TrainGear) else 1.0 for part in twisting.values()]
+    twist: Any = zeros_for(ratios, (len(twisting), len(place)))
+    for row, (part, ratio) in enumerate(zip(twisting.values(), ratios, strict=True)):
         carrier = (isinstance(part, TrainGear) and part.carrier) or GROUND
         ends = zip((*part.between, carrier), (1.0, -ratio, ratio - 1.0), strict=True)
         counted = [(end, factor if signed[end] >= 0 else -factor) for end, factor in ends if end != GROUND]
         # Counted in the sense of its first end.
-        sense = math.copysign(1.0, counted[0][1])
+        sense = math.copysign(1.0, primal(counted[0][1]))
         for end, factor in counted:
-            row[place[end]] += sense * factor
+            twist[row, place[end]] += sense * factor
     return twist
 
 
