@@ -1,4 +1,4 @@
-"""Derivatives of trains with carriers, Hooke's joints, pendulums and fixed frequencies."""
+"""Derivatives of trains with carriers, Hooke's joints, pendulums, fixed frequencies and speed control."""
 
 from __future__ import annotations
 
@@ -75,6 +75,10 @@ CASES: dict[str, dict[str, Any]] = {
     "pendulum": {"pendulums": PENDULUM},
     "fixed frequencies": {"excitations": PULSE | LINES},
     "shafts side by side": {"shafts": _loop()},
+    "speed control": {
+        "drivers": {"motor": {"on": "motor", "control": {"proportional": 6.0, "integral": 900.0}}},
+        "shafts": _with_joint(),
+    },
     "all": {"shafts": _with_joint(), "pendulums": PENDULUM, "excitations": LINES},
 }
 

@@ -143,6 +143,25 @@ class ReferredTrain:
         damping: Floats = (momenta.T * rates) @ momenta
         return damping
 
+    def on_springs(self, stiffness: Floats | None) -> ReferredTrain:
+        """The train with a spring from each mass to the ground, (masses,) [N m/rad]; 0 or None for none."""
+        held = np.empty(0, np.int64) if stiffness is None else np.flatnonzero(stiffness)
+        if stiffness is None or not len(held):
+            return self
+        discs = [int(np.flatnonzero(self.mass == mass)[0]) for mass in held]
+        ground, nothing = np.full(len(held), HELD), np.zeros(len(held))
+        rows = np.eye(len(self.discs))[discs]
+        return replace(
+            self,
+            shafts=(*self.shafts, *(self.discs[disc] for disc in discs)),
+            ends=np.concatenate([self.ends, np.stack([held, ground], 1)]).astype(np.int32),
+            tip=np.concatenate([self.tip, np.stack([discs, ground], 1)]).astype(np.int32),
+            stiffness=np.concatenate([self.stiffness, stiffness[held]]),
+            damping=np.concatenate([self.damping, nothing]),
+            loss_factor=np.concatenate([self.loss_factor, nothing]),
+            twist=None if self.twist is None else np.concatenate([self.twist, rows]),
+        )
+
     def _matrix(self, between: Floats) -> Floats:
         if self.twist is not None:
             of_meshes: Floats = (self.joins.T * between) @ self.joins

@@ -47,6 +47,7 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
         np.repeat(at.operating.stiffness, many, axis=1),
         np.repeat(at.operating.disc_damping, many, axis=1),
         None if at.operating.modal is None else at.operating.modal.repeated(many),
+        at.operating.disc_stiffness,
     )
     if rigid:
         q = _rigid(referred, same, orders, torques)
@@ -71,7 +72,8 @@ def _rigid(
         raise InputError("a train held by the ground has no rigid-body mode: it cannot be taken as rigid")
     omega = orders[:, None] * operating.speeds
     damping = operating.disc_damping.sum(axis=0)
-    q: Complexes = torques.sum(axis=1) / (-(omega**2) * referred.inertia.sum() + 1j * omega * damping)
+    held = 0.0 if operating.disc_stiffness is None else operating.disc_stiffness.sum()
+    q: Complexes = torques.sum(axis=1) / (held - omega**2 * referred.inertia.sum() + 1j * omega * damping)
     return q
 
 

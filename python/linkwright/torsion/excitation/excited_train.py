@@ -301,4 +301,6 @@ def _operating(
         stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
     damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
     np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
-    return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))
+    held = onto_masses(referred, referred.scale[None, :, None] * torques.control[None, :, None])[0, :, 0]
+    modal = modal_losses(referred, stiffness)
+    return OperatingState(torques.speeds, stiffness, damping, modal, held if held.any() else None)

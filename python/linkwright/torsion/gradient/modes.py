@@ -9,8 +9,8 @@ With shapes q of :math:`q^T J q = 1`,
 where K and J are sums over shafts and masses, so that no matrix is formed. About a carrier the twist of a
 mesh, Δ = Bq, has ratios in it, and k (dΔ_i Δ_j + Δ_i dΔ_j) comes to its term of the sum. A frequency that
 stands r times has r derivatives in each direction, which no single entry can tell apart: what is a smooth
-function is the mean of their squares. Each of them is given the derivative of the frequency of that mean, and its shape has
-none [2]_.
+function is the mean of their squares. Each of them is given the derivative of the frequency of that mean, and
+its shape has none [2]_.
 
 Trains with distributed inertia have modes without end, over which no sum is taken: there the shape follows
 from the dynamic stiffness (`distributed_modes`).

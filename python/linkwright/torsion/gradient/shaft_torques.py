@@ -177,6 +177,8 @@ class ShaftTorques:
         n = len(at.referred.inertia)
         H = train.stiffness.copy()
         H[np.arange(n), np.arange(n)] += 1j * omega * at.operating.disc_damping[:, place]
+        if at.operating.disc_stiffness is not None:
+            H[np.arange(n), np.arange(n)] += at.operating.disc_stiffness
         # Stations follow the masses, of which the twist of stiff shafts is known better than H tells.
         masses = self._q[:, :, place][m]
         q = np.concatenate([masses, solved(H[n:, n:], -(H[n:, :n] @ masses)[:, None])[:, 0]])
@@ -218,7 +220,9 @@ class ShaftTorques:
             pieces.append(np.tile(change / lossy, (len(rod.stiffness), 1)))
         of_rods = rod_numbers(r)
         return PartSlopes(
-            masses=-(omega**2) * d.bare_inertia + 1j * omega * (d.disc_damping + torques.damping),
+            masses=-(omega**2) * d.bare_inertia
+            + 1j * omega * (d.disc_damping + torques.damping)
+            + torques.control,
             springs=springs[self._springs],
             stiffness=d.rod_stiffness / of_rods.stiffness[:, None] + np.concatenate(pieces),
             inertia=d.rod_inertia / of_rods.inertia[:, None],

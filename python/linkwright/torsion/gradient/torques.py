@@ -42,6 +42,7 @@ class TorqueTangents:
     mean: Floats  # (shafts, variables) in the shafts at their own speed [N m]
     damping: Floats  # (masses, variables) of the loads, referred [N m s/rad]
     stiffness: Floats  # (shafts, variables) under the mean torque, referred [N m/rad]
+    control: Floats  # (masses, variables) stiffness of speed controllers, referred [N m/rad]
 
     def only(self, variables: Sequence[str], known: Sequence[str]) -> TorqueTangents:
         """Those by some of the variables."""
@@ -50,7 +51,7 @@ class TorqueTangents:
 
 
 def _arrays(tangents: TorqueTangents) -> tuple[Any, ...]:
-    return tangents.pulsating, tangents.mean, tangents.damping, tangents.stiffness
+    return tangents.pulsating, tangents.mean, tangents.damping, tangents.stiffness, tangents.control
 
 
 def torque_tangents(
@@ -93,8 +94,9 @@ def torque_tangents(
     stiffness = np.repeat(d.stiffness[None], len(speeds), axis=0)
     if rings := machine.train.pendulums:
         stiffness[:, [referred.shafts.index(name) for name in rings]] = np.moveaxis(spread(swinging), 1, 0)
+    control = np.einsum("md,dv->mv", onto * referred.scale, spread(torques.control))
     return [
-        TorqueTangents(wave, mean_slopes(referred, d, *mean), rate, stiffness=of_shafts)
+        TorqueTangents(wave, mean_slopes(referred, d, *mean), rate, of_shafts, control)
         for wave, mean, rate, of_shafts in zip(waves, means, damping, stiffness, strict=True)
     ]
 
@@ -115,14 +117,15 @@ def _by_differences(
                 table[..., place] = column
         except LinkwrightError as error:
             refused[name] = " ".join(str(error).split())
-    waves, mean, damping, curved = tables
+    waves, mean, damping, curved, control = tables
     # But for couplings with a curve and pendulums, stiffnesses are those of the train: exact derivatives.
     stiffness = np.repeat(d.stiffness[:, None], len(speeds), axis=1)
     assert machine.train is not None
     following = (*_curved(machine), *machine.train.pendulums)
     stiffness[[referred.shafts.index(name) for name in following]] = curved
     return [
-        TorqueTangents(waves[:, :, k], mean[:, k], damping[:, k], stiffness[:, k]) for k in range(len(speeds))
+        TorqueTangents(waves[:, :, k], mean[:, k], damping[:, k], stiffness[:, k], control)
+        for k in range(len(speeds))
     ]
 
 
@@ -150,13 +153,15 @@ def _columns(machine: Machine, name: str, speeds: Floats, here: _Arrays) -> _Arr
 
 
 def _acting(machine: Machine, speeds: Floats) -> _Arrays:
-    """Torques on masses, means in shafts, damping of loads, and stiffness of couplings with a curve."""
+    """Torques on masses, means in shafts, damping of loads, stiffness of couplings with a curve, control."""
     at = excited_train(machine, speeds)
     damping = at.operating.disc_damping - at.referred.disc_damping[:, None]
     assert machine.train is not None
     following = (*_curved(machine), *machine.train.pendulums)
     curved = [at.referred.shafts.index(name) for name in following]
-    return at.referred_harmonics, at.mean_torques, damping, at.operating.stiffness[curved]
+    held = at.operating.disc_stiffness
+    control = np.zeros(len(damping)) if held is None else held
+    return at.referred_harmonics, at.mean_torques, damping, at.operating.stiffness[curved], control
 
 
 def _curved(machine: Machine) -> list[str]:

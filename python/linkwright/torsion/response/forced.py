@@ -233,6 +233,9 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
         damping = omega * at.operating.disc_damping[m]
         forces[:, m] += _complex(inertia.real, inertia.imag - damping) * q[:, m]
         size[:, m] += (np.abs(inertia) + np.abs(damping)) * np.abs(q[:, m])
+    if at.operating.disc_stiffness is not None:
+        held = at.operating.disc_stiffness[:, None] * q
+        forces, size = forces - held, size + np.abs(held)
     if at.operating.modal is not None:
         modal = at.operating.modal.torques(1j * omega[:, None] * q)
         forces, size = forces - modal, size + np.abs(modal)
