@@ -22,6 +22,11 @@ from linkwright.torsion.core.train import HELD, ReferredTrain
 _BLOCK = 2_000_000
 
 
+def by_columns(values: Floats) -> Floats:
+    """Numbers of a train, (n,), or of a train at each column, (n, columns), by columns."""
+    return values[:, None] if values.ndim == 1 else values
+
+
 @dataclass(frozen=True)
 class Tree:
     """Masses in an order in which each hangs on an earlier one."""

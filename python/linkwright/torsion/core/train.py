@@ -227,7 +227,14 @@ def lead_speeds(tip: Integers, speed: Floats) -> Floats:
 def refer(train: Train) -> ReferredTrain:
     """A train referred to the speed of its first disc."""
     _require_numbers(train)
-    train = whole_train(train)
+    return referred_rows(whole_train(train))
+
+
+def referred_rows(train: Train) -> ReferredTrain:
+    """The same of discs, shafts and gears, of which some numbers may be arrays over many trains, (n,).
+
+    Inertias, stiffnesses and dampings on which these act have a row for each train, (n, …).
+    """
     signed = speeds(train).discs
     n = {name: abs(speed) for name, speed in signed.items()}
     # What rests swings as it is.
@@ -242,7 +249,7 @@ def refer(train: Train) -> ReferredTrain:
     factor = numbers([scale[a if a != GROUND else b] ** 2 for a, b in pairs])
 
     def summed(entry: str) -> Any:
-        return numbers([sum(scale[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+        return _row([sum(scale[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
 
     referred = ReferredTrain(
         discs=tuple(train.discs),
@@ -252,14 +259,21 @@ def refer(train: Train) -> ReferredTrain:
         ends=_indices(pairs, place),
         tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
         inertia=summed("inertia"),
-        stiffness=factor * numbers([_rate(part) for part in twisting.values()]),
+        stiffness=factor * _row([_rate(part) for part in twisting.values()]),
         disc_damping=summed("damping"),
-        damping=factor * numbers([part.damping for part in twisting.values()]),
-        loss_factor=numbers([part.loss_factor for part in twisting.values()]),
+        damping=factor * _row([part.damping for part in twisting.values()]),
+        loss_factor=_row([part.loss_factor for part in twisting.values()]),
         rods=tuple(_rods(list(twisting.values()), factor)),
         twist=_twist(twisting, signed),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
+
+
+def _row(listed: list[Any]) -> Any:
+    """Numbers as an array; if some are those of many trains, (trains, numbers)."""
+    if any(isinstance(number, np.ndarray) for number in listed):
+        return np.stack(np.broadcast_arrays(*listed), axis=-1)
+    return numbers(listed)
 
 
 def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float]) -> Floats | None:

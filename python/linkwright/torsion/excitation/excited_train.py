@@ -20,6 +20,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import (
     DynamicOrders,
     OperatingState,
+    by_columns,
     by_equilibrium,
     dynamic_orders,
     modal_losses,
@@ -53,9 +54,8 @@ class ExcitedTrain:
     @cached_property
     def disc_damping(self) -> Floats:
         """Of each disc at its own speed, (discs, speeds) [N m s/rad]."""
-        own = np.array([disc.damping for disc in self.train.discs.values()])
-        damping: Floats = own[:, None] + self.torques.damping
-        return damping
+        discs = zip(self.train.discs.values(), self.torques.damping, strict=True)
+        return np.stack([disc.damping + of_loads for disc, of_loads in discs])
 
     @cached_property
     def distributed(self) -> DynamicOrders | None:
@@ -260,8 +260,8 @@ def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     M = onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:
         # What is left over speeds the train up as a whole.
-        surplus = (referred.rigid @ M) / referred.rigid_inertia
-        M = M - (referred.inertia * referred.rigid)[:, None] * surplus
+        surplus = (referred.rigid @ M) / (referred.rigid @ referred.inertia)
+        M = M - by_columns(referred.inertia) * referred.rigid[:, None] * surplus
     carried = carried_by_shafts(referred, M)
     # What is left of the rounding of large torques is none.
     carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
@@ -282,7 +282,7 @@ def carried_by_shafts(referred: ReferredTrain, M: Floats) -> Floats:
         scale = np.sqrt(k)[:, None]
         carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
     else:
-        stiffness = np.repeat(k[None, :, None].astype(complex), M.shape[1], axis=2)
+        stiffness = np.broadcast_to(by_columns(k)[None].astype(complex), (1, len(k), M.shape[1]))
         carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
     return carried
 
@@ -290,7 +290,8 @@ def carried_by_shafts(referred: ReferredTrain, M: Floats) -> Floats:
 def _operating(
     train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats
 ) -> OperatingState:
-    stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
+    columns = len(torques.speeds)
+    stiffness = np.broadcast_to(by_columns(referred.stiffness), (len(referred.shafts), columns)).copy()
     lead = referred.lead
     for name, coupling in ({} if train is None else train.couplings).items():
         if coupling.twist is not None:
@@ -299,7 +300,7 @@ def _operating(
     for name, pendulum in ({} if train is None else train.pendulums).items():
         s = referred.shafts.index(name)
         stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
-    damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
+    damping = np.broadcast_to(by_columns(referred.disc_damping), (len(referred.inertia), columns)).copy()
     np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
     held = onto_masses(referred, referred.scale[None, :, None] * torques.control[None, :, None])[0, :, 0]
     modal = modal_losses(referred, stiffness)

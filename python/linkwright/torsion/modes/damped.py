@@ -54,6 +54,7 @@ from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.excitation.excited_train import prepared
 from linkwright.torsion.excitation.harmonics import controllers
+from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.free import modes_wanted, scaled
 
 
@@ -181,8 +182,17 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         The machine has no train, or the speed is none above zero.
     """
     in_range(speed=(speed, positive(SPEED)))
-    train, disc_damping, control = _at(machine, speed)
-    count = modes_wanted(machine, train_of(machine))
+    return damped_train(*_at(machine, speed), modes_wanted(machine, train_of(machine)))
+
+
+def damped_train(
+    train: ReferredTrain, disc_damping: Floats, control: Floats | None, count: int
+) -> DampedVibration:
+    """Modes of a train, the first `count` of one with distributed inertia.
+
+    `disc_damping`: (discs,) at their own speeds [N m s/rad]; `control`: (masses,) springs of controllers
+    [N m/rad].
+    """
     referred = in_pieces(train, count) if train.rods else train
     controlled = referred.on_springs(control)
     eigenvalues, masses = damped_modes(replace(controlled, rods=()))
@@ -215,16 +225,21 @@ def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats, F
     """The train at a speed, the damping of its discs at their own [N m s/rad], springs of controllers."""
     if speed is None:
         train = train_of(machine)
-        referred = refer(train)
-        place = {name: n for n, name in enumerate(train.discs)}
-        gains, control = controllers(train, place, np.zeros(1))
-        own = np.array([disc.damping for disc in train.discs.values()]) + gains[:, 0]
-        damped = replace(referred, disc_damping=_summed(referred, own))
-        return damped, own, _summed(referred, control)
+        return at_rest(train, refer(train), np.array([disc.damping for disc in train.discs.values()]))
     at = prepared(machine, np.array([speed]))
     stiffness, damping = at.operating.stiffness[:, 0], at.operating.disc_damping[:, 0]
     referred = replace(at.referred, stiffness=stiffness, disc_damping=damping)
     return referred, at.disc_damping[:, 0], at.operating.disc_stiffness
+
+
+def at_rest(
+    train: Train, referred: ReferredTrain, damping: Floats
+) -> tuple[ReferredTrain, Floats, Floats | None]:
+    """The same without loads; `damping`: (discs,) of the discs themselves [N m s/rad]."""
+    place = {name: n for n, name in enumerate(train.discs)}
+    gains, control = controllers(train, place, np.zeros(1))
+    own = damping + gains[:, 0]
+    return replace(referred, disc_damping=_summed(referred, own)), own, _summed(referred, control)
 
 
 def _summed(referred: ReferredTrain, of_discs: Floats) -> Floats:
