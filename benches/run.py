@@ -35,6 +35,7 @@ CASES = (
     "servo_choice",
     "torsion_modes",
     "torsion_forced",
+    "trains_many",
     "torsion_engine",
     "torsion_transient",
     "start_up",

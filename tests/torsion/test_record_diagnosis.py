@@ -96,6 +96,29 @@ def test_weak_cylinder_is_found(engine: lw.Machine) -> None:
     assert read.warnings == ()
 
 
+def test_torques_of_fixed_frequency_are_left_out(engine: lw.Machine) -> None:
+    """Lines of an inverter at 1× and 2× supply and beside an order fade in a long record."""
+    harmonics = [
+        {"frequency": "50 Hz", "torque": 90.0},
+        {"frequency": "100 Hz", "torque": 40.0},
+        {"order": 4, "frequency": "-31 Hz", "torque": 60.0},
+    ]
+    noisy = lw.replace(engine, {"train.excitations": {"grid": {"on": "generator", "harmonics": harmonics}}})
+    found = forced_vibration(noisy, np.array([SPEED]))
+    waves = 1j * found.omega[:, 0, 0] * found.amplitudes[:, found.discs.index("flywheel"), 0]
+    cycles = 200
+    angle = 4 * np.pi * np.arange(360 * cycles) / 360
+    turned = np.exp(1j * np.outer(angle, found.omega[:, 0, 0] / SPEED))
+    speed = SPEED + (turned @ waves).real
+    lines = np.abs(waves[found.offsets != 0])
+    assert len(lines) == 3
+    read = record_diagnosis(noisy, "flywheel", angle, speed, noise=float(lines.max()))
+    assert read.orders == 48
+    np.testing.assert_allclose(read.found.factor, [1, 1, 0.6, 1, 1, 1, 1, 1], atol=0.01)
+    alone = record_diagnosis(engine, "flywheel", angle, speed, noise=float(lines.max()))
+    np.testing.assert_array_equal(read.found.factor, alone.found.factor)
+
+
 @pytest.mark.parametrize("cylinder", [1, 3, 8])
 def test_angle_counted_from_a_firing(engine: lw.Machine, cylinder: int) -> None:
     assert engine.train is not None

@@ -106,6 +106,9 @@ class Analysis:
     findings: Of | None = None
     warnings: Of | None = None
     tangents: Of | None = None
+    # Of the machine and entries over many machines, address → (n,): the results one after another, or None
+    # where machines are computed one by one.
+    many: Of | None = None
     check: Of | None = None
     summary: Of | None = None  # of the machine: rows of what it consists of
     tables: Of | None = None

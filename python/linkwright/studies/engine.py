@@ -20,11 +20,12 @@ from linkwright.kernel.numerics.formula_value import value
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import rows as rows_of_numbers
 from linkwright.machine.address import get, outside, replace
+from linkwright.machine.analysis import Of
 from linkwright.machine.machine import Machine
 from linkwright.studies.axes import require_places, variant
 from linkwright.studies.plan import Formula, StudyPlan
 from linkwright.studies.point_responses import point_numbers, require_numbers, why_open
-from linkwright.studies.responses import analysis, entry_number
+from linkwright.studies.responses import ANALYSES, analysis, entry_number
 from linkwright.studies.rows import FAILED, IMPOSSIBLE, NO_NUMBER, SOLVED, Rows
 from linkwright.studies.study_response import ENTRY, MOTION, PATH, StudyResponse
 
@@ -148,6 +149,8 @@ def _solve(plan: StudyPlan, part: _Members) -> None:
                 # says why, and what was refused for no row of them is refused by all.
                 single += wanted
                 part.rows.one_by_one[_sentence(error)] += len(part.members)
+    if single and part.entries:
+        single = part.together(single)
     if single:
         part.one_by_one(single)
 
@@ -195,6 +198,39 @@ class _Members:
             self.rows.columns[asked.name][self.members] = (
                 entry_number(self.machine, address) if varied is None else varied
             )
+
+    def together(self, wanted: list[StudyResponse]) -> list[StudyResponse]:
+        """Responses of analyses that take many machines at once; gives those that are left."""
+        if self.machine.has_crank:
+            return wanted
+        by_key: dict[Any, list[StudyResponse]] = {}
+        for asked in wanted:
+            by_key.setdefault(asked.key, []).append(asked)
+        left: list[StudyResponse] = []
+        for group in by_key.values():
+            many = None if group[0].analysis not in ANALYSES else ANALYSES[group[0].analysis].many
+            results = None if many is None or group[0].options else self._results(many)
+            if results is None:
+                left += group
+                continue
+            for row, result in zip(self.members, results, strict=True):
+                try:
+                    for asked in group:
+                        self.rows.columns[asked.name][row] = asked.number(result)
+                except FindingError as error:
+                    self.rows.fail(row, FAILED, _sentence(error))
+        return left
+
+    def _results(self, many: Of) -> Any:
+        """Results of all rows, of which the first is checked as a whole; None where each row says why not."""
+        try:
+            sound_variant(
+                self.machine, {address: float(column[0]) for address, column in self.entries.items()}
+            )
+            return many(self.machine, self.entries)
+        except (InputError, FindingError) as error:
+            self.rows.one_by_one[_sentence(error)] += len(self.members)
+            return None
 
     def one_by_one(self, wanted: list[StudyResponse]) -> None:
         for nth, row in enumerate(self.members):

@@ -29,6 +29,7 @@ FREE = Analysis(
     is_of_study=False,
     check=of("torsion.modes.check:check_train"),
     tangents=of("torsion.gradient.modes:mode_derivatives"),
+    many=of("torsion.response.many_trains:free_vibrations"),
 )
 
 DAMPED = Analysis(
@@ -36,6 +37,7 @@ DAMPED = Analysis(
     function=of("torsion.modes.damped:damped_vibration"),
     applies=attrgetter("twists"),
     is_of_study=False,
+    many=of("torsion.response.many_trains:damped_vibrations"),
 )
 
 FORCED = Analysis(
@@ -44,6 +46,7 @@ FORCED = Analysis(
     applies=attrgetter("twists"),
     is_of_study=False,
     tangents=of("torsion.gradient.forced:forced_tangents"),
+    many=of("torsion.response.many_trains:forced_vibrations"),
 )
 
 STRESS = Analysis(

@@ -37,6 +37,7 @@ from linkwright.torsion.modes.phase_vectors import PhaseVectors, phase_vectors
 from linkwright.torsion.modes.scheme import Scheme, scheme
 from linkwright.torsion.response.forced import ForcedVibration, responded
 from linkwright.torsion.response.mesh_torque import MeshTorque, meshed
+from linkwright.torsion.response.speed_control import limited_controllers
 from linkwright.torsion.response.stress import ShaftStress, shaft_stress
 from linkwright.torsion.response.unevenness_along import UnevennessAlong, unevenness_along
 
@@ -348,7 +349,8 @@ def _is_damped(machine: Machine) -> bool:
     loads = any(load.exponent > 0 and load.damping_factor > 0 for load in train.loads.values())
     shafts = any(shaft.damping or shaft.loss_factor for shaft in train.shafts.values())
     gears = any(gear.damping or gear.loss_factor for gear in train.gears.values())
-    given = train.modal_damping is not None
+    controlled = any(driver.control is not None for driver in train.drivers.values())
+    given = controlled or train.modal_damping is not None
     return given or loads or shafts or gears or any(disc.damping for disc in train.discs.values())
 
 
@@ -442,6 +444,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
+    yield from limited_controllers(at, forced)
     yield from _about_the_ends(study, forced)
     rest = np.flatnonzero(~forced.together.together)
     if len(rest):

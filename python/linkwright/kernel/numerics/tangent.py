@@ -83,6 +83,10 @@ class Tangent:
         """Imaginary parts."""
         return Tangent(self.value.imag, self.d.imag)
 
+    def conj(self) -> Tangent:
+        """Complex conjugates."""
+        return Tangent(np.conj(self.value), np.conj(self.d))
+
     def __len__(self) -> int:
         return len(self.value)
 
@@ -367,6 +371,11 @@ def sin(x: Any) -> Any:
 def cos(x: Any) -> Any:
     """cos x of a number or a tangent."""
     return np.cos(x) if isinstance(x, Tangent) else math.cos(x)
+
+
+def tan(x: Any) -> Any:
+    """Tangent of an angle that is a number or a tangent."""
+    return np.tan(x) if isinstance(x, Tangent) else math.tan(x)
 
 
 def variables_of(numbers: Iterable[Any]) -> int | None:

@@ -297,4 +297,6 @@ def cut_up(referred: ReferredTrain, parts: list[list[Rod]]) -> ReferredTrain:
         loss_factor=referred.loss_factor[of],
         ratios=referred.ratios,
         rods=tuple(rods),
+        # There are no rods in a train with gears on a carrier.
+        twist=referred.twist,
     )

@@ -22,6 +22,11 @@ from linkwright.torsion.core.train import HELD, ReferredTrain
 _BLOCK = 2_000_000
 
 
+def by_columns(values: Floats) -> Floats:
+    """Numbers of a train, (n,), or of a train at each column, (n, columns), by columns."""
+    return values[:, None] if values.ndim == 1 else values
+
+
 @dataclass(frozen=True)
 class Tree:
     """Masses in an order in which each hangs on an earlier one."""
@@ -77,6 +82,8 @@ class OperatingState:
     stiffness: Floats  # (shafts, speeds) about the mean torque [N m/rad]
     disc_damping: Floats  # (masses, speeds) Viscous, against the ground, with that of loads [N m s/rad]
     modal: ModalLosses | None = None  # of given damping ratios
+    # (masses,) against the ground, of speed controllers with an integral gain; None for none [N m/rad].
+    disc_stiffness: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -129,7 +136,7 @@ def respond(
     tree = tree_of(referred)
     if tree is None or at.modal is not None:
         return _whole(referred, at, orders, torques)
-    if referred.rods:
+    if referred.rods or at.disc_stiffness is not None:
         return _distributed(
             tree, at, dynamic_orders(referred, at, np.outer(orders, at.speeds)), orders, torques
         )
@@ -189,6 +196,8 @@ def _distributed(
     """Amplitudes of the masses of a tree with distributed inertia, all orders and speeds at once."""
     omega = orders[:, None, None] * at.speeds
     own = -(omega**2) * there.inertia + 1j * omega * at.disc_damping
+    if at.disc_stiffness is not None:
+        own += at.disc_stiffness[:, None]
     own, f = np.take(own, tree.order, axis=1), np.take(torques, tree.order, axis=1)
     n = len(tree.order)
     k = np.zeros((len(orders), n + 1, len(at.speeds)), complex)
@@ -341,6 +350,8 @@ def _whole(referred: ReferredTrain, at: OperatingState, orders: Floats, torques:
                 K, inertia = _between(referred, there.stiffness), there.inertia.T
             matrix = K + 1j * omega[:, None, None] * C
             matrix[:, diagonal, diagonal] -= omega[:, None] ** 2 * inertia
+            if at.disc_stiffness is not None:
+                matrix[:, diagonal, diagonal] += at.disc_stiffness
             q[m, :, part] = _solved(matrix, torques[m, :, part].T).T
     return q
 

@@ -35,7 +35,7 @@ import numpy as np
 from linkwright import _core
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import MachineError, Problem
-from linkwright.kernel.numerics.tangent import numbers, primal
+from linkwright.kernel.numerics.tangent import numbers, primal, zeros_for
 from linkwright.torsion.core.rod import Rod
 from linkwright.torsion.model.train import GROUND, ModalDamping, Shaft, Train, TrainGear
 from linkwright.torsion.model.whole_train import RodShaft, parts_of, speeds, whole_train
@@ -109,8 +109,9 @@ class ReferredTrain:
         Of a mesh on a carrier with the share of the carrier.
         """
         if self.twist is not None:
-            shares = self.twist * self.scale / self.lead[:, None]
-            return np.array([np.bincount(self.mass, row, len(self.inertia)) for row in shares])
+            onto = (self.mass[:, None] == np.arange(len(self.inertia))).astype(float)
+            shares: Floats = np.einsum("sd,dm->sm", self.twist * self.scale / self.lead[:, None], onto)
+            return shares
         joins = np.zeros((len(self.ends), len(self.inertia) + 1))
         # The last column is that of the ground.
         for end, sign in zip(self.ends.T, (1.0, -1.0), strict=True):
@@ -141,6 +142,25 @@ class ReferredTrain:
         rates = 2 * self.ratios[: len(momenta)] * omega[vibrating]
         damping: Floats = (momenta.T * rates) @ momenta
         return damping
+
+    def on_springs(self, stiffness: Floats | None) -> ReferredTrain:
+        """The train with a spring from each mass to the ground, (masses,) [N m/rad]; 0 or None for none."""
+        held = np.empty(0, np.int64) if stiffness is None else np.flatnonzero(stiffness)
+        if stiffness is None or not len(held):
+            return self
+        discs = [int(np.flatnonzero(self.mass == mass)[0]) for mass in held]
+        ground, nothing = np.full(len(held), HELD), np.zeros(len(held))
+        rows = np.eye(len(self.discs))[discs]
+        return replace(
+            self,
+            shafts=(*self.shafts, *(self.discs[disc] for disc in discs)),
+            ends=np.concatenate([self.ends, np.stack([held, ground], 1)]).astype(np.int32),
+            tip=np.concatenate([self.tip, np.stack([discs, ground], 1)]).astype(np.int32),
+            stiffness=np.concatenate([self.stiffness, stiffness[held]]),
+            damping=np.concatenate([self.damping, nothing]),
+            loss_factor=np.concatenate([self.loss_factor, nothing]),
+            twist=None if self.twist is None else np.concatenate([self.twist, rows]),
+        )
 
     def _matrix(self, between: Floats) -> Floats:
         if self.twist is not None:
@@ -207,7 +227,14 @@ def lead_speeds(tip: Integers, speed: Floats) -> Floats:
 def refer(train: Train) -> ReferredTrain:
     """A train referred to the speed of its first disc."""
     _require_numbers(train)
-    train = whole_train(train)
+    return referred_rows(whole_train(train))
+
+
+def referred_rows(train: Train) -> ReferredTrain:
+    """The same of discs, shafts and gears, of which some numbers may be arrays over many trains, (n,).
+
+    Inertias, stiffnesses and dampings on which these act have a row for each train, (n, …).
+    """
     signed = speeds(train).discs
     n = {name: abs(speed) for name, speed in signed.items()}
     # What rests swings as it is.
@@ -222,7 +249,7 @@ def refer(train: Train) -> ReferredTrain:
     factor = numbers([scale[a if a != GROUND else b] ** 2 for a, b in pairs])
 
     def summed(entry: str) -> Any:
-        return numbers([sum(scale[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
+        return _row([sum(scale[a] ** 2 * getattr(train.discs[a], entry) for a in part) for part in masses])
 
     referred = ReferredTrain(
         discs=tuple(train.discs),
@@ -232,14 +259,21 @@ def refer(train: Train) -> ReferredTrain:
         ends=_indices(pairs, place),
         tip=_indices(pairs, {name: k for k, name in enumerate(train.discs)}),
         inertia=summed("inertia"),
-        stiffness=factor * numbers([_rate(part) for part in twisting.values()]),
+        stiffness=factor * _row([_rate(part) for part in twisting.values()]),
         disc_damping=summed("damping"),
-        damping=factor * numbers([part.damping for part in twisting.values()]),
-        loss_factor=numbers([part.loss_factor for part in twisting.values()]),
+        damping=factor * _row([part.damping for part in twisting.values()]),
+        loss_factor=_row([part.loss_factor for part in twisting.values()]),
         rods=tuple(_rods(list(twisting.values()), factor)),
-        twist=_twist(twisting, {name: primal(speed) for name, speed in signed.items()}),
+        twist=_twist(twisting, signed),
     )
     return referred if train.modal_damping is None else _with_ratios(referred, train.modal_damping)
+
+
+def _row(listed: list[Any]) -> Any:
+    """Numbers as an array; if some are those of many trains, (trains, numbers)."""
+    if any(isinstance(number, np.ndarray) for number in listed):
+        return np.stack(np.broadcast_arrays(*listed), axis=-1)
+    return numbers(listed)
 
 
 def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float]) -> Floats | None:
@@ -247,16 +281,16 @@ def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float
     if not any(isinstance(part, TrainGear) and part.carrier for part in twisting.values()):
         return None
     place = {name: n for n, name in enumerate(signed)}
-    twist = np.zeros((len(twisting), len(place)))
-    for row, part in zip(twist, twisting.values(), strict=True):
-        ratio = primal(part.speed_ratio) if isinstance(part, TrainGear) else 1.0
+    ratios = [part.speed_ratio if isinstance(part, TrainGear) else 1.0 for part in twisting.values()]
+    twist: Any = zeros_for(ratios, (len(twisting), len(place)))
+    for row, (part, ratio) in enumerate(zip(twisting.values(), ratios, strict=True)):
         carrier = (isinstance(part, TrainGear) and part.carrier) or GROUND
         ends = zip((*part.between, carrier), (1.0, -ratio, ratio - 1.0), strict=True)
         counted = [(end, factor if signed[end] >= 0 else -factor) for end, factor in ends if end != GROUND]
         # Counted in the sense of its first end.
-        sense = math.copysign(1.0, counted[0][1])
+        sense = math.copysign(1.0, primal(counted[0][1]))
         for end, factor in counted:
-            row[place[end]] += sense * factor
+            twist[row, place[end]] += sense * factor
     return twist
 
 

@@ -42,7 +42,7 @@ from linkwright.kernel.numerics.least_squares import Fit, least_squares
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
-from linkwright.torsion.diagnosis.engine_speed import cylinder_response
+from linkwright.torsion.diagnosis.engine_speed import cylinder_response, lines_of_orders
 from linkwright.torsion.diagnosis.measured_speed import MeasuredSpeed
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 
@@ -269,6 +269,7 @@ def diagnosis(
 ) -> Diagnosis:
     """Factors of the cylinders from a measured speed. `sources`: (cylinders, orders, discs) [N m]."""
     names = _names(at, sources, cylinders)
+    sources, at = sources[:, at.torques.offsets == 0], lines_of_orders(at)
     rest = at.torques.harmonics[:, :, 0] - sources.sum(axis=0)
     every = cylinder_response(at, np.concatenate([sources, rest[None]]), measured.disc, rigid=rigid)
     columns = every[:, places(at.torques.orders, measured)]

@@ -7,6 +7,8 @@ mean torques, stiffness and damping. The gas is computed once.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
@@ -47,6 +49,7 @@ def cylinder_response(at: ExcitedTrain, sources: Complexes, disc: str, *, rigid:
         np.repeat(at.operating.stiffness, many, axis=1),
         np.repeat(at.operating.disc_damping, many, axis=1),
         None if at.operating.modal is None else at.operating.modal.repeated(many),
+        at.operating.disc_stiffness,
     )
     if rigid:
         q = _rigid(referred, same, orders, torques)
@@ -71,7 +74,8 @@ def _rigid(
         raise InputError("a train held by the ground has no rigid-body mode: it cannot be taken as rigid")
     omega = orders[:, None] * operating.speeds
     damping = operating.disc_damping.sum(axis=0)
-    q: Complexes = torques.sum(axis=1) / (-(omega**2) * referred.inertia.sum() + 1j * omega * damping)
+    held = 0.0 if operating.disc_stiffness is None else operating.disc_stiffness.sum()
+    q: Complexes = torques.sum(axis=1) / (held - omega**2 * referred.inertia.sum() + 1j * omega * damping)
     return q
 
 
@@ -91,24 +95,36 @@ def the_engine(machine: Machine) -> ReciprocatingEngine:
     return machine.train.engine
 
 
-def _require_orders(machine: Machine) -> None:
-    """Raise InputError if a torque of fixed frequency acts: it has no order at which a speed is measured."""
+def of_orders(machine: Machine) -> Machine:
+    """A machine without its torques of fixed frequency, which no order of a record has.
+
+    Over the crank angle they keep no phase, and leave the mean over many cycles.
+    """
     train = machine.train
-    for name, torque in () if train is None else train.excitations.items():
-        if getattr(torque, "frequency", None) is not None:
-            raise InputError(
-                f"train.excitations.{name}: found a fixed frequency, expected torques of orders of the "
-                "engine for its diagnosis; remove it, and measure at speeds at which it is weak"
-            )
+    if train is None or not any(h.frequency for one in train.excitations.values() for h in one.harmonics):
+        return machine
+    kept = {
+        name: one.with_entries({"harmonics": tuple(h for h in one.harmonics if not h.frequency)})
+        for name, one in train.excitations.items()
+    }
+    excitations = {name: one for name, one in kept.items() if one.harmonics}
+    return machine.with_entries({"train": train.with_entries({"excitations": excitations})})
+
+
+def lines_of_orders(at: ExcitedTrain) -> ExcitedTrain:
+    """The same of a train that has been prepared: its lines of orders alone."""
+    own, torques = at.torques.offsets == 0, at.torques
+    plain = replace(torques, orders=torques.orders[own], harmonics=torques.harmonics[own], fixed=np.empty(0))
+    return replace(at, torques=plain)
 
 
 class EngineSpeed:
     """Speed of one disc of an engine at one speed of its crank. `speed`: mean speed of the crank [rad/s]."""
 
     def __init__(self, machine: Machine, speed: float, disc: str, *, rigid: bool = False) -> None:
-        self.machine, self.engine, self.disc, self.rigid = machine, the_engine(machine), disc, rigid
-        _require_orders(machine)
-        self.train = train_of(machine)
+        self.machine, self.engine = of_orders(machine), the_engine(machine)
+        self.disc, self.rigid = disc, rigid
+        self.train = train_of(self.machine)
         self.referred = refer(self.train)
         self.gas = cylinder_torques(self.engine, np.array([speed]), highest_order(self.train))
 

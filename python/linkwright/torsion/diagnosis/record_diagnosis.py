@@ -14,7 +14,7 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import refer
 from linkwright.torsion.diagnosis.diagnosis import Diagnosis
 from linkwright.torsion.diagnosis.engine_diagnosis import engine_diagnosis
-from linkwright.torsion.diagnosis.engine_speed import the_engine
+from linkwright.torsion.diagnosis.engine_speed import of_orders, the_engine
 from linkwright.torsion.diagnosis.measured_speed import recorded_speed
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.excitation.excited_train import excited_train
@@ -183,7 +183,7 @@ def record_diagnosis(
     if record.mean <= 0:
         raise InputError(f"a mean speed of {record.mean:.6g} rad/s: expected more than 0")
     crank = record.mean / _turning(machine, disc)
-    orders = record.orders(excited_train(machine, np.array([crank])).torques.orders)
+    orders = record.orders(excited_train(of_orders(machine), np.array([crank])).torques.orders)
     measured = record.harmonics(disc, orders, noise)
     return RecordDiagnosis(disc, crank, len(orders), engine_diagnosis(machine, measured, crank, rigid=rigid))
 

@@ -8,16 +8,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.errors import InputError, require_within
 from linkwright.kernel.limits import RESPONSE
+from linkwright.kernel.numerics.tangent import zeros_for
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.response import (
     DynamicOrders,
     OperatingState,
+    by_columns,
     by_equilibrium,
     dynamic_orders,
     modal_losses,
@@ -51,9 +54,8 @@ class ExcitedTrain:
     @cached_property
     def disc_damping(self) -> Floats:
         """Of each disc at its own speed, (discs, speeds) [N m s/rad]."""
-        own = np.array([disc.damping for disc in self.train.discs.values()])
-        damping: Floats = own[:, None] + self.torques.damping
-        return damping
+        discs = zip(self.train.discs.values(), self.torques.damping, strict=True)
+        return np.stack([disc.damping + of_loads for disc, of_loads in discs])
 
     @cached_property
     def distributed(self) -> DynamicOrders | None:
@@ -67,20 +69,30 @@ class ExcitedTrain:
         """Angle by which joints drive their shafts ahead, (orders, shafts, speeds) [rad]; None without."""
         if not any(shaft.joint_angle is not None for shaft in self.train.shafts.values()):
             return None
-        twists = np.zeros(
-            (len(self.torques.orders), len(self.referred.shafts), len(self.torques.speeds)), complex
-        )
-        for s, first, shaft in self._joints():
-            for k, size in enumerate(shaft.joint_harmonics, start=1):
-                of = self.torques.is_of(2 * k * float(self.referred.speed[first]))
-                # sin 2k(φ + φ₀)
-                twists[of, s] = -1j * size * np.exp(2j * k * shaft.joint_phase)
+        return np.repeat(self.twists_of(self.train)[:, :, None], len(self.torques.speeds), axis=2)
+
+    def twists_of(self, train: Train) -> Any:
+        """Those of a train of its shafts, whose angles may have derivatives, (orders, shafts) [rad]."""
+        sizes = [
+            # sin 2k(φ + φ₀)
+            (
+                self.torques.is_of(2 * k * float(self.referred.speed[first])),
+                s,
+                -1j * size * np.exp(2j * k * shaft.joint_phase),
+            )
+            for s, first, shaft in self.joints(train)
+            for k, size in enumerate(shaft.joint_harmonics, start=1)
+        ]
+        shape = len(self.torques.orders), len(self.referred.shafts)
+        twists = zeros_for([size for *_, size in sizes], shape, complex)
+        for of, s, size in sizes:
+            twists[of, s] = size
         return twists
 
-    def _joints(self) -> Iterator[tuple[int, int, Shaft]]:
+    def joints(self, train: Train | None = None) -> Iterator[tuple[int, int, Shaft]]:
         """Shafts with a joint, and the disc at it."""
         for s, name in enumerate(self.referred.shafts):
-            shaft = self.train.shafts.get(name)
+            shaft = (train or self.train).shafts.get(name)
             if shaft is not None and shaft.joint_angle is not None:
                 yield s, int(self.referred.tip[s, 0]), shaft
 
@@ -94,7 +106,7 @@ class ExcitedTrain:
         if twists is None:
             return harmonics
         harmonics = harmonics.copy()
-        for s, first, _ in self._joints():
+        for s, first, _ in self.joints():
             order = (self.torques.orders / self.referred.speed[first])[:, None]
             harmonics[:, first] -= 1j * order * twists[:, s] * self.mean_torques[s]
         return harmonics
@@ -106,7 +118,7 @@ class ExcitedTrain:
         if twists is None:
             return self.torques.harmonics
         exciting, omega = self.harmonics.copy(), self.torques.omega
-        for s, first, _ in self._joints():
+        for s, first, _ in self.joints():
             lossy = 1 + 1j * self.referred.loss_factor[s]
             stiffness = self.operating.stiffness[s] * lossy + 1j * omega * self.referred.damping[s]
             twisted = stiffness / self.referred.lead[s] ** 2 * twists[:, s]
@@ -117,7 +129,7 @@ class ExcitedTrain:
     @cached_property
     def referred_harmonics(self) -> Complexes:
         """Torques on the masses, (orders, masses, speeds) [N m]."""
-        return _onto_masses(self.referred, self.exciting)
+        return onto_masses(self.referred, self.exciting)
 
 
 def excited_train(machine: Machine, speeds: Floats | None = None) -> ExcitedTrain:
@@ -235,7 +247,7 @@ def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:
     return run.speeds
 
 
-def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
+def onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
     """Torques on discs as torques on masses, (…, masses, speeds)."""
     on_masses = np.zeros((len(torques), len(referred.inertia), torques.shape[-1]), torques.dtype)
     for disc, (mass, n) in enumerate(zip(referred.mass, referred.scale, strict=True)):
@@ -245,30 +257,41 @@ def _onto_masses(referred: ReferredTrain, torques: Complexes) -> Complexes:
 
 def mean_shaft_torques(referred: ReferredTrain, mean: Floats) -> Floats:
     """Torque of each shaft at its own speed under torques that do not pulsate."""
-    M = _onto_masses(referred, mean[None].astype(complex))[0].real
+    M = onto_masses(referred, mean[None].astype(complex))[0].real
     if referred.is_free:
         # What is left over speeds the train up as a whole.
-        surplus = (referred.rigid @ M) / referred.rigid_inertia
-        M = M - (referred.inertia * referred.rigid)[:, None] * surplus
-    # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
-    k = np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
-    tree = tree_of(referred)
-    if tree is None:
-        # Of all torques that balance those of minimum energy, Σ T²/k: so ways in parallel share by stiffness.
-        scale = np.sqrt(k)[:, None]
-        carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
-    else:
-        stiffness = np.repeat(k[None, :, None].astype(complex), M.shape[1], axis=2)
-        carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
+        surplus = (referred.rigid @ M) / (referred.rigid @ referred.inertia)
+        M = M - by_columns(referred.inertia) * referred.rigid[:, None] * surplus
+    carried = carried_by_shafts(referred, M)
     # What is left of the rounding of large torques is none.
     carried[np.abs(carried) < _ROUNDING * np.abs(M).max(initial=0.0)] = 0.0
     return carried / referred.lead[:, None]
 
 
+def static_stiffness(referred: ReferredTrain) -> Floats:
+    """Stiffness by which shafts share a mean torque, (shafts,) [N m/rad]."""
+    # The ring of a fluid hangs on nothing else, so that any stiffness tells what takes it along.
+    return np.where(referred.stiffness > 0, referred.stiffness, referred.stiffness.max(initial=0.0) or 1.0)
+
+
+def carried_by_shafts(referred: ReferredTrain, M: Floats) -> Floats:
+    """Torque of each shaft, (shafts, …), that holds torques on the masses which balance, (masses, …)."""
+    k, tree = static_stiffness(referred), tree_of(referred)
+    if tree is None:
+        # Of all torques that balance those of minimum energy, Σ T²/k: so ways in parallel share by stiffness.
+        scale = np.sqrt(k)[:, None]
+        carried: Floats = scale * (np.linalg.pinv((scale * referred.joins).T, rcond=1e-13) @ M)
+    else:
+        stiffness = np.broadcast_to(by_columns(k)[None].astype(complex), (1, len(k), M.shape[1]))
+        carried = by_equilibrium(referred, tree, stiffness, M[None].astype(complex))[0].real
+    return carried
+
+
 def _operating(
     train: Train | None, referred: ReferredTrain, torques: Torques, mean: Floats
 ) -> OperatingState:
-    stiffness = np.repeat(referred.stiffness[:, None], len(torques.speeds), axis=1)
+    columns = len(torques.speeds)
+    stiffness = np.broadcast_to(by_columns(referred.stiffness), (len(referred.shafts), columns)).copy()
     lead = referred.lead
     for name, coupling in ({} if train is None else train.couplings).items():
         if coupling.twist is not None:
@@ -277,6 +300,8 @@ def _operating(
     for name, pendulum in ({} if train is None else train.pendulums).items():
         s = referred.shafts.index(name)
         stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
-    damping = np.repeat(referred.disc_damping[:, None], len(torques.speeds), axis=1)
+    damping = np.broadcast_to(by_columns(referred.disc_damping), (len(referred.inertia), columns)).copy()
     np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
-    return OperatingState(torques.speeds, stiffness, damping, modal_losses(referred, stiffness))
+    held = onto_masses(referred, referred.scale[None, :, None] * torques.control[None, :, None])[0, :, 0]
+    modal = modal_losses(referred, stiffness)
+    return OperatingState(torques.speeds, stiffness, damping, modal, held if held.any() else None)

@@ -47,6 +47,7 @@ class Torques:
     # (speeds,) mean torque at the first disc beyond what the loads take off, which accelerates a free train
     # [N m].
     surplus: Floats
+    control: Floats  # (discs,) k_i of speed controllers, springs against the ground [N m/rad]
     # (orders,) ω₀ of lines with a fixed frequency, behind all others [rad/s]; empty for none.
     fixed: Floats = field(default_factory=lambda: np.empty(0))
 
@@ -138,10 +139,11 @@ def torques_of(
             continue
         at = np.abs(own[:, None] - torque.orders).argmin(axis=0)
         np.add.at(harmonics, (at, torque.disc), torque.harmonics)
-    damped = of_loads if damping is None else of_loads + damping
+    gains, control = controllers(train, place, speeds)
+    damped = of_loads + gains if damping is None else of_loads + gains + damping
     surplus = _powers(turning, mean - resistance) if is_free else np.zeros(len(speeds))
     fixed = np.append(np.zeros(len(own)), [offset for _, offset in lines]) if lines else np.empty(0)
-    return Torques(speeds, orders, harmonics, mean - resistance, damped, factor, surplus, fixed)
+    return Torques(speeds, orders, harmonics, mean - resistance, damped, factor, surplus, control, fixed)
 
 
 def _excitations(train: Train, place: dict[str, int], turning: Floats, speeds: Floats) -> list[Source]:
@@ -179,6 +181,21 @@ def _loads(train: Train, place: dict[str, int], turning: Floats, speeds: Floats)
     resistance = _summed([(disc, _at(load.resistance, at)) for disc, load, at in listed], len(place), speeds)
     damping = _summed([(disc, _at(load.damping, at)) for disc, load, at in listed], len(place), speeds)
     return resistance, damping
+
+
+def controllers(train: Train, place: dict[str, int], speeds: Floats) -> tuple[Any, Any]:
+    """Damping, (discs, speeds), and stiffness, (discs,), by which speed controllers act on vibration.
+
+    A PI controller gives −(k_p + k_i/(iω)) iωθ at the disc that swings by θ (Åström and Murray 2008).
+    """
+    listed = [
+        (place[driver.on], driver.control) for driver in train.drivers.values() if driver.control is not None
+    ]
+    gains = _summed([(disc, one.proportional) for disc, one in listed], len(place), speeds)
+    control = zeros_for([one.integral for _, one in listed], (len(place),))
+    for disc, one in listed:
+        control[disc] += one.integral
+    return gains, control
 
 
 def _at(function: Callable[[float], Any], speeds: Floats) -> Any:

@@ -7,6 +7,8 @@
 | `distributed` | Derivatives of the dynamic stiffness where inertia is distributed |
 | `distributed_modes` | Derivatives of the modes of such a train |
 | `modes` | Derivatives of natural frequencies and mode shapes |
+| `mean_torques` | Derivatives of the mean torques of shafts |
+| `joints` | Derivatives of what Hooke's joints do |
 | `shaft_torques` | Derivatives of the torque of a shaft at each order |
 | `forced` | Derivatives of the torques that shafts carry in forced vibration |
 """

@@ -48,6 +48,7 @@ class PartSlopes(NamedTuple):
     )  # (springs, variables) of k(1 + iη) + iωc of shafts that are no rods [N m/rad]
     stiffness: Complexes | Floats  # (pieces, variables) of ln k of the pieces of all rods, with their losses
     inertia: Floats  # (pieces, variables) of ln j
+    joins: Floats  # (shafts, masses, variables) of the connections in a train with gears on a carrier
 
 
 class Output(NamedTuple):
@@ -84,8 +85,12 @@ class CutTrain:
     def stiffness(self) -> Complexes:
         """K − ω²J of the nodes with the losses of shafts, (nodes, nodes) [N m/rad]."""
         at, n = self._at, len(self.cut.inertia)
-        D = np.zeros((n + 1, n + 1), complex)
         spring, (a, b) = at.stiffness[:, 0], self._ends
+        if self.cut.twist is not None:
+            about = (self.cut.joins.T * spring) @ self.cut.joins
+            about[np.arange(n), np.arange(n)] -= self.omega**2 * at.inertia[:, 0]
+            return about
+        D = np.zeros((n + 1, n + 1), complex)
         np.add.at(D, (a, a), spring)
         np.add.at(D, (b, b), spring)
         np.add.at(D, (a, b), -spring)
@@ -104,6 +109,15 @@ class CutTrain:
         """Angles of both ends of all shafts, (2, shafts)."""
         angles: Complexes = np.append(q, 0.0)[self._ends]
         return angles
+
+    def _twists(self, q: Complexes) -> Complexes:
+        """Twists of all springs, (springs,) [rad]."""
+        if self.cut.twist is not None:
+            about: Complexes = self.cut.joins @ q
+            return about
+        first, second = self._angles(q)[:, : self.springs]
+        twists: Complexes = first - second
+        return twists
 
     def _onto_nodes(self, first: Complexes, second: Complexes) -> Complexes:
         """Sums over the nodes of what acts at both ends of all shafts, (nodes, ...)."""
@@ -144,8 +158,13 @@ class CutTrain:
 
     def moved(self, q: Complexes, slopes: PartSlopes) -> Complexes:
         """dD q by the variables, (nodes, variables) [N m]. `q`: (nodes,) [rad]."""
-        a, b = self._angles(q)[:, : self.springs]
-        spring = slopes.springs * (a - b)[:, None]
+        spring = slopes.springs * self._twists(q)[:, None]
+        if self.cut.twist is not None:
+            # Torques of the meshes, by twists that follow the ratios, and at masses that do.
+            k, moved = self._at.stiffness[:, 0], np.einsum("smv,m->sv", slopes.joins, q)
+            torques = self.cut.joins.T @ (spring + k[:, None] * moved)
+            torques += np.einsum("smv,s->mv", slopes.joins, k * self._twists(q)) + slopes.masses * q[:, None]
+            return torques
         first, second = self._forces(q, slopes)
         torques = self._onto_nodes(np.concatenate([spring, first]), np.concatenate([-spring, second]))
         masses = len(slopes.masses)
@@ -163,9 +182,10 @@ class CutTrain:
 
     def spring_torque(self, spring: int, q: Complexes, slopes: PartSlopes) -> Output:
         """Torque of a shaft that is no rod, from its first end to its second."""
-        k = self._at.stiffness[spring, 0]
-        a, b = self._angles(q)[:, spring]
-        return Output(self._row(spring, k, -k), slopes.springs[spring] * (a - b))
+        k, change = self._at.stiffness[spring, 0], slopes.springs[spring] * self._twists(q)[spring]
+        if self.cut.twist is not None:
+            return Output(k * self.cut.joins[spring], change + k * (q @ slopes.joins[spring]))
+        return Output(self._row(spring, k, -k), change)
 
     def piece_torque(self, piece: int, end: int, q: Complexes, slopes: PartSlopes) -> Output:
         """Torque at an end, 0 or 1, of a piece, with which the part before drives the part after."""

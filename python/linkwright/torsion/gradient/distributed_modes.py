@@ -108,6 +108,7 @@ class DistributedModes:
             np.delete(d.stiffness, rods, axis=0),
             d.rod_stiffness / of_rods.stiffness[:, None],
             d.rod_inertia / of_rods.inertia[:, None],
+            d.joins,
         )
         moved = np.stack([train.moved(x, slopes).real for x in shapes.T], axis=1)
         return _Basis(train, shapes, momenta, moved)

@@ -29,7 +29,8 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
 from linkwright.torsion.core.response import extremes
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
-from linkwright.torsion.excitation.harmonics import coefficients, orders_together, waveform
+from linkwright.torsion.excitation.harmonics import coefficients, waveform
+from linkwright.torsion.gradient.joints import joint_slopes
 from linkwright.torsion.gradient.shaft_torques import CarriedTorques, ShaftTorques
 from linkwright.torsion.gradient.torques import TorqueTangents, torque_tangents
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
@@ -63,13 +64,6 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
         raise InputError(
             "forced vibration with train.modal_damping has no derivatives: give dampings or loss factors"
         )
-    waves = [wave for excitation in machine.train.excitations.values() for wave in excitation.harmonics]
-    if any(wave.frequency for wave in waves):
-        raise InputError(
-            "forced vibration under a fixed frequency has no derivatives: leave out its harmonics"
-        )
-    if any(shaft.joint_angle is not None for shaft in machine.train.shafts.values()):
-        raise InputError("forced vibration with joints has no derivatives: leave out joint_angle")
     refused = _refused(variables)
     train, referred, d = train_tangents(machine, variables, refused)
     _refuse_moved(d, refused)
@@ -80,9 +74,12 @@ def forced_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     peaks = _peaks(at, q, shafts)
     places = sorted({place for _, _, place, _ in peaks})
     torques = torque_tangents(machine, train, referred, at.torques.speeds[places], d, refused)
+    joints = joint_slopes(machine, at, d.variables, refused)
     known = [name for name in d.variables if name not in refused]
     acting = {place: torques[n].only(d.variables, known) for n, place in enumerate(places)}
-    forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting, shafts), acting)
+    if joints is not None:
+        joints = joints[..., [d.variables.index(name) for name in known]]
+    forced = _Peaks(at, ShaftTorques(at, q, d.only(known), acting, shafts, joints), acting)
     tangents, words, ties = {}, {}, {}
     for kind, shaft, place, tie in peaks:
         value, slope, twice = forced.response(kind, shaft, place)
@@ -103,6 +100,8 @@ def _refused(variables: Sequence[str]) -> dict[str, str]:
             refused[name] = "it selects the speeds and orders analysed"
         elif name.rsplit(".", 1)[-1] == "order":
             refused[name] = "an order is discrete: it determines which torques coincide"
+        elif name.startswith("train.excitations.") and name.endswith(".frequency"):
+            refused[name] = "a fixed frequency is discrete: it determines which torques coincide"
     return refused
 
 
@@ -135,7 +134,10 @@ def _peaks(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[tuple
 def _rigid(at: ExcitedTrain, q: Complexes, shafts: CarriedTorques) -> list[bool]:
     """Whether the twist of each shaft is rounding."""
     stiffness, flow = shafts
-    twisted = stiffness * np.einsum("sm,omw->osw", at.referred.joins, q)
+    twists = np.einsum("sm,omw->osw", at.referred.joins, q)
+    if at.joint_twists is not None:
+        twists = twists + at.joint_twists / at.referred.lead[:, None]
+    twisted = stiffness * twists
     off, size = np.abs(twisted - flow).max(axis=(0, 2)), np.abs(flow).max(axis=(0, 2))
     return [bool(rigid) for rigid in off > _RIGID * size]
 
@@ -145,7 +147,7 @@ class _Peaks:
 
     def __init__(self, at: ExcitedTrain, shafts: ShaftTorques, torques: dict[int, TorqueTangents]) -> None:
         self._at, self._shafts, self._torques = at, shafts, torques
-        self._orders = orders_together(at.torques.orders)
+        self._orders = at.torques.together
 
     def response(self, kind: str, shaft: int, place: int) -> tuple[float, Floats, str]:
         """Value, derivatives, and why it has only one-sided ones."""

@@ -6,10 +6,11 @@ With shapes q of :math:`q^T J q = 1`,
     dq_i = \sum_{j \ne i} \frac{q_j^T (dK - \omega_i^2\,dJ)\,q_i}{\omega_i^2 - \omega_j^2}\,q_j
     - \tfrac12 (q_i^T dJ\,q_i)\,q_i
 
-where K and J are sums over shafts and masses, so that no matrix is formed. A frequency that stands r times
-has r derivatives in each direction, which no single entry can tell apart: what is a smooth function is the
-mean of their squares. Each of them is given the derivative of the frequency of that mean, and its shape has
-none [2]_.
+where K and J are sums over shafts and masses, so that no matrix is formed. About a carrier the twist of a
+mesh, Δ = Bq, has ratios in it, and k (dΔ_i Δ_j + Δ_i dΔ_j) comes to its term of the sum. A frequency that
+stands r times has r derivatives in each direction, which no single entry can tell apart: what is a smooth
+function is the mean of their squares. Each of them is given the derivative of the frequency of that mean, and
+its shape has none [2]_.
 
 Trains with distributed inertia have modes without end, over which no sum is taken: there the shape follows
 from the dynamic stiffness (`distributed_modes`).
@@ -33,7 +34,7 @@ from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, TIE, differ
 from linkwright.kernel.numerics.tangent import Tangent
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives
-from linkwright.torsion.core.train import HELD, ReferredTrain
+from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.gradient.distributed_modes import DistributedModes, ModeAngles
 from linkwright.torsion.gradient.train import TrainTangents, train_tangents
 from linkwright.torsion.modes.free import modes_wanted
@@ -155,16 +156,19 @@ class _LumpedModes:
 
     def _pencil(self) -> list[Floats]:
         """Row i: q_jᵀ(dK − ω_i² dJ)q_i of all j, (modes, variables)."""
-        q, d = self._q, self._d
-        held = np.concatenate([q, np.zeros((len(q), 1))], axis=1)
-        first, second = self._referred.ends.T
-        twist = held[:, first] - held[:, second]
-        assert HELD == -1
-        return [
+        q, d, r = self._q, self._d, self._referred
+        twist = q @ r.joins.T
+        pencil = [
             np.einsum("js,sv->jv", twist * twist[i], d.stiffness)
             - omega**2 * np.einsum("jm,mv->jv", q * q[i], d.inertia)
             for i, omega in enumerate(self.omega.tolist())
         ]
+        if len(d.joins):
+            # Torques of the meshes in each mode, and how their twist follows the ratios.
+            torque, moved = twist * r.stiffness, np.einsum("smv,jm->jsv", d.joins, q)
+            for i, own in enumerate(pencil):
+                own += np.einsum("jsv,s->jv", moved, torque[i]) + np.einsum("js,sv->jv", torque, moved[i])
+        return pencil
 
     def square(self, group: list[int]) -> Floats:
         """Of the mean of ω² of modes of one frequency, smooth whatever vectors span them, (variables,)."""
@@ -179,8 +183,8 @@ class _LumpedModes:
         dq = np.einsum("jm,jv->mv", q / gaps[:, None], self._own[i])
         dq -= 0.5 * q[i][:, None] * np.einsum("m,mv->v", q[i] ** 2, d.inertia)
         of_disc = q[i][r.mass]
-        theta = r.speed * of_disc
+        theta = r.scale * of_disc
         size = np.abs(theta)
         sense = np.sign(theta[np.argmax(size > (1 - TIE) * size.max())])
-        slopes = r.speed[:, None] * dq[r.mass] + d.speed * of_disc[:, None]
+        slopes = r.scale[:, None] * dq[r.mass] + d.speed * of_disc[:, None]
         return ModeAngles(sense * theta, sense * slopes)

@@ -35,6 +35,7 @@ from linkwright.torsion.gradient.distributed import (
     cut_train,
     rod_numbers,
 )
+from linkwright.torsion.gradient.joints import JointTorques
 from linkwright.torsion.gradient.torques import TorqueTangents
 from linkwright.torsion.gradient.train import TrainTangents
 from linkwright.torsion.response.along_shaft import StationTorques, station_torques
@@ -85,8 +86,10 @@ class ShaftTorques:
         d: TrainTangents,
         torques: dict[int, TorqueTangents],
         shafts: CarriedTorques,
+        joints: Complexes | None = None,
     ) -> None:
         self._at, self._q, self._d, self._torques = at, q, d, torques
+        self._joints = None if joints is None else JointTorques(at, joints)
         self._rods = {rod.shaft: n for n, rod in enumerate(at.referred.rods)}
         self._springs = [s for s in range(len(at.referred.shafts)) if s not in self._rods]
         self._stiffness, self._flow = shafts
@@ -110,8 +113,10 @@ class ShaftTorques:
         if along is not None:
             torques: Complexes = along.torques[:, station, place]
             return torques
-        twist = self._q[:, :, place] @ self._at.referred.joins[shaft]
-        spring: Complexes = self._stiffness[:, shaft, place] * twist / self._at.referred.lead[shaft]
+        twist, lead = self._q[:, :, place] @ self._at.referred.joins[shaft], self._at.referred.lead[shaft]
+        if self._at.joint_twists is not None:
+            twist = twist + self._at.joint_twists[:, shaft, place] / lead
+        spring: Complexes = self._stiffness[:, shaft, place] * twist / lead
         return spring
 
     def slopes(self, shaft: int, place: int, station: int) -> Complexes:
@@ -140,8 +145,13 @@ class ShaftTorques:
             omega = self._omega(place, m)
             fine = [rod.refined(omega, _PIECE)[0] for rod in self._at.referred.rods]
             self._states[place, m] = self._state(fine, place, m)
-        state = self._states[place, m]
-        return state, state.train.spring_torque(self._springs.index(shaft), state.q, state.slopes)
+        state, spring = self._states[place, m], self._springs.index(shaft)
+        torque = state.train.spring_torque(spring, state.q, state.slopes)
+        if self._joints is not None:
+            stiffness, slope = complex(self._stiffness[m, shaft, place]), state.slopes.springs[spring]
+            ahead = self._joints.of_shaft(shaft, m, stiffness, slope)
+            torque = torque._replace(slopes=torque.slopes + ahead)
+        return state, torque
 
     def _of_rod(
         self, n: int, along: StationTorques, station: int, place: int, m: int
@@ -158,7 +168,7 @@ class ShaftTorques:
 
     def _omega(self, place: int, m: int) -> float:
         """Angular frequency of an order at a speed [rad/s]."""
-        return float(self._at.torques.orders[m] * self._at.torques.speeds[place])
+        return float(self._at.torques.omega[m, place])
 
     def _state(self, rods: Sequence[Rod], place: int, m: int) -> _State:
         """The train cut into the pieces of `rods` at an order and speed."""
@@ -167,20 +177,40 @@ class ShaftTorques:
         n = len(at.referred.inertia)
         H = train.stiffness.copy()
         H[np.arange(n), np.arange(n)] += 1j * omega * at.operating.disc_damping[:, place]
+        if at.operating.disc_stiffness is not None:
+            H[np.arange(n), np.arange(n)] += at.operating.disc_stiffness
         # Stations follow the masses, of which the twist of stiff shafts is known better than H tells.
         masses = self._q[:, :, place][m]
         q = np.concatenate([masses, solved(H[n:, n:], -(H[n:, :n] @ masses)[:, None])[:, 0]])
         slopes = self._part_slopes(omega, place)
         right = -train.moved(q, slopes)
         right[:n] += torques.pulsating[m]
+        if self._joints is not None:
+            right[:n] += self._ahead(omega, place, m)
         return _State(train, H, q, slopes, right)
+
+    def _ahead(self, omega: float, place: int, m: int) -> Complexes:
+        """Derivatives of what joints do to the masses, (masses, variables) [N m]."""
+        assert self._joints is not None
+        mean, dmean = self._at.mean_torques[:, place], self._torques[place].mean
+        stiffness, slopes = self._stiffness[m, :, place], self._spring_slopes(omega, place)
+        ahead: Complexes = self._joints.on_masses(m, stiffness, slopes, mean, dmean)
+        return ahead
+
+    def _spring_slopes(self, omega: float, place: int) -> Complexes:
+        """Derivatives of k(1 + iη) + iωc of all shafts, (shafts, variables)."""
+        r, d = self._at.referred, self._d
+        k, η = self._at.operating.stiffness[:, place], r.loss_factor
+        dk, dη, dc = self._torques[place].stiffness, d.loss_factor, d.damping
+        slopes: Complexes = (1 + 1j * η)[:, None] * dk + 1j * k[:, None] * dη + 1j * omega * dc
+        return slopes
 
     def _part_slopes(self, omega: float, place: int) -> PartSlopes:
         """Derivatives of the parts of the train at a frequency [rad/s] and speed."""
         r, d, torques = self._at.referred, self._d, self._torques[place]
         k, η, c = self._at.operating.stiffness[:, place], r.loss_factor, r.damping
         dk, dη, dc = torques.stiffness, d.loss_factor, d.damping
-        springs = (1 + 1j * η)[:, None] * dk + 1j * k[:, None] * dη + 1j * omega * dc
+        springs = self._spring_slopes(omega, place)
         pieces = [np.zeros((0, len(d.variables)), complex)]
         for rod in r.rods:
             # Losses of a piece are to its stiffness as those of the shaft are.
@@ -190,10 +220,13 @@ class ShaftTorques:
             pieces.append(np.tile(change / lossy, (len(rod.stiffness), 1)))
         of_rods = rod_numbers(r)
         return PartSlopes(
-            masses=-(omega**2) * d.bare_inertia + 1j * omega * (d.disc_damping + torques.damping),
+            masses=-(omega**2) * d.bare_inertia
+            + 1j * omega * (d.disc_damping + torques.damping)
+            + torques.control,
             springs=springs[self._springs],
             stiffness=d.rod_stiffness / of_rods.stiffness[:, None] + np.concatenate(pieces),
             inertia=d.rod_inertia / of_rods.inertia[:, None],
+            joins=d.joins,
         )
 
 

@@ -1,10 +1,10 @@
 r"""Derivatives of the torques that act on a train, and of what its couplings are under their mean.
 
-Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through.
-Shafts side by side share their mean torque by stiffness, k/Σk. Those of an engine come out of a working cycle
-that is solved for, couplings with a curve take the slope at their mean torque, and shafts in loops share it
-by stiffness: in such trains the derivatives of torques and stiffnesses, and of nothing else, are extrapolated
-differences (`linkwright.kernel.numerics.differences`).
+Torques of the file and of its loads follow from the entries by plain arithmetic, which tangents go through,
+and so does the stiffness of pendulums at each speed; mean torques of shafts follow by `mean_torques`. Torques
+of an engine come out of a working cycle that is solved for, and couplings with a curve take the slope at
+their mean torque: in such trains the derivatives of torques and stiffnesses, and of nothing else, are
+extrapolated differences (`linkwright.kernel.numerics.differences`).
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from linkwright.kernel.numerics.tangent import lifted
 from linkwright.machine.address import entry_of, outside, replace
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import followed
-from linkwright.torsion.core.response import tree_of
 from linkwright.torsion.core.train import ReferredTrain
-from linkwright.torsion.excitation.excited_train import excited_train, mean_shaft_torques
+from linkwright.torsion.excitation.excited_train import excited_train
 from linkwright.torsion.excitation.harmonics import Torques, torques_of
+from linkwright.torsion.gradient.mean_torques import mean_slopes
 from linkwright.torsion.gradient.train import TrainTangents
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import whole_train
@@ -42,6 +42,7 @@ class TorqueTangents:
     mean: Floats  # (shafts, variables) in the shafts at their own speed [N m]
     damping: Floats  # (masses, variables) of the loads, referred [N m s/rad]
     stiffness: Floats  # (shafts, variables) under the mean torque, referred [N m/rad]
+    control: Floats  # (masses, variables) stiffness of speed controllers, referred [N m/rad]
 
     def only(self, variables: Sequence[str], known: Sequence[str]) -> TorqueTangents:
         """Those by some of the variables."""
@@ -50,7 +51,7 @@ class TorqueTangents:
 
 
 def _arrays(tangents: TorqueTangents) -> tuple[Any, ...]:
-    return tangents.pulsating, tangents.mean, tangents.damping, tangents.stiffness
+    return tangents.pulsating, tangents.mean, tangents.damping, tangents.stiffness, tangents.control
 
 
 def torque_tangents(
@@ -66,11 +67,12 @@ def torque_tangents(
     `train`, `referred`, `d`: that of the machine, referred, and its derivatives; `speeds`: (speeds,) [rad/s].
     """
     assert machine.train is not None
-    if not _is_plain(machine, referred):
+    if machine.train.installed or _curved(machine):
         return _by_differences(machine, referred, speeds, d, refused)
     at = excited_train(machine, speeds)
     acting = [name for name in d.variables if name.startswith(_ACTING)]
-    known, torques = followed(machine, acting, partial(_torques, referred=referred, speeds=speeds), refused)
+    work = partial(_torques, referred=referred, speeds=speeds)
+    known, (torques, swinging) = followed(machine, acting, work, refused)
     places = [d.variables.index(name) for name in known]
 
     def spread(torques: Any) -> Any:
@@ -81,41 +83,26 @@ def torque_tangents(
         return table
 
     onto = np.zeros((len(referred.inertia), len(train.discs)))
-    onto[referred.mass, np.arange(len(train.discs))] = referred.speed
+    onto[referred.mass, np.arange(len(train.discs))] = referred.scale
     waves = np.einsum("md,odsv->somv", onto, spread(torques.harmonics))
-    damping = np.einsum("md,dsv->smv", onto * referred.speed, spread(torques.damping))
-    means = [
-        np.array([mean_shaft_torques(referred, m[:, None])[:, 0] for m in value.T])
-        .reshape(value.shape[1], len(referred.shafts))
-        .T
-        for value in np.moveaxis(spread(torques.mean), 1, 0)
-    ]
-    shared = [_shared(referred, mean, d.stiffness) for mean in at.mean_torques.T]
+    damping = np.einsum("md,dsv->smv", onto * referred.scale, spread(torques.damping))
+    means = zip(
+        np.einsum("md,ds->sm", onto, at.torques.mean),
+        np.einsum("md,dsv->smv", onto, spread(torques.mean)),
+        strict=True,
+    )
+    stiffness = np.repeat(d.stiffness[None], len(speeds), axis=0)
+    if rings := machine.train.pendulums:
+        stiffness[:, [referred.shafts.index(name) for name in rings]] = np.moveaxis(spread(swinging), 1, 0)
+    control = np.einsum("md,dv->mv", onto * referred.scale, spread(torques.control))
     return [
-        TorqueTangents(wave, mean + share, rate, stiffness=d.stiffness)
-        for wave, mean, share, rate in zip(waves, means, shared, damping, strict=True)
+        TorqueTangents(wave, mean_slopes(referred, d, *mean), rate, of_shafts, control)
+        for wave, mean, rate, of_shafts in zip(waves, means, damping, stiffness, strict=True)
     ]
 
 
-def _shared(referred: ReferredTrain, mean: Floats, dk: Floats) -> Floats:
-    """How shafts side by side share their mean torque (shafts,) [N m] anew by `dk`, (shafts, variables)."""
-    pairs = np.sort(referred.ends, axis=1)
-    beside = (pairs[:, None] == pairs).all(axis=2).astype(float)
-    k = referred.stiffness
-    together = np.where(beside @ k > 0, beside @ k, 1.0)
-    own = dk / np.where(k > 0, k, 1.0)[:, None]
-    change: Floats = mean[:, None] * np.where((k > 0)[:, None], own - beside @ dk / together[:, None], 0.0)
-    return change
-
-
-# What acts on a train besides an engine.
-_ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares.")
-
-
-def _is_plain(machine: Machine, referred: ReferredTrain) -> bool:
-    """Whether torques and stiffnesses follow from the entries by plain arithmetic."""
-    assert machine.train is not None
-    return not machine.train.installed and not _curved(machine) and tree_of(referred) is not None
+# What acts on a train besides an engine, and what pendulums are at a speed.
+_ACTING = ("train.excitations.", "train.loads.", "train.drivers.", "train.shares.", "train.pendulums.")
 
 
 def _by_differences(
@@ -130,12 +117,15 @@ def _by_differences(
                 table[..., place] = column
         except LinkwrightError as error:
             refused[name] = " ".join(str(error).split())
-    waves, mean, damping, curved = tables
+    waves, mean, damping, curved, control = tables
     # But for couplings with a curve and pendulums, stiffnesses are those of the train: exact derivatives.
     stiffness = np.repeat(d.stiffness[:, None], len(speeds), axis=1)
-    stiffness[[referred.shafts.index(name) for name in _curved(machine)]] = curved
+    assert machine.train is not None
+    following = (*_curved(machine), *machine.train.pendulums)
+    stiffness[[referred.shafts.index(name) for name in following]] = curved
     return [
-        TorqueTangents(waves[:, :, k], mean[:, k], damping[:, k], stiffness[:, k]) for k in range(len(speeds))
+        TorqueTangents(waves[:, :, k], mean[:, k], damping[:, k], stiffness[:, k], control)
+        for k in range(len(speeds))
     ]
 
 
@@ -163,22 +153,31 @@ def _columns(machine: Machine, name: str, speeds: Floats, here: _Arrays) -> _Arr
 
 
 def _acting(machine: Machine, speeds: Floats) -> _Arrays:
-    """Torques on masses, means in shafts, damping of loads, and stiffness of couplings with a curve."""
+    """Torques on masses, means in shafts, damping of loads, stiffness of couplings with a curve, control."""
     at = excited_train(machine, speeds)
     damping = at.operating.disc_damping - at.referred.disc_damping[:, None]
-    curved = [at.referred.shafts.index(name) for name in _curved(machine)]
-    return at.referred_harmonics, at.mean_torques, damping, at.operating.stiffness[curved]
+    assert machine.train is not None
+    following = (*_curved(machine), *machine.train.pendulums)
+    curved = [at.referred.shafts.index(name) for name in following]
+    held = at.operating.disc_stiffness
+    control = np.zeros(len(damping)) if held is None else held
+    return at.referred_harmonics, at.mean_torques, damping, at.operating.stiffness[curved], control
 
 
 def _curved(machine: Machine) -> list[str]:
-    """Couplings whose stiffness is that of a curve, and pendulums, whose stiffness follows the speed."""
-    train = machine.train
-    couplings, pendulums = ({}, {}) if train is None else (train.couplings, train.pendulums)
-    return [*(name for name, coupling in couplings.items() if coupling.twist is not None), *pendulums]
+    """Couplings whose stiffness is that of a curve."""
+    couplings = {} if machine.train is None else machine.train.couplings
+    return [name for name, coupling in couplings.items() if coupling.twist is not None]
 
 
-def _torques(machine: Machine, referred: ReferredTrain, speeds: Floats) -> Torques:
-    """Those of file and loads at each speed."""
+def _torques(machine: Machine, referred: ReferredTrain, speeds: Floats) -> tuple[Torques, Any]:
+    """Those of file and loads at each speed, and the stiffness of pendulums, (pendulums, speeds)."""
     assert machine.train is not None
     train = whole_train(machine.train)
-    return torques_of(train, referred.speed, speeds, is_free=referred.is_free)
+    torques = torques_of(train, referred.speed, speeds, is_free=referred.is_free)
+    lead = dict(zip(referred.shafts, referred.lead.tolist(), strict=True))
+    swinging = [
+        lead[name] ** 2 * pendulum.stiffness(lead[name] * speeds)
+        for name, pendulum in machine.train.pendulums.items()
+    ]
+    return torques, np.stack(swinging) if swinging else np.empty((0, len(speeds)))

@@ -11,6 +11,8 @@ from dataclasses import dataclass, fields
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import lifted, numbers
 from linkwright.machine.machine import Machine
@@ -25,8 +27,6 @@ _MECHANISM = (
     "the mean inertia of a mechanism is not differentiated here; it is the inertia of the disc `crank`"
 )
 
-
-_CARRIER = "derivatives of trains with gears on a carrier are not available"
 
 _START = "the curve of a coupling starts at zero"
 
@@ -48,11 +48,14 @@ class TrainTangents:
     bare_inertia: Floats  # (masses, variables)
     rod_stiffness: Floats  # (pieces, variables) of all rods, one behind the other
     rod_inertia: Floats  # (pieces, variables) likewise
+    # (shafts, masses, variables) of `joins`, which ratios about a carrier move; (0, masses, variables) of a
+    # train without one, whose connections are ±1.
+    joins: Floats
 
     def only(self, variables: Sequence[str]) -> TrainTangents:
         """Those by some of the variables."""
         at = [self.variables.index(name) for name in variables]
-        return TrainTangents(tuple(variables), *(getattr(self, name)[:, at] for name in _NUMBERS))
+        return TrainTangents(tuple(variables), *(getattr(self, name)[..., at] for name in _NUMBERS))
 
 
 _NUMBERS = tuple(field.name for field in fields(TrainTangents))[1:]
@@ -66,7 +69,9 @@ def _listed(referred: ReferredTrain) -> list[Any]:
             if mass != HELD:
                 bare[mass] = bare[mass] - lumped
     of_rods = ([x for rod in referred.rods for x in getattr(rod, name)] for name in ("stiffness", "inertia"))
-    return [*(getattr(referred, name) for name in _NUMBERS[:-3]), *map(numbers, (bare, *of_rods))]
+    own = (getattr(referred, name) for name in _NUMBERS[: _NUMBERS.index("bare_inertia")])
+    joins = np.empty((0, len(bare))) if referred.twist is None else referred.joins
+    return [*own, *map(numbers, (bare, *of_rods)), joins]
 
 
 def train_tangents(
@@ -79,8 +84,6 @@ def train_tangents(
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
-    if referred.twist is not None:
-        refused.update(dict.fromkeys(variables, _CARRIER))
     refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
     known, listed = followed(machine, free, partial(_numbers, inertia=J), refused)

@@ -55,7 +55,12 @@ def _frequencies(at: ExcitedTrain) -> Floats:
     # Rings in a fluid hang on nothing elastic: LAPACK takes what is no train in pieces.
     columns, place = np.unique(at.operating.stiffness, axis=1, return_inverse=True)
     if at.referred.rods:
-        trains = (replace(at.referred, stiffness=np.ascontiguousarray(column)) for column in columns.T)
+        trains = (
+            replace(at.referred, stiffness=np.ascontiguousarray(column)).on_springs(
+                at.operating.disc_stiffness
+            )
+            for column in columns.T
+        )
         highest = float(at.torques.omega.max(initial=at.torques.speeds.max()))
         listed = [
             np.where(low > 0, low, 0.0) for low in (frequencies_below(train, highest) for train in trains)
@@ -65,6 +70,8 @@ def _frequencies(at: ExcitedTrain) -> Floats:
         return exact[place.ravel()][:, exact.min(axis=0) > 0]
     scale = 1.0 / np.sqrt(at.referred.inertia)
     matrices = np.array([replace(at.referred, stiffness=column).stiffness_matrix for column in columns.T])
+    if at.operating.disc_stiffness is not None:
+        matrices += np.diag(at.operating.disc_stiffness)
     square = np.linalg.eigvalsh(scale[:, None] * matrices * scale)
     # Rounding leaves some 10⁻¹⁵ of the largest where a part turns freely.
     moving = square.min(axis=0) > _FREE * square.max(initial=0.0)
@@ -108,6 +115,7 @@ def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
     """Damped natural frequencies [rad/s] farther from the undamped ones than their peaks are wide."""
     stiffness, damping = at.operating.stiffness[:, place], at.operating.disc_damping[:, place]
     train = replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
+    train = train.on_springs(at.operating.disc_stiffness)
     if train.rods:
         train = replace(in_pieces(train, len(undamped)), rods=())
     eigenvalues, _ = damped_modes(train)

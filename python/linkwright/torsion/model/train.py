@@ -31,7 +31,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
-from linkwright.kernel.numerics.tangent import total
+from linkwright.kernel.numerics.tangent import tan, total
 from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
 from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, not_negative, positive
 from linkwright.linkages.model.element import PositiveNumber
@@ -275,7 +275,7 @@ class Shaft(ElasticShaft):
         """
         if self.joint_angle is None:
             return ()
-        t = math.tan(self.joint_angle / 2) ** 2
+        t = tan(self.joint_angle / 2) ** 2
         count = 1
         while t**count / (count + 1) > _JOINT_HARMONIC:
             count += 1

@@ -289,7 +289,7 @@ def _about_carriers(train: Train) -> Speeds:
 def _solve_together(relations: list[_Relation], known: dict[str, float]) -> bool:
     """Speeds that several relations set only together; whether they set them."""
     names = list(dict.fromkeys(name for one in relations for name in one.factors if name not in known))
-    A = np.array([[plain(one.factors.get(name, 0.0)) for name in names] for one in relations])
+    A = np.array([[primal(one.factors.get(name, 0.0)) for name in names] for one in relations])
     if np.linalg.matrix_rank(A) < len(names):
         return False
     inverse = np.linalg.pinv(A)

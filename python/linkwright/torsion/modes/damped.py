@@ -14,7 +14,8 @@ The equation times :math:`\bar\theta^T` says, by its imaginary part, what each p
 .. math:: 2\sigma \sum J|\theta|^2 = \sum c|\Delta|^2 + \sum c_0|\theta|^2 + \sum \eta k|\Delta|^2/\omega_d
     + \bar\theta^T C_\zeta\theta
 
-with C_ζ that of given damping ratios.
+with C_ζ that of given damping ratios. A PI controller of the speed adds k_p to the damping c₀ of its disc and
+k_i, which takes no energy, to its stiffness.
 
 With the shapes Q and frequencies Ω of the train without damping, :math:`\theta = Q p`, the states
 :math:`y = \Omega p` and :math:`v = \dot p` go on as
@@ -52,6 +53,8 @@ from linkwright.torsion.core.distributed import cut_up, dynamic, natural_frequen
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.excitation.excited_train import prepared
+from linkwright.torsion.excitation.harmonics import controllers
+from linkwright.torsion.model.train import Train
 from linkwright.torsion.modes.free import modes_wanted, scaled
 
 
@@ -179,14 +182,24 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
         The machine has no train, or the speed is none above zero.
     """
     in_range(speed=(speed, positive(SPEED)))
-    train, disc_damping = _at(machine, speed)
-    count = modes_wanted(machine, train_of(machine))
+    return damped_train(*_at(machine, speed), modes_wanted(machine, train_of(machine)))
+
+
+def damped_train(
+    train: ReferredTrain, disc_damping: Floats, control: Floats | None, count: int
+) -> DampedVibration:
+    """Modes of a train, the first `count` of one with distributed inertia.
+
+    `disc_damping`: (discs,) at their own speeds [N m s/rad]; `control`: (masses,) springs of controllers
+    [N m/rad].
+    """
     referred = in_pieces(train, count) if train.rods else train
-    eigenvalues, masses = damped_modes(replace(referred, rods=()))
+    controlled = referred.on_springs(control)
+    eigenvalues, masses = damped_modes(replace(controlled, rods=()))
     if train.rods:
         eigenvalues, masses = eigenvalues[:count], masses[:count]
         swings = zip(eigenvalues.tolist(), masses, strict=True)
-        eigenvalues = np.array([_exact(referred, s, q) for s, q in swings])
+        eigenvalues = np.array([_exact(controlled, s, q) for s, q in swings])
     shapes = scaled(referred.scale * masses[:, referred.mass])
     size = np.abs(shapes).max(axis=1) / np.abs(referred.scale * masses[:, referred.mass]).max(axis=1)
     inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
@@ -208,14 +221,31 @@ def damped_vibration(machine: Machine, speed: float | None = None) -> DampedVibr
     )
 
 
-def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats]:
-    """The train at a speed, and the damping of its discs at their own [N m s/rad]."""
+def _at(machine: Machine, speed: float | None) -> tuple[ReferredTrain, Floats, Floats | None]:
+    """The train at a speed, the damping of its discs at their own [N m s/rad], springs of controllers."""
     if speed is None:
         train = train_of(machine)
-        return refer(train), np.array([disc.damping for disc in train.discs.values()])
+        return at_rest(train, refer(train), np.array([disc.damping for disc in train.discs.values()]))
     at = prepared(machine, np.array([speed]))
     stiffness, damping = at.operating.stiffness[:, 0], at.operating.disc_damping[:, 0]
-    return replace(at.referred, stiffness=stiffness, disc_damping=damping), at.disc_damping[:, 0]
+    referred = replace(at.referred, stiffness=stiffness, disc_damping=damping)
+    return referred, at.disc_damping[:, 0], at.operating.disc_stiffness
+
+
+def at_rest(
+    train: Train, referred: ReferredTrain, damping: Floats
+) -> tuple[ReferredTrain, Floats, Floats | None]:
+    """The same without loads; `damping`: (discs,) of the discs themselves [N m s/rad]."""
+    place = {name: n for n, name in enumerate(train.discs)}
+    gains, control = controllers(train, place, np.zeros(1))
+    own = damping + gains[:, 0]
+    return replace(referred, disc_damping=_summed(referred, own)), own, _summed(referred, control)
+
+
+def _summed(referred: ReferredTrain, of_discs: Floats) -> Floats:
+    """Damping or stiffness of the discs, referred, as that of the masses."""
+    counted: Floats = np.bincount(referred.mass, referred.scale**2 * of_discs, len(referred.inertia))
+    return counted
 
 
 def _of_shafts(train: ReferredTrain, referred: ReferredTrain, masses: Complexes, omega: Floats) -> Floats:

@@ -207,28 +207,41 @@ def free_vibration(machine: Machine) -> FreeVibration:
     train = train_of(machine)
     referred = refer(train)
     modes = train_modes(referred, modes_wanted(machine, train))
+    free = modes_table(train, referred, modes, disc_inertias(train, referred), own_stiffness(referred))
+    shapes = free.mode_shapes
+    nodes = tuple(tuple(_nodes(train, referred, shape, modes, k)) for k, shape in enumerate(shapes))
+    return replace(free, nodes=nodes)
+
+
+def modes_table(
+    train: Train, referred: ReferredTrain, modes: TrainModes, inertia: Floats, stiffness: Floats
+) -> FreeVibration:
+    """Modes of a train, or of several of one structure one after another, without nodes.
+
+    `inertia`: (discs,) or (modes, discs) at their own speeds [kg m²]; `stiffness`: likewise of the shafts
+    [N m/rad].
+    """
     shapes, size = _sized(referred, modes)
     twists = twists_of(referred, shapes)
-    kinetic = disc_inertias(train, referred) * shapes**2
-    potential = own_stiffness(referred) * twists**2
+    kinetic, potential = inertia * shapes**2, stiffness * twists**2
     of_shafts = np.zeros_like(potential)
     for n, rod in enumerate(referred.rods):
         energy = [_energies(mode, n, factor) for mode, factor in zip(modes.exact, size, strict=True)]
         of_shafts[:, rod.shaft], potential[:, rod.shaft] = np.array(energy).T
     moving = modes.omega[:, None] > 0
     total = np.where(moving, potential.sum(axis=1, keepdims=True), 1.0)
-    inertia = kinetic.sum(axis=1) + of_shafts.sum(axis=1)
+    modal = kinetic.sum(axis=1) + of_shafts.sum(axis=1)
     return FreeVibration(
         natural_frequencies=modes.omega / (2 * math.pi),
         discs=referred.discs,
         mode_shapes=shapes,
         shafts=referred.shafts,
         twists=twists,
-        nodes=tuple(tuple(_nodes(train, referred, shape, modes, k)) for k, shape in enumerate(shapes)),
-        kinetic_shares=kinetic / inertia[:, None],
-        shaft_kinetic_shares=of_shafts / inertia[:, None],
+        nodes=(),
+        kinetic_shares=kinetic / modal[:, None],
+        shaft_kinetic_shares=of_shafts / modal[:, None],
         potential_shares=np.where(moving, potential, 0.0) / total,
-        modal_inertia=inertia,
+        modal_inertia=modal,
         joined=tuple(row.between for table in (train.shafts, train.gears) for row in table.values()),
         along=tuple(_along(train, referred, modes, n, size) for n in range(len(referred.rods))),
     )

@@ -196,4 +196,5 @@ def _of_rod(train: ReferredTrain, shape: RodShape, ω: float) -> float:
 
 def _train(at: ExcitedTrain, stiffness: Floats, damping: Floats | None = None) -> ReferredTrain:
     damping = at.referred.disc_damping if damping is None else damping
-    return replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
+    train = replace(at.referred, stiffness=np.ascontiguousarray(stiffness), disc_damping=damping)
+    return train.on_springs(at.operating.disc_stiffness)

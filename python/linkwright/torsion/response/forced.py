@@ -38,7 +38,7 @@ from linkwright.kernel.result import Result
 from linkwright.kernel.units.kinds import SPEED
 from linkwright.kernel.units.marks import not_negative
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.response import respond, shaft_torques
+from linkwright.torsion.core.response import by_columns, respond, shaft_torques
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import Orders, line_words, orders_together, span
 from linkwright.torsion.response.along_shaft import worst_place
@@ -209,7 +209,7 @@ def response_by_amplitudes(at: ExcitedTrain, q: Complexes) -> TorsionResponse:
 def _losses(at: ExcitedTrain) -> Floats:
     """ηk + ωc of each shaft, (orders, shafts, speeds) [N m/rad]."""
     omega = at.torques.omega[:, None]
-    c, loss = at.referred.damping[:, None], at.referred.loss_factor[:, None]
+    c, loss = by_columns(at.referred.damping), by_columns(at.referred.loss_factor)
     losses: Floats = loss * at.operating.stiffness + omega * c
     return losses
 
@@ -228,11 +228,14 @@ def shaft_flow(at: ExcitedTrain, q: Complexes, stiffness: Complexes) -> Complexe
     outside = at.referred_harmonics
     forces, size = outside.copy(), np.abs(outside)
     # Masses one by one stay in the cache.
-    for m, J in enumerate(at.referred.inertia.tolist()):
+    for m, J in enumerate(at.referred.inertia):
         inertia = omega**2 * (J if at.distributed is None else at.distributed.inertia[:, m])
         damping = omega * at.operating.disc_damping[m]
         forces[:, m] += _complex(inertia.real, inertia.imag - damping) * q[:, m]
         size[:, m] += (np.abs(inertia) + np.abs(damping)) * np.abs(q[:, m])
+    if at.operating.disc_stiffness is not None:
+        held = at.operating.disc_stiffness[:, None] * q
+        forces, size = forces - held, size + np.abs(held)
     if at.operating.modal is not None:
         modal = at.operating.modal.torques(1j * omega[:, None] * q)
         forces, size = forces - modal, size + np.abs(modal)
@@ -342,7 +345,11 @@ def forced_vibration(machine: Machine, speeds: Floats | None = None) -> ForcedVi
 
 def responded(at: ExcitedTrain) -> ForcedVibration:
     """Steady vibration of a train that has been prepared."""
-    q = responses(at)
+    return vibration_by_amplitudes(at, responses(at))
+
+
+def vibration_by_amplitudes(at: ExcitedTrain, q: Complexes) -> ForcedVibration:
+    """Steady vibration of a train whose masses swing by `q` (orders, masses, speeds) [rad]."""
     shafts = response_by_amplitudes(at, q)
     total, rigid, torsional = _unevenness(at, shafts.together, q)
     omega = shafts.omega
@@ -384,7 +391,10 @@ def _unevenness(at: ExcitedTrain, orders: Orders, q: Complexes) -> tuple[Floats,
     turned, offsets = at.torques.speeds, at.torques.offsets[:, None]
     ratio = np.divide(offsets, turned, out=np.zeros(at.torques.omega.shape), where=turned > 0)
     speed = 1j * np.abs(orders.values[:, None] + ratio)[:, None] * q
-    common = np.einsum("m,omw->ow", J * rigid, speed)[:, None] / referred.rigid_inertia
+    of_rigid = by_columns(J) * rigid[:, None]
+    common = np.einsum("mw,omw->ow", np.broadcast_to(of_rigid, q.shape[1:]), speed)[:, None] / of_rigid.sum(
+        axis=0
+    )
     if not referred.is_free:
         common = np.zeros_like(common)
     deltas = []

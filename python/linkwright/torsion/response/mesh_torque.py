@@ -177,7 +177,7 @@ def meshed(at: ExcitedTrain, response: TorsionResponse) -> MeshTorque:
     theta = response.amplitudes
     inertia, shafts = (J, response.shaft_torques) if at.distributed is None else _rods(at, J, theta)
     outside = at.harmonics + (omega**2 * inertia - 1j * omega * at.disc_damping) * theta
-    outside = outside - _modal_torques(at, J, response)
+    outside = outside - _modal_torques(at, J, response) - at.torques.control[:, None] * theta
     waves = _stage_torques(at, outside, shafts)
     mean = _stage_torques(at, _mean_outside(at, J)[None], at.mean_torques[None].astype(complex))[0].real
     greatest, least = span(response.together, waves, mean)
