@@ -35,7 +35,15 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, Description, fault
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.limits import HARMONICS, ORDER
-from linkwright.kernel.units.kinds import COUNT, FREQUENCY, RATIO, TORQUE
+from linkwright.kernel.units.kinds import (
+    COUNT,
+    FREQUENCY,
+    RATIO,
+    TIME,
+    TORQUE,
+    TORSIONAL_DAMPING,
+    TORSIONAL_STIFFNESS,
+)
 from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, Speeds, not_negative, positive
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
@@ -194,6 +202,39 @@ def _listed_twice(orders: Sequence[float] | Sequence[tuple[float, float]]) -> It
             )
 
 
+class SpeedControl(CheckedDescription):
+    """A PI controller that holds the speed of a driver: a frequency converter, a turbine governor."""
+
+    speed: PositiveSpeed | None = Field(
+        None, description="Set-point of the speed of the disc. Default: its speed at the start of the motion."
+    )
+    times: Annotated[tuple[float, ...], QuantityList(TIME)] | None = Field(
+        None, description="Times of a set-point that changes, increasing; instead of `speed`."
+    )
+    speeds: Speeds | None = Field(None, description="Set-point at these times; linear between them.")
+    proportional: Annotated[float, positive(TORSIONAL_DAMPING)] = Field(
+        description="Proportional gain k_p: torque per speed deviation."
+    )
+    integral: Annotated[float, not_negative(TORSIONAL_STIFFNESS)] = Field(
+        0.0,
+        description="Integral gain k_i: torque per integral of the speed deviation over time; k_p over the "
+        "integral-action time.",
+    )
+    torque_max: PositiveTorque | None = Field(
+        None,
+        description="Limit of the torque, either way; the integral stops at the limit (anti-windup). "
+        "Default: none.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if (self.times is None) != (self.speeds is None):
+            yield fault("times" if self.times is None else "speeds", expected="times and speeds together")
+        elif self.times is not None:
+            yield from curve_faults(self, "times", ("speeds",))
+            if self.speed is not None:
+                yield fault("speed", found=self.speed, expected="none beside times", remedy="leave it out")
+
+
 class TrainDriver(CheckedDescription):
     """A turbine or motor that drives: with its share of the power, or with a torque over the speed."""
 
@@ -208,8 +249,15 @@ class TrainDriver(CheckedDescription):
     exponent: Exponent = Field(
         0.0, description="Exponent of the torque over the speed; −1 for constant power."
     )
+    control: SpeedControl | None = Field(
+        None,
+        description="Speed controller: it adds to the mean torque what the deviation of the speed asks for.",
+    )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.control is not None and self.speed is not None:
+            expected = "no torque over the speed beside a speed controller"
+            yield fault("speed", found=self.speed, expected=expected, remedy="leave it out")
         if self.torque is None and (self.speed is not None or self.exponent):
             key = "speed" if self.speed is not None else "exponent"
             yield fault(key, found=getattr(self, key), expected="none without a torque", remedy="give torque")
