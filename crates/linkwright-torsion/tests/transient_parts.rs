@@ -63,13 +63,7 @@ fn everything() -> System {
             weight: Some(1),
             shape: None,
         }],
-        pendulums: vec![Pendulum {
-            disc: 2,
-            bob: 3,
-            of_disc: 2.0 * m * r * r,
-            of_both: -m * r * (r + l),
-            swing: (r + l) / l,
-        }],
+        pendulums: vec![Pendulum::new([2, 3], 1.0, m, [r, l])],
         controllers: vec![Controller {
             mass: 0,
             integral: 9,
@@ -127,7 +121,6 @@ fn energy_is_balanced() {
     for (method, accuracy, allowed) in [(Method::Explicit, 1e-11, 1e-9), (Method::Implicit, 1e-10, 1e-6)] {
         let course = run(&system, [&angle, &speed], &times, accuracy, method);
         let off = imbalance(&system, &course);
-        eprintln!("{method:?} steps {} rejected {} evals {} fastest {} off {off:e}", course.steps, course.rejected, course.evaluations, course.fastest);
         assert!(off.abs() < allowed, "{method:?}: {off:e}");
         let losses = &course.work[2..];
         assert!(losses.iter().all(|&loss| loss >= 0.0), "{method:?}: losses {losses:?}");
@@ -173,7 +166,11 @@ fn derivatives_of_the_accelerations() {
         for (matrix, is_angle, step) in [(&by_angle, true, 1e-7), (&by_speed, false, 1e-4)] {
             let mut shifted = |by: f64| {
                 let (mut angle, mut speed) = (angle, speed);
-                if is_angle { angle[j] += by } else { speed[j] += by }
+                if is_angle {
+                    angle[j] += by
+                } else {
+                    speed[j] += by
+                }
                 acceleration(&mut rates, &angle, &speed)
             };
             let (a, b) = (shifted(-step), shifted(step));
@@ -182,7 +179,11 @@ fn derivatives_of_the_accelerations() {
                 let size = matrix[i * n..(i + 1) * n].iter().fold(1.0_f64, |most, x| most.max(x.abs()));
                 let off = (difference - matrix[i * n + j]) / size;
                 // Central differences err by step² and by rounding over the step.
-                assert!(off.abs() < 1e-6, "∂a{i} by {} {j}: {off:e}", if is_angle { "angle" } else { "speed" });
+                assert!(
+                    off.abs() < 1e-6,
+                    "∂a{i} by {} {j}: {off:e}",
+                    if is_angle { "angle" } else { "speed" }
+                );
             }
         }
     }

@@ -159,8 +159,14 @@ mod tests {
     #[test]
     fn each_error_counts() {
         let n = 10;
-        let link =
-            |a: usize, b: usize| Link { ends: [a, b], ratio: 1.0, stiffness: 1e3, damping: 0.0, curve: None, manner: Manner::default() };
+        let link = |a: usize, b: usize| Link {
+            ends: [a, b],
+            ratio: 1.0,
+            stiffness: 1e3,
+            damping: 0.0,
+            curve: None,
+            manner: Manner::default(),
+        };
         let system = System {
             inertia: vec![1.0; n],
             damping: vec![0.0; n],

@@ -146,7 +146,10 @@ mod tests {
         for i in 0..60 {
             let phi = -3.0 + 0.17 * f64::from(i);
             let [_, d1, d2] = joint.at(phi);
-            assert!((psi(phi).tan() * 0.8 - phi.tan()).abs() < 1e-9 * (1.0 + phi.tan().abs().powi(2)), "at {phi}");
+            assert!(
+                (psi(phi).tan() * 0.8 - phi.tan()).abs() < 1e-9 * (1.0 + phi.tan().abs().powi(2)),
+                "at {phi}"
+            );
             assert!((psi(phi) - phi).abs() < 0.2, "no jump at {phi}");
             assert!(((psi(phi + step) - psi(phi - step)) / (2.0 * step) - d1).abs() < 1e-9, "slope at {phi}");
             let turned = (joint.at(phi + step)[1] - joint.at(phi - step)[1]) / (2.0 * step);

@@ -115,8 +115,14 @@ impl Equilibrium {
         self.parent.fill(NONE);
         self.root.fill(NONE);
         self.bond.fill(0.0);
-        let links =
-            || system.links.iter().zip(&self.rigid).filter(|(link, rigid)| **rigid && link.is_plain()).map(|(link, _)| link);
+        let links = || {
+            system
+                .links
+                .iter()
+                .zip(&self.rigid)
+                .filter(|(link, rigid)| **rigid && link.is_plain())
+                .map(|(link, _)| link)
+        };
         for first in (0..=n).rev() {
             if self.root[first] != NONE {
                 continue;

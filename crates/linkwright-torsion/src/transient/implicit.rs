@@ -465,7 +465,14 @@ mod tests {
     /// Two discs swing against each other; steps of even length err with their fifth power.
     #[test]
     fn order_is_five() {
-        let link = Link { ends: [0, 1], ratio: 1.0, stiffness: 6.0, damping: 0.0, curve: None, manner: Manner::default() };
+        let link = Link {
+            ends: [0, 1],
+            ratio: 1.0,
+            stiffness: 6.0,
+            damping: 0.0,
+            curve: None,
+            manner: Manner::default(),
+        };
         let system = System {
             inertia: vec![3.0, 2.0],
             damping: vec![0.0; 2],

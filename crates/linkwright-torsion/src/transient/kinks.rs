@@ -9,7 +9,9 @@ impl Rates<'_> {
     /// Whether something in the train bends.
     pub fn has_kinks(&self) -> bool {
         let system = self.system;
-        self.has_stages() || !system.controllers.is_empty() || system.links.iter().any(|link| link.manner.contact)
+        self.has_stages()
+            || !system.controllers.is_empty()
+            || system.links.iter().any(|link| link.manner.contact)
     }
 
     /// The stretch of everything that bends, at the instant last evaluated at a time.

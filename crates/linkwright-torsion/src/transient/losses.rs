@@ -181,9 +181,7 @@ impl Rates<'_> {
         };
         let mut torques: Vec<f64> = rows.iter().map(|row| along(row, acceleration)).collect();
         let mut factors = LuFactors::<f64>::new(rows.len());
-        factors.factor(|i, j| {
-            along(&rows[i], &responses[j]) * if i == j { 1.0 + DEPENDENT } else { 1.0 }
-        });
+        factors.factor(|i, j| along(&rows[i], &responses[j]) * if i == j { 1.0 + DEPENDENT } else { 1.0 });
         factors.solve(&mut torques);
         for (response, torque) in responses.iter().zip(&torques) {
             acceleration.iter_mut().zip(response).for_each(|(a, by)| *a -= by * torque);

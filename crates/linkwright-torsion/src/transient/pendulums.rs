@@ -34,6 +34,18 @@ struct Added {
 }
 
 impl Pendulum {
+    /// Of a mass on two radii, R and l, on a disc `ratio` times as fast as its mass.
+    pub fn new([disc, bob]: [usize; 2], ratio: f64, mass: f64, [radius, length]: [f64; 2]) -> Self {
+        let scale = ratio * ratio * mass * radius;
+        Pendulum {
+            disc,
+            bob,
+            of_disc: 2.0 * scale * radius,
+            of_both: -scale * (radius + length),
+            swing: ratio * (radius + length) / length,
+        }
+    }
+
     /// From the lead of χ over θ and both speeds.
     fn at(&self, lead: f64, [theta, chi]: [f64; 2]) -> Added {
         let (sine, u) = of_swing(self.swing * lead);
@@ -43,7 +55,10 @@ impl Pendulum {
         Added {
             disc: a * u,
             both: b * u,
-            torque: [-(sine * rate * (a * theta + b * chi) + lagrange), -(sine * rate * b * theta - lagrange)],
+            torque: [
+                -(sine * rate * (a * theta + b * chi) + lagrange),
+                -(sine * rate * b * theta - lagrange),
+            ],
         }
     }
 

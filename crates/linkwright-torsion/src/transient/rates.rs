@@ -117,7 +117,10 @@ impl<'a> Rates<'a> {
             outer: vec![0.0; places + 1],
             powers: vec![
                 0.0;
-                places * (2 + shapes.len()) + alone.len() + system.controllers.len() + links.others.len()
+                places * (2 + shapes.len())
+                    + alone.len()
+                    + system.controllers.len()
+                    + links.others.len()
             ],
             shapes,
             alone,
@@ -424,7 +427,11 @@ impl<'a> Rates<'a> {
         let (theta, omega) = masses.split_at(system.len());
         let mut turning: f64 = system.inertia.iter().zip(omega).map(|(j, w)| j * w * w).sum();
         // What controllers add up has no energy.
-        turning -= system.controllers.iter().map(|one| system.inertia[one.integral] * omega[one.integral].powi(2)).sum::<f64>();
+        turning -= system
+            .controllers
+            .iter()
+            .map(|one| system.inertia[one.integral] * omega[one.integral].powi(2))
+            .sum::<f64>();
         let rotor = |rotor: &Rotor| {
             let part = rotor.ratio * omega[rotor.mass];
             let angle = rotor.ratio * theta[rotor.mass] + rotor.phase;
@@ -509,7 +516,11 @@ impl<'a> Rates<'a> {
         // What a joint adds repeats twice in a revolution.
         let joints = system.links.iter().filter(|link| link.manner.joint.is_some());
         let joints = joints.map(|link| (link.ends[0], 2.0 * link.ratio));
-        rotors.chain(shapes).chain(joints).map(|(mass, pitch)| (pitch * speed(mass)).abs()).fold(0.0, f64::max)
+        rotors
+            .chain(shapes)
+            .chain(joints)
+            .map(|(mass, pitch)| (pitch * speed(mass)).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Derivatives of the accelerations by all angles and speeds of the masses, row by row, at the instant last evaluated.
@@ -570,7 +581,8 @@ impl<'a> Rates<'a> {
     fn couple(&self, place: usize, link: &Link, by_angle: &mut [f64], by_speed: &mut [f64]) {
         let (n, bond) = (self.system.len(), self.bond(link));
         let pulls = link.pulls(self.system, bond.twist, bond.rate);
-        let factors = [if link.manner.loss.is_some() { self.last_tooth_factor(place) } else { 1.0 }, 1.0, 1.0];
+        let factors =
+            [if link.manner.loss.is_some() { self.last_tooth_factor(place) } else { 1.0 }, 1.0, 1.0];
         let present = |k: &usize| bond.masses[*k] < n;
         for a in (0..3).filter(present) {
             let row = bond.masses[a] * n;
