@@ -1664,19 +1664,26 @@ class Periodic:
 class TorsionMass:
     """Discs that move as one: constant inertia [kg m²], damping against the ground, and that of swings.
 
-    The latter resists what goes beyond the rigid-body speed of the train [N m s/rad].
+    The latter resists what goes beyond the rigid-body speed of the train [N m s/rad]. What does not turn with
+    the train rests while it runs.
     """
 
-    def __new__(cls, *, inertia: float, damping: float, swing_damping: float) -> TorsionMass: ...
+    def __new__(
+        cls, *, inertia: float, damping: float, swing_damping: float, turns: bool = True
+    ) -> TorsionMass: ...
     inertia: Final[float]
     damping: Final[float]
     swing_damping: Final[float]
+    turns: Final[bool]
 
 @final
 class TorsionLink:
     """What twists between two masses, None for the ground, as seen at a part `ratio` times as fast.
 
-    Stiffness [N m/rad], damping [N m s/rad], torque over twist in addition [N m, rad].
+    Stiffness [N m/rad], damping [N m s/rad], torque over twist in addition [N m, rad]. `rigid`: its ends move
+    as one; `contact`: damping acts while flanks touch; `loss`: torque at the first end over that of the teeth
+    while that end drives, and while the other does; `joint`: cos α and phase [rad] of a Hooke's joint at the
+    first end; `carrier`: mass that carries a mesh, with the parts of first, second and its angle in the twist.
     """
 
     def __new__(
@@ -1688,6 +1695,11 @@ class TorsionLink:
         stiffness: float,
         damping: float,
         curve: Curve | None,
+        rigid: bool = False,
+        contact: bool = False,
+        loss: tuple[float, float] | None = None,
+        joint: tuple[float, float] | None = None,
+        carrier: tuple[int, Sequence[float]] | None = None,
     ) -> TorsionLink: ...
     first: Final[int | None]
     second: Final[int | None]
@@ -1695,6 +1707,54 @@ class TorsionLink:
     stiffness: Final[float]
     damping: Final[float]
     curve: Final[Curve | None]
+    rigid: Final[bool]
+    contact: Final[bool]
+    loss: Final[tuple[float, float] | None]
+    joint: Final[tuple[float, float] | None]
+    carrier: Final[tuple[int, Sequence[float]] | None]
+
+@final
+class TorsionPendulum:
+    """Centrifugal pendulums [kg, m] on a disc `ratio` times as fast as its mass; the mass of their angle."""
+
+    def __new__(
+        cls, *, disc: int, bob: int, ratio: float, mass: float, radius: float, length: float
+    ) -> TorsionPendulum: ...
+    disc: Final[int]
+    bob: Final[int]
+    ratio: Final[float]
+    mass: Final[float]
+    radius: Final[float]
+    length: Final[float]
+
+@final
+class TorsionController:
+    """A PI controller of the speed of a mass, and the mass whose speed its integral is.
+
+    Gain [N m s/rad], one over the integral-action time [1/s], torque without deviation and limit [N m], speed
+    wanted over time [rad/s, s].
+    """
+
+    def __new__(
+        cls,
+        *,
+        mass: int,
+        integral: int,
+        ratio: float,
+        gain: float,
+        inverse_time: float,
+        offset: float,
+        limit: float,
+        set_point: Curve,
+    ) -> TorsionController: ...
+    mass: Final[int]
+    integral: Final[int]
+    ratio: Final[float]
+    gain: Final[float]
+    inverse_time: Final[float]
+    offset: Final[float]
+    limit: Final[float]
+    set_point: Final[Curve]
 
 @final
 class TorsionRotor:
@@ -1851,6 +1911,8 @@ class TorsionSystem:
         links: Sequence[TorsionLink],
         rotors: Sequence[TorsionRotor],
         torques: Sequence[TorsionTorque],
+        pendulums: Sequence[TorsionPendulum] = ...,
+        controllers: Sequence[TorsionController] = ...,
     ) -> TorsionSystem: ...
     def follow(
         self,

@@ -10,7 +10,9 @@ use pyo3::prelude::*;
 
 use crate::Floats;
 use crate::arrays::column;
-use crate::builder::train::{TorsionLink, TorsionMass, TorsionRotor, TorsionTorque, system};
+use crate::builder::train::{
+    TorsionController, TorsionLink, TorsionMass, TorsionPendulum, TorsionRotor, TorsionTorque, system,
+};
 use crate::errors::plan_error;
 use crate::guard::{guarded, require_room, zeros};
 use crate::torsion::Extremes;
@@ -108,15 +110,17 @@ impl TorsionSystem {
 #[pymethods]
 impl TorsionSystem {
     #[new]
-    #[pyo3(signature = (*, masses, links, rotors, torques))]
+    #[pyo3(signature = (*, masses, links, rotors, torques, pendulums=Vec::new(), controllers=Vec::new()))]
     fn new(
         py: Python<'_>,
         masses: Vec<PyRef<'_, TorsionMass>>,
         links: Vec<PyRef<'_, TorsionLink>>,
         rotors: Vec<PyRef<'_, TorsionRotor>>,
         torques: Vec<PyRef<'_, TorsionTorque>>,
+        pendulums: Vec<PyRef<'_, TorsionPendulum>>,
+        controllers: Vec<PyRef<'_, TorsionController>>,
     ) -> PyResult<Self> {
-        let system = system(py, &masses, &links, &rotors, &torques);
+        let system = system(py, &masses, &links, &rotors, &torques, &pendulums, &controllers);
         system.check().map_err(plan_error)?;
         Ok(TorsionSystem(system))
     }
@@ -142,7 +146,7 @@ impl TorsionSystem {
         let analysis = "torsional motion in time";
         require_room(analysis, [2 * self.0.len() + self.0.links.len() + 2, times.len()])?;
         let found = guarded(py, analysis, || course::follow(&self.0, &request))?;
-        let (n, m, k) = (self.0.len(), self.0.links.len(), self.0.torques.len());
+        let (n, m, k) = (self.0.len(), self.0.links.len(), self.0.torques.len() + self.0.controllers.len());
         let at = |row: usize| row * times.len();
         let [angle, speed, torque, kinetic, potential] =
             [0..n, n..2 * n, 2 * n..2 * n + m, 2 * n + m..2 * n + m + 1, 2 * n + m + 1..2 * n + m + 2]

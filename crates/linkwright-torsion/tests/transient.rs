@@ -5,7 +5,7 @@ use linkwright_torsion::transient::course::{Course, End, Method, Request, follow
 use linkwright_torsion::transient::curve::Curve;
 use linkwright_torsion::transient::periodic::Periodic;
 use linkwright_torsion::transient::rates::Rates;
-use linkwright_torsion::transient::system::{Link, Rotor, System};
+use linkwright_torsion::transient::system::{Link, Manner, Rotor, System};
 use linkwright_torsion::transient::torque::{Law, Shape, Torque};
 use std::f64::consts::{PI, TAU};
 
@@ -19,6 +19,7 @@ fn chain(inertia: &[f64], stiffness: &[f64]) -> System {
         stiffness: k,
         damping: 0.0,
         curve: None,
+        manner: Manner::default(),
     };
     System {
         inertia: inertia.to_vec(),
@@ -29,6 +30,7 @@ fn chain(inertia: &[f64], stiffness: &[f64]) -> System {
         torques: Vec::new(),
         tables: Vec::new(),
         curves: Vec::new(),
+        ..System::default()
     }
 }
 
@@ -180,7 +182,14 @@ fn stiffening_coupling_swings_as_duffing() {
     let slope = x.map(|x: f64| 3.0 * beta * x * x);
     let curve = Curve::new(&x, &x.map(|x: f64| beta * x.powi(3)), &slope, &slope).expect("ordered points");
     let mut system = chain(&[j], &[]);
-    system.links.push(Link { ends: [1, 0], ratio: 1.0, stiffness: alpha, damping: 0.0, curve: Some(0) });
+    system.links.push(Link {
+        ends: [1, 0],
+        ratio: 1.0,
+        stiffness: alpha,
+        damping: 0.0,
+        curve: Some(0),
+        manner: Manner::default(),
+    });
     system.curves.push(curve);
     let mut period_before = f64::INFINITY;
     for amplitude in [0.01, 0.05, 0.15] {
@@ -284,8 +293,22 @@ fn everything() -> System {
     system.links[1].damping = 15.0;
     system.links[2].curve = Some(2);
     // A ring on the second mass, behind a gear, and a shaft that closes a loop.
-    system.links.push(Link { ends: [1, 4], ratio: 1.6, stiffness: 4e3, damping: 2.0, curve: None });
-    system.links.push(Link { ends: [2, 0], ratio: 0.5, stiffness: 1e4, damping: 1.0, curve: None });
+    system.links.push(Link {
+        ends: [1, 4],
+        ratio: 1.6,
+        stiffness: 4e3,
+        damping: 2.0,
+        curve: None,
+        manner: Manner::default(),
+    });
+    system.links.push(Link {
+        ends: [2, 0],
+        ratio: 0.5,
+        stiffness: 1e4,
+        damping: 1.0,
+        curve: None,
+        manner: Manner::default(),
+    });
     system.tables.push(waves(TAU, 0.2, &[(1.0, 0.02, 0.3), (2.0, 0.07, 1.0)]));
     system.tables.push(waves(2.0 * TAU, 40.0, &[(0.5, 150.0, 0.0), (1.5, 80.0, 1.0), (3.0, 30.0, 2.0)]));
     for mass in [0, 2] {

@@ -1,6 +1,8 @@
 //! A train in motion: `torsion::transient::system` of the core, with the same names.
 
+use linkwright_torsion::transient::controllers::Controller;
 use linkwright_torsion::transient::curve::Curve as CoreCurve;
+use linkwright_torsion::transient::pendulums::Pendulum;
 use linkwright_torsion::transient::periodic::Periodic as CorePeriodic;
 use linkwright_torsion::transient::system::{self, System};
 use linkwright_torsion::transient::torque;
@@ -47,14 +49,15 @@ pub(crate) struct TorsionMass {
     inertia: f64,
     damping: f64,
     swing_damping: f64,
+    turns: bool,
 }
 
 #[pymethods]
 impl TorsionMass {
     #[new]
-    #[pyo3(signature = (*, inertia, damping, swing_damping))]
-    fn new(inertia: f64, damping: f64, swing_damping: f64) -> Self {
-        TorsionMass { inertia, damping, swing_damping }
+    #[pyo3(signature = (*, inertia, damping, swing_damping, turns=true))]
+    fn new(inertia: f64, damping: f64, swing_damping: f64, turns: bool) -> Self {
+        TorsionMass { inertia, damping, swing_damping, turns }
     }
 }
 
@@ -67,12 +70,19 @@ pub(crate) struct TorsionLink {
     stiffness: f64,
     damping: f64,
     curve: Option<Py<Curve>>,
+    rigid: bool,
+    contact: bool,
+    loss: Option<(f64, f64)>,
+    joint: Option<(f64, f64)>,
+    carrier: Option<(usize, [f64; 3])>,
 }
 
 #[pymethods]
 impl TorsionLink {
     #[new]
-    #[pyo3(signature = (*, first, second, ratio, stiffness, damping, curve))]
+    #[pyo3(signature = (
+        *, first, second, ratio, stiffness, damping, curve, rigid=false, contact=false, loss=None, joint=None, carrier=None
+    ))]
     fn new(
         first: Option<usize>,
         second: Option<usize>,
@@ -80,8 +90,77 @@ impl TorsionLink {
         stiffness: f64,
         damping: f64,
         curve: Option<Py<Curve>>,
+        rigid: bool,
+        contact: bool,
+        loss: Option<(f64, f64)>,
+        joint: Option<(f64, f64)>,
+        carrier: Option<(usize, [f64; 3])>,
     ) -> Self {
-        TorsionLink { first, second, ratio, stiffness, damping, curve }
+        TorsionLink { first, second, ratio, stiffness, damping, curve, rigid, contact, loss, joint, carrier }
+    }
+}
+
+impl TorsionLink {
+    /// Beyond a spring and a damper.
+    fn manner(&self) -> system::Manner {
+        system::Manner {
+            rigid: self.rigid,
+            contact: self.contact,
+            loss: self.loss.map(|(forward, reverse)| system::Loss { forward, reverse }),
+            joint: self.joint.map(|(cosine, phase)| system::Joint { cosine, phase }),
+            carrier: self.carrier.map(|(mass, shares)| system::Carrier { mass, shares }),
+        }
+    }
+}
+
+/// Centrifugal pendulums on a disc, and the mass that their angle is.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionPendulum {
+    disc: usize,
+    bob: usize,
+    ratio: f64,
+    mass: f64,
+    radius: f64,
+    length: f64,
+}
+
+#[pymethods]
+impl TorsionPendulum {
+    #[new]
+    #[pyo3(signature = (*, disc, bob, ratio, mass, radius, length))]
+    fn new(disc: usize, bob: usize, ratio: f64, mass: f64, radius: f64, length: f64) -> Self {
+        TorsionPendulum { disc, bob, ratio, mass, radius, length }
+    }
+}
+
+/// A controller of the speed of a mass, and the mass whose speed its integral is.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionController {
+    mass: usize,
+    integral: usize,
+    ratio: f64,
+    gain: f64,
+    inverse_time: f64,
+    offset: f64,
+    limit: f64,
+    set_point: Py<Curve>,
+}
+
+#[pymethods]
+impl TorsionController {
+    #[new]
+    #[pyo3(signature = (*, mass, integral, ratio, gain, inverse_time, offset, limit, set_point))]
+    fn new(
+        mass: usize,
+        integral: usize,
+        ratio: f64,
+        gain: f64,
+        inverse_time: f64,
+        offset: f64,
+        limit: f64,
+        set_point: Py<Curve>,
+    ) -> Self {
+        TorsionController { mass, integral, ratio, gain, inverse_time, offset, limit, set_point }
     }
 }
 
@@ -184,6 +263,8 @@ pub(crate) fn system(
     links: &[PyRef<'_, TorsionLink>],
     rotors: &[PyRef<'_, TorsionRotor>],
     torques: &[PyRef<'_, TorsionTorque>],
+    pendulums: &[PyRef<'_, TorsionPendulum>],
+    controllers: &[PyRef<'_, TorsionController>],
 ) -> System {
     let (mut curves, mut tables) = (Shelf(Vec::new()), Shelf(Vec::new()));
     let ground = masses.len();
@@ -193,6 +274,7 @@ pub(crate) fn system(
         stiffness: link.stiffness,
         damping: link.damping,
         curve: link.curve.as_ref().map(|curve| curves.place(py, curve)),
+        manner: link.manner(),
     });
     let links = links.collect();
     let rotors = rotors.iter().map(|rotor| system::Rotor {
@@ -215,13 +297,30 @@ pub(crate) fn system(
         }),
     });
     let torques = torques.collect();
+    let controllers = controllers.iter().map(|one| Controller {
+        mass: one.mass,
+        integral: one.integral,
+        ratio: one.ratio,
+        gain: one.gain,
+        inverse_time: one.inverse_time,
+        offset: one.offset,
+        limit: one.limit,
+        set_point: curves.place(py, &one.set_point),
+    });
+    let controllers = controllers.collect();
     System {
         inertia: masses.iter().map(|mass| mass.inertia).collect(),
         damping: masses.iter().map(|mass| mass.damping).collect(),
         swing_damping: masses.iter().map(|mass| mass.swing_damping).collect(),
+        turns: masses.iter().map(|mass| f64::from(mass.turns)).collect(),
         links,
         rotors,
         torques,
+        pendulums: pendulums
+            .iter()
+            .map(|one| Pendulum::new([one.disc, one.bob], one.ratio, one.mass, [one.radius, one.length]))
+            .collect(),
+        controllers,
         tables: tables.0.iter().map(|table| table.get().0.clone()).collect(),
         curves: curves.0.iter().map(|curve| curve.get().0.clone()).collect(),
     }

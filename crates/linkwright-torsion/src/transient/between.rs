@@ -152,15 +152,21 @@ impl Lanes<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transient::system::Link;
+    use crate::transient::system::{Link, Manner};
 
     /// A free chain of ten masses, the last joined to the fifth as well: an error of one number, or of one twist that is small beside
     /// the angles, is what it is over what it may be, wherever it stands; one that is no number is not lost.
     #[test]
     fn each_error_counts() {
         let n = 10;
-        let link =
-            |a: usize, b: usize| Link { ends: [a, b], ratio: 1.0, stiffness: 1e3, damping: 0.0, curve: None };
+        let link = |a: usize, b: usize| Link {
+            ends: [a, b],
+            ratio: 1.0,
+            stiffness: 1e3,
+            damping: 0.0,
+            curve: None,
+            manner: Manner::default(),
+        };
         let system = System {
             inertia: vec![1.0; n],
             damping: vec![0.0; n],
@@ -170,6 +176,7 @@ mod tests {
             torques: Vec::new(),
             tables: Vec::new(),
             curves: Vec::new(),
+            ..System::default()
         };
         let between = Between::new(&system);
         let (places, may) = (

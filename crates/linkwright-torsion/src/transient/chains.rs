@@ -58,7 +58,7 @@ impl Chain {
     /// Takes a link if it joins neighbours that no other one joins.
     fn takes(&mut self, place: usize, link: &Link) -> bool {
         let [mass, next] = link.ends;
-        let takes = link.curve.is_none() && next == mass + 1 && self.ratio[next] == 0.0;
+        let takes = link.is_plain() && next == mass + 1 && self.ratio[next] == 0.0;
         if takes {
             (self.ratio[next], self.stiffness[next], self.damping[next]) =
                 (link.ratio, link.stiffness, link.damping);

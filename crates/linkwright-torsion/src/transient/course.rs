@@ -4,6 +4,7 @@ use super::equilibrium::Equilibrium;
 use super::explicit::{Explicit, STABLE_PHASE};
 use super::extremes::{Extreme, Extremes};
 use super::implicit::Implicit;
+use super::losses::Change;
 use super::rates::Rates;
 use super::rounding::Rounding;
 use super::stepper::{Scale, Stepper};
@@ -78,6 +79,11 @@ pub struct Course {
 /// Steps that stability would ask of the explicit method beyond which the implicit one is taken: a second or so of work.
 const STIFF: f64 = 200_000.0;
 
+/// Shares of a step at which changes are looked for, where it counts as begun, and share within which they are met.
+const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+const NEAR: f64 = 1e-6;
+const MEETS: f64 = 1e-13;
+
 /// Angle of a table over which a step may go, so that none is overlooked: a twelfth of its revolution \[rad\].
 const REACH: f64 = 0.5;
 
@@ -94,6 +100,9 @@ pub fn follow(system: &System, request: &Request<'_>) -> Course {
     let state = rates.state(request.angle, request.speed);
     rates.enter(request.start);
     rates.derivative(request.start, &state, &mut state.clone());
+    if rates.has_stages() {
+        rates.set_senses(request.start, &state);
+    }
     let fastest = rates.fastest();
     let stiff = (request.duration - request.start) * fastest / STABLE_PHASE > STIFF;
     let auto = request.method == Method::Auto;
@@ -108,6 +117,13 @@ pub fn follow(system: &System, request: &Request<'_>) -> Course {
     }
     let stepper = Implicit::new(&rates);
     Follower::new(rates, state, request, Method::Implicit, fastest, stepper).run()
+}
+
+/// Where a step has to end, as a share of it, and what changes there.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    share: f64,
+    change: Option<Change>,
 }
 
 struct Follower<'a, S> {
@@ -219,6 +235,10 @@ impl<'a, S: Stepper> Follower<'a, S> {
     fn stretch(&mut self, mark: f64) -> End {
         let start = self.course.time;
         self.rates.enter(0.5 * (start + mark));
+        // Torques that jump may set free what was stuck.
+        if self.rates.has_stages() && !self.rates.make(None, start, &mut self.state) {
+            return End::Inaccurate;
+        }
         let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));
         self.stepper.begin(&mut self.rates, start, &self.state, first);
         if !self.rates.acceleration.iter().all(|a| a.is_finite()) {
@@ -240,7 +260,14 @@ impl<'a, S: Stepper> Follower<'a, S> {
     fn step(&mut self, mark: f64) -> bool {
         poll();
         let t = self.course.time;
-        let Some((h, reached)) = self.find_step(mark) else { return false };
+        let Some((mut h, mut reached)) = self.find_step(mark) else { return false };
+        let mut due = self.due(h);
+        if let Some(Due { share, .. }) = due.filter(|due| due.share < 1.0) {
+            let there = t + share * h;
+            let Some(found) = self.find_step(there) else { return false };
+            (h, reached) = found;
+            due = due.filter(|_| reached == there);
+        }
         let at = (t, &self.state);
         self.stepper.work(&mut self.rates, at, h, &mut self.course.work);
         self.rigid = self.equilibrium.find(&self.rates, &self.stepper, &self.end, h);
@@ -266,6 +293,58 @@ impl<'a, S: Stepper> Follower<'a, S> {
         self.rounding.note(self.rates.system, self.rates.is_relative(), &self.state);
         self.course.time = reached;
         self.course.steps += 1;
+        match due {
+            Some(Due { change: Some(change), .. }) if reached < mark => self.restart(change, mark),
+            _ => true,
+        }
+    }
+
+    /// Where a stage changes its sense in a step, or the equations bend.
+    fn due(&mut self, h: f64) -> Option<Due> {
+        if !self.rates.has_kinks() {
+            return None;
+        }
+        let (t, state, stepper) = (self.course.time, &self.state, &self.stepper);
+        let (rates, sample) = (&mut self.rates, &mut self.sample);
+        let mut smooth = Vec::new();
+        let mut here = Vec::new();
+        let mut look = |share: f64, to: &mut Vec<u32>| {
+            stepper.components(share, state, sample);
+            rates.derivative(t + share * h, sample, &mut sample.clone());
+            rates.stretches(t + share * h, to);
+            rates.change()
+        };
+        look(NEAR, &mut smooth);
+        let mut at = |share: f64| {
+            let change = look(share, &mut here);
+            (change.is_some() || here != smooth).then_some(Due { share, change })
+        };
+        let mut low = NEAR;
+        let mut due = LOOKS.into_iter().find_map(|share| {
+            let due = at(share);
+            low = if due.is_none() { share } else { low };
+            due
+        })?;
+        while due.share - low > MEETS {
+            let middle = 0.5 * (low + due.share);
+            match at(middle) {
+                Some(found) => due = found,
+                None => low = middle,
+            }
+        }
+        // One that the time cannot tell from the start is over.
+        ((t + due.share * h) - t > MEETS * t.abs()).then_some(due)
+    }
+
+    /// Makes a change, and begins anew from there.
+    fn restart(&mut self, change: Change, mark: f64) -> bool {
+        let t = self.course.time;
+        if !self.rates.make(Some(change), t, &mut self.state) {
+            return false;
+        }
+        let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - t));
+        self.stepper.begin(&mut self.rates, t, &self.state, first);
+        self.extremes.begin(&self.rates);
         true
     }
 
@@ -302,11 +381,11 @@ impl<'a, S: Stepper> Follower<'a, S> {
             self.equilibrium.at(&mut self.rates, &self.stepper, at, h, share);
         }
         let sample = &mut self.sample;
-        let torque = |(s, link)| match self.equilibrium.torque(s).filter(|_| self.rigid) {
+        let torque = |s: usize| match self.equilibrium.torque(s).filter(|_| self.rigid) {
             Some(torque) => torque,
-            None => self.rates.link_torque_at(link, |i| sample[i]),
+            None => self.rates.link_torque_at(s, |i| sample[i]),
         };
-        let torques: Vec<f64> = self.rates.system.links.iter().enumerate().map(torque).collect();
+        let torques: Vec<f64> = (0..self.rates.system.links.len()).map(torque).collect();
         let energies = self.rates.energies(sample);
         self.rates.to_absolute(sample);
         let values = sample[..2 * n].iter().chain(&torques).chain(&energies);
@@ -325,7 +404,9 @@ fn estimated(accuracy: f64) -> f64 {
 
 /// Times at which something outside switches or bends, zero, from which on is recorded, and the end.
 fn marks(system: &System, request: &Request<'_>) -> Vec<f64> {
+    let courses = system.controllers.iter().flat_map(|one| system.curves[one.set_point].knots());
     let switches = system.torques.iter().flat_map(|torque| torque.marks(&system.curves)).chain([0.0]);
+    let switches = switches.chain(courses.copied());
     let mut found: Vec<f64> = switches.filter(|&t| request.start < t && t < request.duration).collect();
     found.push(request.duration);
     found.sort_by(f64::total_cmp);

@@ -78,10 +78,14 @@ impl Equilibrium {
         let (system, n) = (rates.system, rates.system.len());
         let relative = rates.is_relative();
         for (link, rigid) in system.links.iter().zip(&mut self.rigid) {
+            if link.manner.rigid {
+                *rigid = true;
+                continue;
+            }
             let inverse: f64 = link.ends.iter().map(|&i| rates.inertia_of(i).recip()).sum();
             let inertia = 1.0 / (link.ratio * link.ratio * inverse);
             let resolved = resistance(link, h) * h * h <= UNRESOLVED * inertia;
-            *rigid = !resolved && link.curve.is_none() && {
+            *rigid = !resolved && link.is_plain() && {
                 let size = |first: usize| {
                     let aside = |i: usize| if i == n || (i == 0 && relative) { 0.0 } else { end[first + i] };
                     link.ratio * link.ends.iter().map(|&i| aside(i).abs()).sum::<f64>()
@@ -111,8 +115,14 @@ impl Equilibrium {
         self.parent.fill(NONE);
         self.root.fill(NONE);
         self.bond.fill(0.0);
-        let links =
-            || system.links.iter().zip(&self.rigid).filter(|(_, rigid)| **rigid).map(|(link, _)| link);
+        let links = || {
+            system
+                .links
+                .iter()
+                .zip(&self.rigid)
+                .filter(|(link, rigid)| **rigid && link.is_plain())
+                .map(|(link, _)| link)
+        };
         for first in (0..=n).rev() {
             if self.root[first] != NONE {
                 continue;
@@ -152,8 +162,8 @@ impl Equilibrium {
             self.state[i] = stepper.component(share, start, i);
         }
         rates.derivative(t + share * h, &self.state, &mut self.rates);
-        for (torque, link) in self.torques.iter_mut().zip(&system.links) {
-            *torque = rates.link_torque(link).0;
+        for (place, torque) in self.torques.iter_mut().enumerate() {
+            *torque = rates.link_torque(place).0;
         }
         self.balance(rates, stepper, h, share);
         for (s, link) in system.links.iter().enumerate().filter(|&(s, _)| self.rigid[s]) {
@@ -170,10 +180,14 @@ impl Equilibrium {
         let lead = if rates.is_relative() { stepper.slope(share, h, n) } else { 0.0 };
         self.whole.fill([0.0; 2]);
         self.missing[n] = 0.0;
-        for i in 0..n {
+        let over = |i: usize| {
             let aside = if i == 0 && rates.is_relative() { 0.0 } else { stepper.slope(share, h, n + i) };
+            let lead = rates.system.turns_of(i) * lead;
+            rates.acceleration[i] - (lead + aside)
+        };
+        for i in 0..n {
             let inertia = rates.inertia_of(i);
-            self.missing[i] = inertia * (rates.acceleration[i] - (lead + aside));
+            self.missing[i] = inertia * over(i) + rates.torque_of_bobs(i, &over);
             let [sum, all] = &mut self.whole[self.root[i]];
             (*sum, *all) = (*sum + self.missing[i], *all + inertia);
         }

@@ -38,7 +38,7 @@ impl Extremes {
     /// Looks at values and rates at the instant last evaluated, the end of a step.
     pub fn look(&mut self, rates: &Rates<'_>) {
         let system = rates.system;
-        let links = system.links.iter().map(|link| rates.link_torque(link));
+        let links = (0..system.links.len()).map(|place| rates.link_torque(place));
         let speeds = rates.omega.iter().copied().zip(rates.acceleration.iter().copied());
         self.now.iter_mut().zip(links.chain(speeds)).for_each(|(now, found)| *now = found);
     }
@@ -134,11 +134,11 @@ fn note(row: &mut Extreme, value: f64, t: f64) {
 fn value_at(rates: &Rates<'_>, stepper: &impl Stepper, state: &[f64], row: usize, share: f64) -> f64 {
     let component = |i: usize| stepper.component(share, state, i);
     let (system, n) = (rates.system, rates.system.len());
-    if let Some(link) = system.links.get(row) {
-        return rates.link_torque_at(link, component);
+    if row < system.links.len() {
+        return rates.link_torque_at(row, component);
     }
     let i = row - system.links.len();
-    let first = if i > 0 && rates.is_relative() { component(n) } else { 0.0 };
+    let first = if i > 0 && rates.is_relative() { system.turns_of(i) * component(n) } else { 0.0 };
     first + component(n + i)
 }
 

@@ -435,7 +435,7 @@ fn transpose(beyond: &[Vec<f64>; 3], to: &mut [Vec<f64>; 3]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::system::{Link, System};
+    use super::super::system::{Link, Manner, System};
     use super::*;
 
     /// The constants are those of the method: T A⁻¹ T⁻¹ holds the eigenvalues, A being Radau IIA's matrix.
@@ -465,7 +465,14 @@ mod tests {
     /// Two discs swing against each other; steps of even length err with their fifth power.
     #[test]
     fn order_is_five() {
-        let link = Link { ends: [0, 1], ratio: 1.0, stiffness: 6.0, damping: 0.0, curve: None };
+        let link = Link {
+            ends: [0, 1],
+            ratio: 1.0,
+            stiffness: 6.0,
+            damping: 0.0,
+            curve: None,
+            manner: Manner::default(),
+        };
         let system = System {
             inertia: vec![3.0, 2.0],
             damping: vec![0.0; 2],
@@ -475,6 +482,7 @@ mod tests {
             torques: Vec::new(),
             tables: Vec::new(),
             curves: Vec::new(),
+            ..System::default()
         };
         let omega = 5.0_f64.sqrt();
         let error = |steps: u32| {

@@ -8,6 +8,11 @@
 //! | [`bank`] | functions of the angles of many masses, in lanes |
 //! | [`between`] | errors between the ends of a step |
 //! | [`chains`] | links that follow each other, in lanes |
+//! | [`bond`] | a link at one instant: joints, meshes on carriers, flanks |
+//! | [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
+//! | [`kinks`] | where the equations bend |
+//! | [`pendulums`] | centrifugal pendulums of any swing |
+//! | [`controllers`] | speed controllers |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
@@ -19,13 +24,18 @@
 
 pub mod bank;
 pub mod between;
+pub mod bond;
 pub mod chains;
+pub mod controllers;
 pub mod course;
 pub mod curve;
 pub mod equilibrium;
 pub mod explicit;
 pub mod extremes;
 pub mod implicit;
+pub mod kinks;
+pub mod losses;
+pub mod pendulums;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;

@@ -17,8 +17,11 @@
 //! J. Franklin Inst. 209 (1930).
 
 use super::bank::{Bank, OfAngle, WIDEST};
+use super::bond::{Bond, BondTorque};
 use super::chains::{Links, Twists};
-use super::system::{Link, Rotor, System};
+use super::losses::Stages;
+use super::pendulums::Pendulum;
+use super::system::{Carrier, Link, Rotor, System};
 use super::torque::{Law, Pull, Shape, Stretch, Torque};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
 use linkwright_kernel::real::Real;
@@ -29,14 +32,19 @@ pub struct Rates<'a> {
     pub system: &'a System,
     stretch: Stretch,
     links: Links,
+    pub(super) stages: Stages,
+    /// What pendulums add at the instant: to the inertia of the disc, and between disc and pendulum.
+    pub(super) bobs: Vec<[f64; 2]>,
     /// Whether angles of the state are counted from that of the first mass.
     relative: bool,
     /// Zero for the mass from which the others are counted and behind the last, else one.
     beside: Vec<f64>,
-    theta: Vec<f64>,
+    /// Zero for masses that rest while the train runs, else one.
+    turns: Vec<f64>,
+    pub(super) theta: Vec<f64>,
     pub omega: Vec<f64>,
     /// Angles and speeds for twists: a place before the first mass, the masses, the ground.
-    aside: Vec<f64>,
+    pub(super) aside: Vec<f64>,
     aside_speed: Vec<f64>,
     /// Shares of the masses in the inertia of the whole.
     shares: Vec<f64>,
@@ -44,7 +52,7 @@ pub struct Rates<'a> {
     constant: Vec<f64>,
     damping: Vec<f64>,
     swing_damping: Vec<f64>,
-    inertia: Vec<f64>,
+    pub(super) inertia: Vec<f64>,
     /// Whether anything damps swings.
     damps_swings: bool,
     /// J′ of each mass.
@@ -55,9 +63,9 @@ pub struct Rates<'a> {
     alone: Vec<usize>,
     pub acceleration: Vec<f64>,
     /// Torques from outside and of links that are no chain, on each mass and on the ground.
-    outer: Vec<f64>,
-    /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, losses in other
-    /// links \[W\]: [`Rates::in_order`].
+    pub(super) outer: Vec<f64>,
+    /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, of controllers,
+    /// losses in other links \[W\]: [`Rates::in_order`].
     pub powers: Vec<f64>,
     /// A state and its derivative, with places for whole registers.
     room: [Vec<f64>; 2],
@@ -80,6 +88,7 @@ impl<'a> Rates<'a> {
         if relative {
             beside[0] = 0.0;
         }
+        let turns = filled(&(0..n).map(|i| system.turns_of(i)).collect::<Vec<_>>(), 1.0);
         let (banked, alone): (Vec<usize>, Vec<usize>) =
             (0..system.torques.len()).partition(|&k| system.torques[k].of_angle().is_some());
         let torques = banked.into_iter().filter_map(|k| Some((k, system.torques[k].of_angle()?)));
@@ -91,6 +100,7 @@ impl<'a> Rates<'a> {
             stretch: Stretch::default(),
             relative,
             beside,
+            turns,
             theta: none.clone(),
             omega: none.clone(),
             aside: vec![0.0; places + 2],
@@ -105,9 +115,17 @@ impl<'a> Rates<'a> {
             inertias: Bank::several(rotors, places, &system.tables),
             acceleration: none.clone(),
             outer: vec![0.0; places + 1],
-            powers: vec![0.0; places * (2 + shapes.len()) + alone.len() + links.others.len()],
+            powers: vec![
+                0.0;
+                places * (2 + shapes.len())
+                    + alone.len()
+                    + system.controllers.len()
+                    + links.others.len()
+            ],
             shapes,
             alone,
+            stages: Stages::of(&system.links, &links.others),
+            bobs: vec![[0.0; 2]; system.pendulums.len()],
             links,
             room: [vec![0.0; 2 * places], vec![0.0; 2 * places]],
             evaluations: 0,
@@ -138,6 +156,11 @@ impl<'a> Rates<'a> {
         self.relative
     }
 
+    /// Curves over time between two marks.
+    pub(super) fn stretch(&self) -> &Stretch {
+        &self.stretch
+    }
+
     /// Chooses the stretch of time between two marks.
     pub fn enter(&mut self, middle: f64) {
         self.stretch.about(&self.system.curves, middle);
@@ -155,7 +178,7 @@ impl<'a> Rates<'a> {
         if self.relative {
             for half in state.chunks_exact_mut(self.system.len()) {
                 let first = half[0];
-                half[1..].iter_mut().for_each(|x| *x -= first);
+                half[1..].iter_mut().zip(&self.turns[1..]).for_each(|(x, turns)| *x -= turns * first);
             }
         }
     }
@@ -165,7 +188,7 @@ impl<'a> Rates<'a> {
         if self.relative {
             for half in state.chunks_exact_mut(self.system.len()) {
                 let first = half[0];
-                half[1..].iter_mut().for_each(|x| *x += first);
+                half[1..].iter_mut().zip(&self.turns[1..]).for_each(|(x, turns)| *x += turns * first);
             }
         }
     }
@@ -197,16 +220,32 @@ impl<'a> Rates<'a> {
         }
         self.push(t);
         self.twist();
+        if !self.bobs.is_empty() {
+            self.swing_pendulums();
+        }
         let whole = self.whole_speed();
         for at in (0..places).step_by(R::LANES) {
             self.accelerate::<R>(at, whole);
         }
+        self.join();
         let lead = if self.relative { self.acceleration[0] } else { 0.0 };
         let (angle_rates, speed_rates) = to.split_at_mut(places);
         for at in (0..places).step_by(R::LANES) {
             R::load(&speeds[at..]).store(&mut angle_rates[at..]);
-            let lead = R::load(&self.beside[at..]) * lead;
+            let lead = R::load(&self.beside[at..]) * R::load(&self.turns[at..]) * lead;
             (R::load(&self.acceleration[at..]) - lead).store(&mut speed_rates[at..]);
+        }
+    }
+
+    /// Accelerations with what joins masses beyond twists: pendulums, rigid and stuck stages.
+    fn join(&mut self) {
+        if !self.bobs.is_empty() {
+            let mut acceleration = std::mem::take(&mut self.acceleration);
+            self.share_with_pendulums(&mut acceleration);
+            self.acceleration = acceleration;
+        }
+        if self.has_stages() {
+            self.engage();
         }
     }
 
@@ -233,8 +272,8 @@ impl<'a> Rates<'a> {
             }
         }
         let Twists { torque, loss } = self.links.chain.twists::<R>(at, &self.aside, &self.aside_speed);
-        let swing =
-            (R::load(&self.aside_speed[at + 1..]) - R::splat(whole)) * R::load(&self.swing_damping[at..]);
+        let swing = (R::load(&self.aside_speed[at + 1..]) - R::load(&self.turns[at..]) * whole)
+            * R::load(&self.swing_damping[at..]);
         let drag = R::load(&self.damping[at..]) * omega + swing;
         let gyration = bend * 0.5 * omega * omega;
         let net = ((torque - drag) + R::load(&self.outer[at..])) + (shaped - gyration);
@@ -250,8 +289,9 @@ impl<'a> Rates<'a> {
         let (angle, speed) = (R::load(&angles[at..]) * beside, R::load(&speeds[at..]) * beside);
         angle.store(&mut self.aside[at + 1..]);
         speed.store(&mut self.aside_speed[at + 1..]);
-        (angle + lead[0]).store(&mut self.theta[at..]);
-        (speed + lead[1]).store(&mut self.omega[at..]);
+        let turns = R::load(&self.turns[at..]);
+        (angle + turns * lead[0]).store(&mut self.theta[at..]);
+        (speed + turns * lead[1]).store(&mut self.omega[at..]);
         R::splat(0.0).store(&mut self.outer[at..]);
     }
 
@@ -276,33 +316,66 @@ impl<'a> Rates<'a> {
             self.outer[i] += pull.torque;
             *power = pull.torque * self.omega[i];
         }
+        let first = self.losses_of_others() - system.controllers.len();
+        for (controller, power) in system.controllers.iter().zip(&mut self.powers[first..]) {
+            let (i, j) = (controller.mass, controller.integral);
+            let command = controller.at(&system.curves, &self.stretch, t, [self.omega[i], self.omega[j]]);
+            self.outer[i] += command.torque;
+            self.outer[j] += command.rate;
+            *power = command.torque * self.omega[i];
+        }
+    }
+
+    /// Place of the first loss in a link that is no chain.
+    pub(super) fn losses_of_others(&self) -> usize {
+        self.theta.len() * (2 + self.shapes.len()) + self.alone.len() + self.system.controllers.len()
+    }
+
+    /// A link at the instant last evaluated.
+    pub(super) fn bond(&self, link: &Link) -> Bond {
+        link.bond(
+            self.system.len(),
+            |i| self.aside[i + 1],
+            |i| self.aside_speed[i + 1],
+            |i| [self.theta[i], self.omega[i]],
+        )
     }
 
     /// Torques of the links that are no chain.
     #[inline(always)]
     fn twist(&mut self) {
         let system = self.system;
-        let losses = &mut self.powers[self.theta.len() * (2 + self.shapes.len()) + self.alone.len()..];
-        for (&place, loss) in self.links.others.iter().zip(losses) {
+        let first = self.losses_of_others();
+        for nth in 0..self.links.others.len() {
+            let place = self.links.others[nth];
             let link = &system.links[place];
-            let [a, b] = link.ends;
-            let rate = link.ratio * (self.aside_speed[a + 1] - self.aside_speed[b + 1]);
-            let twist = link.ratio * (self.aside[a + 1] - self.aside[b + 1]);
-            let elastic = link.elastic(system, twist).0;
-            let torque = link.ratio * (elastic + link.damping * rate);
-            *loss = link.damping * rate * rate;
-            self.outer[a] -= torque;
-            self.outer[b] += torque;
+            if link.manner.rigid {
+                continue;
+            }
+            let bond = self.bond(link);
+            let BondTorque { torque, friction, .. } = link.pulls(system, bond.twist, bond.rate);
+            let mut loss = friction * bond.rate;
+            let mut at_end = torque;
+            if link.manner.loss.is_some() {
+                at_end *= self.tooth_factor(place, torque);
+                loss += (at_end - torque) * link.ratio * self.omega[link.ends[0]];
+            }
+            self.powers[first + nth] = loss;
+            let [a, b, c] = bond.gradient;
+            for (mass, torque) in bond.masses.into_iter().zip([a * at_end, b * torque, c * torque]) {
+                self.outer[mass] -= torque;
+            }
         }
     }
 
-    /// Powers, or their works: of each torque, then in each link, then at each mass.
+    /// Powers, or their works: of each torque, of each controller, then in each link, then at each mass.
     pub fn in_order(&self, powers: &[f64]) -> Vec<f64> {
         let (n, places) = (self.system.len(), self.theta.len());
         let (drags, powers) = powers.split_at(places);
         let (behind, powers) = powers.split_at(places);
         let (banks, powers) = powers.split_at(places * self.shapes.len());
-        let (alone, others) = powers.split_at(self.alone.len());
+        let (alone, powers) = powers.split_at(self.alone.len());
+        let (controllers, others) = powers.split_at(self.system.controllers.len());
         let mut torques = vec![0.0; self.system.torques.len()];
         self.alone.iter().zip(alone).for_each(|(&place, &power)| torques[place] = power);
         for (bank, powers) in self.shapes.iter().zip(banks.chunks_exact(places)) {
@@ -310,26 +383,40 @@ impl<'a> Rates<'a> {
                 place.iter().for_each(|&place| torques[place] = power);
             }
         }
-        [torques, self.links.losses(behind, others), drags[..n].to_vec()].concat()
+        [torques, controllers.to_vec(), self.links.losses(behind, others), drags[..n].to_vec()].concat()
     }
 
     /// Torque in a link at its own speed, and how fast it changes, at the instant last evaluated.
-    pub fn link_torque(&self, link: &Link) -> (f64, f64) {
-        let [a, b] = link.ends;
-        let rate = link.ratio * (self.aside_speed[a + 1] - self.aside_speed[b + 1]);
-        let twist = link.ratio * (self.aside[a + 1] - self.aside[b + 1]);
+    pub fn link_torque(&self, place: usize) -> (f64, f64) {
+        let link = &self.system.links[place];
+        if link.manner.rigid {
+            return (self.rigid_torque(place), f64::NAN);
+        }
+        let bond = self.bond(link);
+        let pulls = link.pulls(self.system, bond.twist, bond.rate);
         let at = |i: usize| self.acceleration.get(i).copied().unwrap_or(0.0);
-        let bend = link.ratio * (at(a) - at(b));
-        let (elastic, slope) = link.elastic(self.system, twist);
-        (elastic + link.damping * rate, slope * rate + link.damping * bend)
+        let bend = bond.twist_acceleration(at, self.omega[bond.masses[0].min(self.omega.len() - 1)]);
+        (pulls.torque, pulls.by_twist * bond.rate + pulls.by_rate * bend)
     }
 
-    /// Torque in a link from components of a state.
-    pub fn link_torque_at(&self, link: &Link, state: impl Fn(usize) -> f64) -> f64 {
-        let n = self.system.len();
-        let (twist, rate) =
-            (link.twist(n, self.relative, &state), link.twist(n, self.relative, |i| state(n + i)));
-        link.elastic(self.system, twist).0 + link.damping * rate
+    /// Torque in a link from components of a state; of a rigid one that of the instant last evaluated.
+    pub fn link_torque_at(&self, place: usize, state: impl Fn(usize) -> f64) -> f64 {
+        let (n, link) = (self.system.len(), &self.system.links[place]);
+        if link.manner.rigid {
+            return self.rigid_torque(place);
+        }
+        let first = if self.relative { [state(0), state(n)] } else { [0.0; 2] };
+        let aside = |i: usize, value: f64| if i == 0 && self.relative { 0.0 } else { value };
+        let bond = link.bond(
+            n,
+            |i| aside(i, state(i)),
+            |i| aside(i, state(n + i)),
+            |i| {
+                let [angle, speed] = first.map(|lead| self.turns[i] * lead);
+                [angle + aside(i, state(i)), speed + aside(i, state(n + i))]
+            },
+        );
+        link.pulls(self.system, bond.twist, bond.rate).torque
     }
 
     /// Kinetic and potential energy of a state \[J\].
@@ -338,15 +425,31 @@ impl<'a> Rates<'a> {
         let mut masses = state.to_vec();
         self.to_absolute(&mut masses);
         let (theta, omega) = masses.split_at(system.len());
-        let turning: f64 = system.inertia.iter().zip(omega).map(|(j, w)| j * w * w).sum();
+        let mut turning: f64 = system.inertia.iter().zip(omega).map(|(j, w)| j * w * w).sum();
+        // What controllers add up has no energy.
+        turning -= system
+            .controllers
+            .iter()
+            .map(|one| system.inertia[one.integral] * omega[one.integral].powi(2))
+            .sum::<f64>();
         let rotor = |rotor: &Rotor| {
             let part = rotor.ratio * omega[rotor.mass];
             let angle = rotor.ratio * theta[rotor.mass] + rotor.phase;
             system.tables[rotor.table].value_and_slope(angle)[0] * part * part
         };
-        let kinetic = 0.5 * (turning + system.rotors.iter().map(rotor).sum::<f64>());
+        let swing = |pendulum: &Pendulum| {
+            let Pendulum { disc, bob, .. } = *pendulum;
+            let aside = |i: usize| if i == 0 && self.relative { 0.0 } else { state[i] };
+            pendulum.energy(aside(bob) - aside(disc), [omega[disc], omega[bob]])
+        };
+        let kinetic = 0.5 * (turning + system.rotors.iter().map(rotor).sum::<f64>())
+            + system.pendulums.iter().map(swing).sum::<f64>();
         let stored = |link: &Link| {
-            let twist = link.twist(system.len(), self.relative, |i| state[i]);
+            if link.manner.rigid {
+                return 0.0;
+            }
+            let aside = |i: usize| if i == 0 && self.relative { 0.0 } else { state[i] };
+            let twist = link.bond(system.len(), aside, |_| 0.0, |i| [theta[i], 0.0]).twist;
             let curved = link.curve.map_or(0.0, |curve| system.curves[curve].integral(twist));
             0.5 * link.stiffness * twist * twist + curved
         };
@@ -363,6 +466,9 @@ impl<'a> Rates<'a> {
         inertia: &mut [f64],
     ) {
         let state = self.state(angle, speed);
+        if self.has_stages() {
+            self.set_senses(t, &state);
+        }
         self.derivative(t, &state, &mut state.clone());
         inertia.copy_from_slice(&self.inertia[..inertia.len()]);
         for ((net, a), j) in net.iter_mut().zip(&self.acceleration).zip(&self.inertia) {
@@ -379,14 +485,17 @@ impl<'a> Rates<'a> {
             damping[i] = system.damping[i] + system.swing_damping[i];
         }
         for link in &system.links {
-            let [a, b] = link.ends;
-            let square = link.ratio * link.ratio;
             // A coupling with backlash has no stiffness yet; its steepest counts.
             let curved = link.curve.map_or(0.0, |curve| system.curves[curve].steepest());
-            for i in [a, b] {
-                stiffness[i] += square * (link.stiffness + curved);
-                damping[i] += square * link.damping;
+            let shares = link.shares().map(f64::abs);
+            let whole = 0.5 * shares.iter().sum::<f64>();
+            for (i, share) in link.masses(n).into_iter().zip(shares) {
+                stiffness[i] += whole * share * (link.stiffness + curved);
+                damping[i] += whole * share * link.damping;
             }
+        }
+        for controller in &system.controllers {
+            damping[controller.mass] += controller.ratio.powi(2) * controller.gain;
         }
         let each = (0..n).map(|i| {
             let inverse = 2.0 / self.inertia[i];
@@ -399,10 +508,19 @@ impl<'a> Rates<'a> {
     pub fn turning(&self, state: &[f64]) -> f64 {
         let system = self.system;
         let speeds = &state[system.len()..];
-        let speed = |i: usize| if i > 0 && self.relative { speeds[0] + speeds[i] } else { speeds[i] };
+        let speed = |i: usize| {
+            if i > 0 && self.relative { self.turns[i] * speeds[0] + speeds[i] } else { speeds[i] }
+        };
         let rotors = system.rotors.iter().map(|rotor| (rotor.mass, rotor.ratio));
         let shapes = system.torques.iter().filter_map(|torque| Some((torque.mass, torque.shape?.pitch)));
-        rotors.chain(shapes).map(|(mass, pitch)| (pitch * speed(mass)).abs()).fold(0.0, f64::max)
+        // What a joint adds repeats twice in a revolution.
+        let joints = system.links.iter().filter(|link| link.manner.joint.is_some());
+        let joints = joints.map(|link| (link.ends[0], 2.0 * link.ratio));
+        rotors
+            .chain(shapes)
+            .chain(joints)
+            .map(|(mass, pitch)| (pitch * speed(mass)).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Derivatives of the accelerations by all angles and speeds of the masses, row by row, at the instant last evaluated.
@@ -422,7 +540,7 @@ impl<'a> Rates<'a> {
             by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
             by_speed[i * n + i] = -d1 * omega - system.damping[i] - system.swing_damping[i];
             for (j, share) in self.shares.iter().enumerate() {
-                by_speed[i * n + j] += system.swing_damping[i] * share;
+                by_speed[i * n + j] += system.swing_damping[i] * self.turns[i] * share;
             }
         }
         for torque in &system.torques {
@@ -433,18 +551,69 @@ impl<'a> Rates<'a> {
             by_angle[i * n + i] += angle;
             by_speed[i * n + i] += speed;
         }
-        for link in &system.links {
-            let [a, b] = link.ends;
-            let square = link.ratio * link.ratio;
-            let slope = link.elastic(system, link.ratio * (self.aside[a + 1] - self.aside[b + 1])).1;
-            couple(by_angle, n, [a, b], square * slope);
-            couple(by_speed, n, [a, b], square * link.damping);
+        for controller in &system.controllers {
+            let (i, j) = (controller.mass, controller.integral);
+            let speeds = [self.omega[i], self.omega[j]];
+            let is_free = controller.at(&system.curves, &self.stretch, t, speeds).is_free;
+            for (row, [by_mass, by_integral]) in [i, j].into_iter().zip(controller.slopes(is_free)) {
+                by_speed[row * n + i] += by_mass;
+                by_speed[row * n + j] += by_integral;
+            }
         }
+        for (place, link) in system.links.iter().enumerate() {
+            if !link.manner.rigid {
+                self.couple(place, link, by_angle, by_speed);
+            }
+        }
+        self.pendulum_slopes(by_angle, by_speed);
         for i in 0..n {
             let inverse = 1.0 / self.inertia[i];
             for list in [&mut *by_angle, &mut *by_speed] {
                 list[i * n..(i + 1) * n].iter_mut().for_each(|x| *x *= inverse);
             }
+        }
+        if !self.bobs.is_empty() || self.has_stages() {
+            [by_angle, by_speed].into_iter().for_each(|matrix| self.join_columns(matrix));
+        }
+    }
+
+    /// A link's part of the derivatives of the torques.
+    fn couple(&self, place: usize, link: &Link, by_angle: &mut [f64], by_speed: &mut [f64]) {
+        let (n, bond) = (self.system.len(), self.bond(link));
+        let pulls = link.pulls(self.system, bond.twist, bond.rate);
+        let factors =
+            [if link.manner.loss.is_some() { self.last_tooth_factor(place) } else { 1.0 }, 1.0, 1.0];
+        let present = |k: &usize| bond.masses[*k] < n;
+        for a in (0..3).filter(present) {
+            let row = bond.masses[a] * n;
+            for b in (0..3).filter(present) {
+                let both = factors[a] * bond.gradient[a] * bond.gradient[b];
+                by_angle[row + bond.masses[b]] -= both * pulls.by_twist;
+                by_speed[row + bond.masses[b]] -= both * pulls.by_rate;
+            }
+        }
+        // Behind a joint the gradient changes with the angle.
+        if bond.bend != 0.0 {
+            let a = bond.masses[0];
+            by_angle[a * n + a] -= bond.bend * pulls.torque;
+            let turned = bond.bend * self.omega[a] * pulls.by_rate;
+            for (mass, gradient) in bond.masses.into_iter().zip(bond.gradient).filter(|(mass, _)| *mass < n) {
+                by_angle[mass * n + a] -= gradient * turned;
+            }
+        }
+    }
+
+    /// Lets what joins masses beyond twists act on changes of the accelerations, column by column.
+    fn join_columns(&self, matrix: &mut [f64]) {
+        let n = self.system.len();
+        let mut column = vec![0.0; n];
+        for j in 0..n {
+            (0..n).for_each(|i| column[i] = matrix[i * n + j]);
+            self.share_with_pendulums(&mut column);
+            if self.has_stages() {
+                self.engage_changes(&mut column);
+            }
+            (0..n).for_each(|i| matrix[i * n + j] = column[i]);
         }
     }
 }
@@ -463,18 +632,6 @@ impl Job for Derivative<'_, '_> {
     #[inline(always)]
     fn run<R: Real>(self) {
         self.rates.derive::<R>(self.t, self.state, self.to);
-    }
-}
-
-/// A stiffness between two masses, as it acts on them.
-fn couple(matrix: &mut [f64], n: usize, [a, b]: [usize; 2], stiffness: f64) {
-    for (i, j) in [(a, b), (b, a)] {
-        if i < n {
-            matrix[i * n + i] -= stiffness;
-            if j < n {
-                matrix[i * n + j] += stiffness;
-            }
-        }
     }
 }
 
@@ -502,20 +659,13 @@ impl Torque {
 }
 
 impl Link {
-    /// Twist at its own speed from the angles of a state of n masses; from its speeds the rate of twist.
+    /// Twist at its own speed from the angles of a state of n masses, but for that of a joint; from its speeds the rate.
     pub fn twist(&self, n: usize, relative: bool, state: impl Fn(usize) -> f64) -> f64 {
         let aside = |i: usize| if i == n || (i == 0 && relative) { 0.0 } else { state(i) };
-        let [a, b] = self.ends;
-        self.ratio * (aside(a) - aside(b))
-    }
-
-    /// Elastic torque at a twist, and its slope.
-    #[inline(always)]
-    fn elastic(&self, system: &System, twist: f64) -> (f64, f64) {
-        let (curved, slope) = match self.curve {
-            None => (0.0, 0.0),
-            Some(curve) => system.curves[curve].at(twist),
-        };
-        (self.stiffness * twist + curved, self.stiffness + slope)
+        let [a, b, c] = self.masses(n).map(aside);
+        match self.manner.carrier {
+            None => self.ratio * (a - b),
+            Some(Carrier { shares: [by_a, by_b, by_c], .. }) => by_a * a + by_b * b + by_c * c,
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! A train in motion: masses, links between them, inertias that change with the angle, torques.
 
+use super::controllers::Controller;
 use super::curve::Curve;
+use super::pendulums::Pendulum;
 use super::periodic::Periodic;
 use super::torque::Torque;
 use linkwright_kernel::error::PlanError;
@@ -17,6 +19,44 @@ pub struct Link {
     pub damping: f64,
     /// Torque over twist, added to that of the stiffness.
     pub curve: Option<usize>,
+    pub manner: Manner,
+}
+
+/// What a link has beyond a spring and a damper between two masses that turn alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Manner {
+    /// No stiffness: both ends move as one, and the torque follows from that.
+    pub rigid: bool,
+    /// Damping acts while the flanks touch, and never pulls.
+    pub contact: bool,
+    /// Friction of the teeth at the first end.
+    pub loss: Option<Loss>,
+    pub joint: Option<Joint>,
+    pub carrier: Option<Carrier>,
+}
+
+/// Torque at the first end over that of the teeth: while the first end drives, and while the second does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loss {
+    /// 1/η
+    pub forward: f64,
+    /// The efficiency of back-driving, zero of a stage that locks itself.
+    pub reverse: f64,
+}
+
+/// A Hooke's joint at the first end: tan ψ = tan φ/cos α, φ the angle of the part and its phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// cos α
+    pub cosine: f64,
+    pub phase: f64,
+}
+
+/// A mass that carries the bearings of a mesh: Δ = Σ share · angle of first end, second end and carrier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carrier {
+    pub mass: usize,
+    pub shares: [f64; 3],
 }
 
 /// An inertia that changes with the angle of its part.
@@ -30,7 +70,7 @@ pub struct Rotor {
 }
 
 /// Masses, links and torques.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct System {
     /// Constant part \[kg m²\].
     pub inertia: Vec<f64>,
@@ -38,12 +78,19 @@ pub struct System {
     pub damping: Vec<f64>,
     /// Against the train as a whole: it resists swinging, not turning \[N m s/rad\].
     pub swing_damping: Vec<f64>,
+    /// Zero for masses that rest while the train runs, such as a housing on its seat, else one; empty if all turn.
+    pub turns: Vec<f64>,
     pub links: Vec<Link>,
     pub rotors: Vec<Rotor>,
     pub torques: Vec<Torque>,
+    pub pendulums: Vec<Pendulum>,
+    pub controllers: Vec<Controller>,
     pub tables: Vec<Periodic>,
     pub curves: Vec<Curve>,
 }
+
+/// Share of the sizes of its parts that a sum of zero may be by rounding.
+const EQUAL: f64 = 1e-9;
 
 fn below(what: &'static str, value: usize, made: usize) -> Result<(), PlanError> {
     if value < made { Ok(()) } else { Err(PlanError::Missing { what, value, made }) }
@@ -66,7 +113,20 @@ impl System {
 
     /// Whether it can rotate as a rigid body.
     pub fn is_free(&self) -> bool {
-        self.links.iter().all(|link| !link.ends.contains(&self.len()))
+        let turns = |mass: usize| if mass == self.len() { 0.0 } else { self.turns_of(mass) };
+        self.links.iter().all(|link| {
+            let parts = link.masses(self.len()).into_iter().zip(link.shares());
+            let [apart, size] = parts.fold([0.0; 2], |[sum, size], (mass, share)| {
+                let part = share * turns(mass);
+                [sum + part, size + part.abs()]
+            });
+            apart.abs() <= EQUAL * size
+        })
+    }
+
+    /// Whether a mass turns with the train, 1, or rests, 0.
+    pub fn turns_of(&self, mass: usize) -> f64 {
+        self.turns.get(mass).copied().unwrap_or(1.0)
     }
 
     /// Share of each mass in the mean inertia: weights of the speeds whose sum is that of the train as a whole. None of a
@@ -75,7 +135,8 @@ impl System {
         if !self.is_free() {
             return vec![0.0; self.len()];
         }
-        let mut shares = self.inertia.clone();
+        let mut shares: Vec<f64> =
+            self.inertia.iter().enumerate().map(|(i, j)| j * self.turns_of(i)).collect();
         for rotor in &self.rotors {
             shares[rotor.mass] += rotor.ratio * rotor.ratio * self.tables[rotor.table].mean();
         }
@@ -95,15 +156,25 @@ impl System {
         }
         length("list of damping", self.damping.len(), n)?;
         length("list of damping of swings", self.swing_damping.len(), n)?;
+        if !self.turns.is_empty() {
+            length("list of what turns", self.turns.len(), n)?;
+        }
         let curve = |curve: Option<usize>| curve.map_or(Ok(()), |k| below("curve", k, self.curves.len()));
         for link in &self.links {
             // The ground is the mass beyond the last.
-            link.ends.into_iter().try_for_each(|end| below("mass", end, n + 1))?;
+            link.masses(n).into_iter().try_for_each(|end| below("mass", end, n + 1))?;
             curve(link.curve)?;
         }
         for rotor in &self.rotors {
             below("mass", rotor.mass, n)?;
             below("table", rotor.table, self.tables.len())?;
+        }
+        for pendulum in &self.pendulums {
+            [pendulum.disc, pendulum.bob].into_iter().try_for_each(|mass| below("mass", mass, n))?;
+        }
+        for controller in &self.controllers {
+            [controller.mass, controller.integral].into_iter().try_for_each(|mass| below("mass", mass, n))?;
+            curve(Some(controller.set_point))?;
         }
         for torque in &self.torques {
             below("mass", torque.mass, n)?;

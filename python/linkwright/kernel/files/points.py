@@ -38,6 +38,8 @@ _EXAMPLES = {
     "response": "speed [rpm], stress [MPa]",
     "measured": "root_diameter [mm], cut_height [mm], offset [mm]",
     "record": "time [s], speed [rpm]",
+    "torque_course": "times [s], torque [N m]",
+    "speed_course": "times [s], speed [rpm]",
 }
 
 # Those that are laws: they may be written by a motion controller.

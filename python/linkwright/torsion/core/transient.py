@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,6 +34,9 @@ from linkwright.kernel.core.periodic_table import PeriodicTable, smooth
 from linkwright.kernel.errors import InputError, ShapeError
 from linkwright.torsion.core.torque import DecayingTorque, GovernorTorque, OverSpeed, Power, TrainTorque
 from linkwright.torsion.core.train import HELD, ReferredTrain, lead_speeds
+
+# Share of a twist that is rounding.
+_EQUAL = 1e-9
 
 # Share of the largest slope by which given slopes may differ from those of the samples.
 _SLOPES_AGREE = 1e-3
@@ -93,6 +96,13 @@ class TimeExtremes:
         return TimeExtremes(*(column[:count] for column in columns))
 
 
+class NetTorque(NamedTuple):
+    """Sum of all torques on each mass, less ½ J′ω² [N m], and its inertia [kg m²], (rows, masses)."""
+
+    torque: Floats
+    inertia: Floats
+
+
 @dataclass(frozen=True)
 class TrainMotion:
     """A motion as the core gives it, in terms of masses."""
@@ -119,11 +129,56 @@ class TrainMotion:
     # `torque_extremes`, `speed_extremes`: of each shaft and of each mass.
     torque_extremes: TimeExtremes
     speed_extremes: TimeExtremes
-    work: Floats  # (torques,) [J]
+    work: Floats  # (torques and then controllers,) [J]
     # `shaft_loss`, `mass_loss`, `modal_loss`: lost in each shaft, at each mass, by damping ratios [J].
     shaft_loss: Floats
     mass_loss: Floats
     modal_loss: float
+
+
+@dataclass(frozen=True)
+class Manner:
+    """What a shaft or mesh has beyond a spring and a damper between two discs that turn alike."""
+
+    rigid: bool = False  # no stiffness: both ends move as one
+    contact: bool = False  # damping acts while flanks touch, and never pulls
+    # Torque at the first end over that of the teeth while it drives, and while the second does.
+    loss: tuple[float, float] | None = None
+    joint: tuple[float, float] | None = None  # angle α and phase of a Hooke's joint at the first end [rad]
+    # Disc that carries a mesh, and the parts of the angles of first, second and carrier in the twist.
+    carrier: tuple[int, tuple[float, float, float]] | None = None
+
+
+@dataclass(frozen=True)
+class MovingPendulum:
+    """Centrifugal pendulums: disc that carries them, disc that their angle is, m, R and l [kg, m]."""
+
+    on: int
+    bob: int
+    mass: float
+    radius: float
+    length: float
+
+    @property
+    def swing_per_lead(self) -> float:
+        """Angle of swing over the angle by which the pendulum leads its disc about the axis."""
+        return (self.radius + self.length) / self.length
+
+
+@dataclass(frozen=True)
+class Controller:
+    """A speed controller, M₀ + k_p (e + ∫e dt/T_i), e = ω_s(t) − ω, within a limit."""
+
+    name: str
+    on: int  # disc
+    gain: float  # k_p [N m s/rad]
+    inverse_time: float  # 1/T_i [1/s]
+    limit: float  # infinite for none [N m]
+    set_point: Curve  # ω_s [rad/s] over time [s]
+    offset: float = 0.0  # M₀ [N m]
+
+
+PLAIN = Manner()
 
 
 @dataclass(frozen=True)
@@ -151,11 +206,66 @@ class MovingTrain:
     # (masses, masses) of damping ratios of modes, at the speed of the first disc; None for none [N m s/rad].
     modal_damping: Floats | None = None
     notes: tuple[str, ...] = field(default=())  # what was assumed
+    manners: tuple[Manner, ...] = ()  # of each shaft; empty where all are plain
+    # (discs,) 0 for a disc that rests while the train runs, else 1; `speed` of the former is 1. None: all turn.
+    turns: Floats | None = None
+    pendulums: tuple[MovingPendulum, ...] = ()
+    controllers: tuple[Controller, ...] = ()
 
     @property
     def masses(self) -> int:
         """How many masses."""
         return int(self.mass.max()) + 1
+
+    @property
+    def turning(self) -> Floats:
+        """0 for a mass that rests while the train runs, else 1, (masses,)."""
+        turning = np.ones(self.masses)
+        if self.turns is not None:
+            turning[self.mass] = self.turns
+        return turning
+
+    @cached_property
+    def joins(self) -> Floats:
+        """Parts of the angles of the masses in each twist over the speed of its lead, (shafts, masses)."""
+        joins = np.zeros((len(self.shafts), self.masses + 1))
+        # The last column is that of the ground.
+        ends = np.append(self.mass, self.masses)[self.tip]
+        for end, sign in zip(ends.T, (1.0, -1.0), strict=True):
+            np.add.at(joins, (np.arange(len(joins)), end), sign)
+        for s, manner in enumerate(self.manners):
+            if manner.carrier is not None:
+                discs = [*self.tip[s].tolist(), manner.carrier[0]]
+                joins[s] = 0.0
+                for disc, part in zip(discs, manner.carrier[1], strict=True):
+                    if disc != HELD:
+                        joins[s, self.mass[disc]] += part * self.speed[disc] / self.lead[s]
+        return joins[:, :-1]
+
+    @cached_property
+    def is_free(self) -> bool:
+        """Whether it can rotate as a rigid body."""
+        size = np.abs(self.joins) @ self.turning
+        held = (self.tip == HELD).any(axis=1) & (size > 0)
+        for s, manner in enumerate(self.manners):
+            if manner.carrier is not None:
+                held[s] = abs(self.joins[s] @ self.turning) > _EQUAL * size[s]
+        return not held.any()
+
+    @property
+    def has_losses(self) -> bool:
+        """Whether gear stages lose power by their torque."""
+        return any(manner.loss is not None for manner in self.manners)
+
+    @cached_property
+    def groups(self) -> Integers:
+        """Number of the group of rigidly connected masses of each, (masses,): rigid stages with losses."""
+        group = np.arange(self.masses)
+        for s, manner in enumerate(self.manners):
+            if manner.rigid:
+                a, b = group[self.mass[self.tip[s]]]
+                group[group == b] = a
+        return np.unique(group, return_inverse=True)[1]
 
     @property
     def lead(self) -> Floats:
@@ -174,14 +284,17 @@ class MovingTrain:
         """The train as the core takes it."""
         return core_system(self)
 
-    def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> _core.NetTorques:
+    def net_torques(self, time: float, angle: ArrayLike, speed: ArrayLike) -> NetTorque:
         """Sum of all torques on each mass, and its inertia, (rows, masses).
 
         Torques, less ½ J′ω² [N m], and inertias [kg m²]. `time`: [s]; `angle`: (rows, masses) [rad]; `speed`:
         (masses,) [rad/s].
         """
-        rows = np.ascontiguousarray(angle, dtype=np.float64)
-        return self.system.net_torques(time, rows, np.ascontiguousarray(speed, dtype=np.float64))
+        n, more = self.masses, len(self.controllers)
+        rows = np.pad(np.asarray(angle, dtype=np.float64), [(0, 0), (0, more)])
+        turning = np.pad(np.asarray(speed, dtype=np.float64), (0, more))
+        net = self.system.net_torques(time, np.ascontiguousarray(rows), turning)
+        return NetTorque(net.torque[:, :n], net.inertia[:, :n])
 
     def follow(
         self,
@@ -199,9 +312,10 @@ class MovingTrain:
         Samples beyond the time reached are NaN. `angle`, `speed`: (masses,) [rad, rad/s]; `times`: (times,)
         to sample at, from zero to the end [s]; `start`: [s].
         """
-        at, turning, sampled = (
-            np.ascontiguousarray(given, dtype=np.float64) for given in (angle, speed, times)
-        )
+        more = len(self.controllers)
+        # The state of each controller is the speed of a mass of its own.
+        at, turning = (np.pad(np.asarray(given, dtype=np.float64), (0, more)) for given in (angle, speed))
+        sampled = np.ascontiguousarray(times, dtype=np.float64)
         motion = self.system.follow(
             angle=at,
             speed=turning,
@@ -213,7 +327,7 @@ class MovingTrain:
             steps_max=steps_max,
         )
         # Dashpots of modal damping come after the shafts.
-        m = len(self.shafts)
+        m, n = len(self.shafts), self.masses
         return TrainMotion(
             end=motion.end,
             method=motion.method,
@@ -224,16 +338,16 @@ class MovingTrain:
             fastest=motion.fastest,
             energy_start=motion.kinetic_start + motion.potential_start,
             energy_end=motion.kinetic_end + motion.potential_end,
-            angle=motion.angle,
-            speed=motion.speed,
+            angle=motion.angle[:n],
+            speed=motion.speed[:n],
             torque=motion.torque[:m],
             kinetic=motion.kinetic,
             potential=motion.potential,
             torque_extremes=TimeExtremes.of(motion.torque_extremes, m),
-            speed_extremes=TimeExtremes.of(motion.speed_extremes, self.masses),
+            speed_extremes=TimeExtremes.of(motion.speed_extremes, n),
             work=motion.work,
             shaft_loss=motion.loss_links[:m],
-            mass_loss=motion.loss_masses,
+            mass_loss=motion.loss_masses[:n],
             modal_loss=float(motion.loss_links[m:].sum()),
         )
 
@@ -250,6 +364,7 @@ def moving(
     torques: Iterable[TrainTorque] = (),
     modal_damping: Floats | None = None,
     notes: Iterable[str] = (),
+    manners: Sequence[Manner] = (),
 ) -> MovingTrain:
     """A train in motion from the train for vibration.
 
@@ -261,7 +376,7 @@ def moving(
     straight = np.array([curve is None for curve in shapes], dtype=float)
     return MovingTrain(
         referred.discs,
-        referred.speed,
+        referred.scale,
         referred.mass,
         np.broadcast_to(np.asarray(inertia, dtype=float), n),
         np.broadcast_to(np.asarray(damping, dtype=float), n),
@@ -275,6 +390,8 @@ def moving(
         tuple(torques),
         modal_damping,
         tuple(notes),
+        tuple(manners) if any(manner != PLAIN for manner in manners) else (),
+        None if referred.twist is None else (referred.speed != 0).astype(float),
     )
 
 
@@ -304,6 +421,8 @@ def core_system(train: MovingTrain) -> _core.TorsionSystem:
             for rotor in train.inertias
         ],
         torques=[_torque(train, torque, parts) for torque in train.torques],
+        pendulums=[_pendulum(train, pendulum) for pendulum in train.pendulums],
+        controllers=[_controller(train, n, parts) for n in range(len(train.controllers))],
     )
 
 
@@ -336,16 +455,47 @@ def _masses(train: MovingTrain) -> list[_core.TorsionMass]:
     columns = np.zeros((3, train.masses))
     for column, own in zip(columns, (train.inertia, train.damping, train.swing_damping), strict=True):
         np.add.at(column, train.mass, train.speed**2 * own)
-    return [
-        _core.TorsionMass(inertia=inertia, damping=damping, swing_damping=swing)
-        for inertia, damping, swing in columns.T.tolist()
+    masses = [
+        _core.TorsionMass(inertia=inertia, damping=damping, swing_damping=swing, turns=turns > 0)
+        for (inertia, damping, swing), turns in zip(columns.T.tolist(), train.turning.tolist(), strict=True)
     ]
+    # What a controller adds up is the speed of a mass that nothing else moves.
+    integral = _core.TorsionMass(inertia=1.0, damping=0.0, swing_damping=0.0, turns=False)
+    return [*masses, *[integral] * len(train.controllers)]
+
+
+def _pendulum(train: MovingTrain, pendulum: MovingPendulum) -> _core.TorsionPendulum:
+    return _core.TorsionPendulum(
+        disc=int(train.mass[pendulum.on]),
+        bob=int(train.mass[pendulum.bob]),
+        ratio=float(train.speed[pendulum.on]),
+        mass=pendulum.mass,
+        radius=pendulum.radius,
+        length=pendulum.length,
+    )
+
+
+def _controller(train: MovingTrain, n: int, parts: _SharedParts) -> _core.TorsionController:
+    one = train.controllers[n]
+    return _core.TorsionController(
+        mass=int(train.mass[one.on]),
+        integral=train.masses + n,
+        ratio=float(train.speed[one.on]),
+        gain=one.gain,
+        inverse_time=one.inverse_time,
+        offset=one.offset,
+        limit=one.limit,
+        set_point=parts.curve(one.set_point),
+    )
 
 
 def _shafts(train: MovingTrain, parts: _SharedParts) -> Iterator[_core.TorsionLink]:
     ends = [[None if end == HELD else int(train.mass[end]) for end in pair] for pair in train.tip.tolist()]
     numbers = np.column_stack([train.lead, train.stiffness, train.shaft_damping]).tolist()
-    for (first, second), (ratio, stiffness, damping), curve in zip(ends, numbers, train.curves, strict=True):
+    manners = train.manners or (PLAIN,) * len(train.shafts)
+    rows = zip(ends, numbers, train.curves, manners, strict=True)
+    for s, ((first, second), (ratio, stiffness, damping), curve, manner) in enumerate(rows):
+        joint, carrier = manner.joint, manner.carrier
         yield _core.TorsionLink(
             first=first,
             second=second,
@@ -353,7 +503,21 @@ def _shafts(train: MovingTrain, parts: _SharedParts) -> Iterator[_core.TorsionLi
             stiffness=stiffness,
             damping=damping,
             curve=parts.curve_or_none(curve),
+            rigid=manner.rigid,
+            contact=manner.contact,
+            loss=manner.loss,
+            joint=None if joint is None else (float(np.cos(joint[0])), joint[1]),
+            carrier=None if carrier is None else (int(train.mass[carrier[0]]), _carried(train, s, carrier)),
         )
+
+
+def _carried(
+    train: MovingTrain, s: int, carrier: tuple[int, tuple[float, float, float]]
+) -> tuple[float, ...]:
+    """Parts of the angles of the masses in the twist of a mesh on a carrier."""
+    discs = (*train.tip[s].tolist(), carrier[0])
+    scale = (0.0 if disc == HELD else float(train.speed[disc]) for disc in discs)
+    return tuple(part * factor for part, factor in zip(carrier[1], scale, strict=True))
 
 
 # Share of the largest entry of a damping matrix that is rounding.
@@ -373,7 +537,7 @@ def _modal_links(train: MovingTrain) -> list[_core.TorsionLink]:
         *zip(first.tolist(), second.tolist(), (-C[first, second]).tolist(), strict=True)
     ]
     # A train that is free as a whole has modes that vibrate without momentum: rows sum up to zero.
-    if (train.tip == HELD).any():
+    if not train.is_free:
         pairs += [(mass, None, rest) for mass, rest in enumerate(C.sum(axis=1).tolist())]
     return [
         _core.TorsionLink(first=a, second=b, ratio=1.0, stiffness=0.0, damping=c, curve=None)

@@ -38,6 +38,7 @@ from linkwright.torsion.core.transient import MovingTrain, VariableInertia, movi
 from linkwright.torsion.excitation.engine_torques import cylinder_torques
 from linkwright.torsion.excitation.excited_train import highest_order
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
+from linkwright.torsion.in_time.moving_parts import link_manner, with_parts
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.ice_impacts import IceImpacts
@@ -74,25 +75,11 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
-    for name, shaft in train.shafts.items():
-        if shaft.joint_angle is not None:
-            remedy = "leave [train.transient] out; forced vibration has joints"
-            expected = "no joint in a motion in time"
-            raise MachineError([Problem("train.transient", f"the joint of shaft {name}", expected, remedy)])
-    if train.pendulums:
-        found, expected = f"the pendulum {next(iter(train.pendulums))}", "none in a motion in time"
-        remedy = "leave [train.transient] out; forced vibration has pendulums"
-        raise MachineError([Problem("train.transient", found, expected, remedy)])
     _require_motors_of_torque(manoeuvre)
     if train.mechanisms:
         found, expected = f"the mechanism {next(iter(train.mechanisms))}", "none in a motion in time"
         remedy = "leave [train.transient] out; steady motion (elastic_motion) has mechanisms"
         raise MachineError([Problem("train.transient", found, expected, remedy)])
-    if referred.twist is not None:
-        name = next(name for name, gear in expanded.gears.items() if gear.carrier)
-        remedy = "leave [train.transient] out; modes and forced vibration have such stages"
-        expected = "gears on fixed bearings in a motion in time"
-        raise MachineError([Problem("train.transient", f"the mesh {name} on a carrier", expected, remedy)])
     place = {name: k for k, name in enumerate(expanded.discs)}
     own = np.array([disc.inertia for disc in expanded.discs.values()])
     inertias = [
@@ -104,7 +91,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
     by_mode = manoeuvre.loss_by == "mode" and bool(referred.loss_factor.any())
     ratios = _ratios(referred, by_mode=by_mode)
     damping, notes = _mode_damping(referred) if by_mode else shaft_damping(referred, manoeuvre.loss_mode)
-    return moving(
+    moved = moving(
         referred,
         own,
         swing_damping=[disc.damping for disc in expanded.discs.values()],
@@ -118,7 +105,9 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
         notes=notes,
+        manners=[link_manner(expanded, referred, name) for name in referred.shafts],
     )
+    return with_parts(moved, train, expanded, manoeuvre)
 
 
 def _require_motors_of_torque(manoeuvre: TrainTransient) -> None:
@@ -237,7 +226,7 @@ def _outside(train: Train, manoeuvre: TrainTransient, place: dict[str, int]) -> 
             if wave.frequency:
                 yield from _fixed_frequency(name, place[excitation.on], wave, law, manoeuvre)
     for name, driver in train.drivers.items():
-        if driver.torque is not None:
+        if driver.torque is not None and driver.control is None:
             law = None if driver.speed is None else Power(driver.speed, driver.exponent, is_even=True)
             yield TrainTorque(name, place[driver.on], driver.torque, law)
     for name, motor in manoeuvre.motors.items():

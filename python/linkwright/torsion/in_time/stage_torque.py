@@ -34,7 +34,7 @@ def stage_torques(
     `time`: (n,) [s]; `angle`, `speed`: (masses, n), at the speed of the first disc [rad, rad/s]; `torque`:
     (shafts, n) [N m].
     """
-    rigid = [name for name, gear in gears.items() if gear.stiffness is None]
+    rigid = [name for name in gears if name not in train.shafts]
     left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, torque) if rigid else None
     # Discs whose inertia changes share none by its mean.
     open_masses = {int(train.mass[rotor.on]) for rotor in train.inertias}
@@ -42,12 +42,22 @@ def stage_torques(
     for name, gear in gears.items():
         first = train.discs.index(gear.between[0])
         if left is None or name not in rigid:
-            rows.append(torque[train.shafts.index(name)])
+            rows.append(_at_first(train, train.shafts.index(name), speed, torque))
             continue
         passed = passed_on(train.discs, gears, rigid, left[None])[0].real
         known = int(train.mass[first]) not in open_masses
         rows.append(passed[rigid.index(name)] / train.speed[first] if known else np.full(len(time), np.nan))
     return np.array(rows).reshape(len(gears), len(time))
+
+
+def _at_first(train: MovingTrain, shaft: int, speed: Floats, torque: Floats) -> Floats:
+    """Torque of the first disc, where friction of the teeth adds to what they carry, (n,) [N m]."""
+    loss = train.manners[shaft].loss if train.manners else None
+    if loss is None:
+        return torque[shaft]
+    power = torque[shaft] * speed[train.mass[train.tip[shaft, 0]]]
+    at_first: Floats = torque[shaft] * np.where(power > 0, loss[0], np.where(power < 0, loss[1], 1.0))
+    return at_first
 
 
 def _joined(train: MovingTrain, gears: dict[str, TrainGear], rigid: list[str]) -> list[int]:
@@ -67,8 +77,9 @@ def _left_over(
         net[first] -= flow
         net[second] += flow
     net = net[:-1]
-    momentum = (train.mean_inertia[:, None] * n**2 * speed[train.mass]).sum(axis=0)
-    together = momentum / (train.mean_inertia[:, None] * n**2).sum()
+    turning = train.turning[train.mass][:, None]
+    inertia = train.mean_inertia[:, None] * n**2 * turning
+    together = turning * (inertia * speed[train.mass]).sum(axis=0) / inertia.sum()
     swing = train.swing_damping[:, None] * (speed[train.mass] - together)
     net -= n**2 * (train.damping[:, None] * speed[train.mass] + swing)
     loaded = {disc: own for disc in joined if (own := tuple(one for one in train.torques if one.on == disc))}

@@ -18,6 +18,7 @@ are. Without them a motion would begin with the shock of torques that set in at 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -46,8 +47,12 @@ def mean_torques(train: MovingTrain, speed: float, angle: float = 0.0) -> Floats
     At the speed of the first disc, at the start of the motion [N m]. `speed`: [rad/s]; `angle`: [rad].
     """
     turns = angle + 4 * np.pi * np.arange(_MEAN_ANGLES) / _MEAN_ANGLES
-    n = train.masses
-    net = train.net_torques(BEFORE, np.repeat(turns[:, None], n, axis=1), np.full(n, speed))
+    bare, turning = replace(train, controllers=()), train.turning
+    at = np.zeros(train.masses)
+    if train.has_losses:
+        # What is lost depends on what the shafts carry.
+        at = loaded_angles(bare, at, speed * turning)
+    net = bare.net_torques(BEFORE, at + turns[:, None] * turning, speed * turning)
     mean: Floats = net.torque.mean(axis=0)
     return mean
 
@@ -60,29 +65,76 @@ def balanced_start(
     Gives `train`: with a drive, with another combustion, or with other loads where that is asked for;
     `speed`: at the start [rad/s]; `told`: what was changed, in words; empty where nothing was.
     """
-    speed, is_free = manoeuvre.speed, not (moving.tip < 0).any()
-    if not (manoeuvre.balanced and speed and is_free) or manoeuvre.twists:
+    speed = manoeuvre.speed
+    if not (manoeuvre.balanced and speed and moving.is_free) or manoeuvre.twists:
         return moving, speed, ""
     left = _left(moving, speed, manoeuvre.angle)
     if abs(left) <= _ROUNDING * _size(moving, speed, manoeuvre.angle):
         return moving, speed, ""
     if manoeuvre.loads_follow:
-        return _with_loads(moving, train, speed, left)
+        return _with_loads(moving, train, manoeuvre, left)
     if any(motor.on_at_start for motor in manoeuvre.motors.values()):
         return _at_steady_speed(moving, manoeuvre)
     if not train.is_driven:
         return _with_combustion(moving, manoeuvre, left)
     if manoeuvre.motors:
         return moving, speed, f"no driving torque at the start: {left:.5g} N m slow the train down"
-    drives = [
-        TrainTorque("driver", driver, -share * left / float(moving.speed[driver]))
-        for driver, share in ((moving.discs.index(name), share) for name, share in train.shares.items())
-    ]
-    if not drives:
+    if not train.shares:
         return moving, speed, f"drivers and loads do not balance at the start: {left:+.5g} N m are left over"
+    total = -left * _balancing(
+        moving, manoeuvre, lambda factor: _driven(moving, _drives(moving, train, -left * factor))
+    )
+    drives = _drives(moving, train, total)
     given = " and ".join(f"{moving.discs[drive.on]} by a constant {drive.scale:.5g} N m" for drive in drives)
     words = f"{given.replace(' by', ' is driven by', 1)}, what the loads need at the start"
-    return replace(moving, torques=(*moving.torques, *drives)), speed, words
+    return _with_offsets(moving, drives), speed, words
+
+
+def _drives(moving: MovingTrain, train: Train, total: float) -> list[TrainTorque]:
+    """Constant torques of the drivers by their shares of a sum at the speed of the first disc [N m]."""
+    discs = ((moving.discs.index(name), share) for name, share in train.shares.items())
+    return [TrainTorque("driver", disc, share * total / float(moving.speed[disc])) for disc, share in discs]
+
+
+def _driven(moving: MovingTrain, drives: list[TrainTorque]) -> MovingTrain:
+    return replace(moving, torques=(*moving.torques, *drives))
+
+
+def _with_offsets(moving: MovingTrain, drives: list[TrainTorque]) -> MovingTrain:
+    """A speed controller begins with the torque of its driver; the others are constant."""
+    torque = {drive.on: drive.scale for drive in drives}
+    led = {one.on for one in moving.controllers}
+    controllers = tuple(
+        replace(one, offset=one.offset + torque.pop(one.on, 0.0)) for one in moving.controllers
+    )
+    constant = [drive for drive in drives if drive.on not in led]
+    return replace(_driven(moving, constant), controllers=controllers)
+
+
+# Share of the torques within which what gives is found where stages lose power, and secants.
+_FOUND, _SECANTS = 1e-12, 40
+
+
+def _balancing(
+    moving: MovingTrain, manoeuvre: TrainTransient, made: Callable[[float], MovingTrain], factor: float = 1.0
+) -> float:
+    """The factor that balances, beside one that does without losses."""
+    if not moving.has_losses:
+        return factor
+
+    def left(at: float) -> float:
+        return _left(made(at), manoeuvre.speed, manoeuvre.angle)
+
+    before, here = 0.9 * factor, factor
+    missed, misses = left(before), left(here)
+    size = max(abs(missed), abs(misses))
+    for _ in range(_SECANTS):
+        if abs(misses) <= _FOUND * size or misses == missed:
+            break
+        following = here - misses * (here - before) / (misses - missed)
+        before, missed, here = here, misses, following
+        misses = left(here)
+    return here
 
 
 def _left(moving: MovingTrain, speed: float, angle: float) -> float:
@@ -123,25 +175,31 @@ def _with_combustion(
     motored = replace(moving, torques=tuple(torque for torque in moving.torques if not _burns(torque)))
     given = left - _left(motored, manoeuvre.speed, manoeuvre.angle)
     factor = 1 - left / given if given > 0 else 0.0
+    burning = [_burns(torque) for torque in moving.torques]
+    if factor > 0:
+        factor = _balancing(moving, manoeuvre, lambda at: _scaled(moving, burning, at), factor)
     if factor <= 0:
         words = f"no combustion balances the mean torques: {left:+.5g} N m are left over at the start"
         return moving, manoeuvre.speed, words
     words = f"combustion was scaled by {factor:.5g} at the start so that the mean torques balance"
-    return _scaled(moving, [_burns(torque) for torque in moving.torques], factor), manoeuvre.speed, words
+    return _scaled(moving, burning, factor), manoeuvre.speed, words
 
 
 def _with_loads(
-    moving: MovingTrain, train: Train, speed: float, left: float
+    moving: MovingTrain, train: Train, manoeuvre: TrainTransient, left: float
 ) -> tuple[MovingTrain, float, str]:
-    needed = 0.0
+    needed, speed = 0.0, manoeuvre.speed
     for load in train.loads.values():
         turning = float(moving.speed[moving.discs.index(load.on)])
         needed += turning * load.resistance(turning * speed)
     factor = 1.0 + left / needed if needed else 0.0
+    loads = [torque.name in train.loads for torque in moving.torques]
+    if factor > 0:
+        factor = _balancing(moving, manoeuvre, lambda at: _scaled(moving, loads, at), factor)
     if factor <= 0:
         return moving, speed, f"no loads balance the mean torques: {left:+.5g} N m are left over at the start"
     words = f"loads were scaled by {factor:.5g} so that the mean torques balance (`loads_follow = true`)"
-    return _scaled(moving, [torque.name in train.loads for torque in moving.torques], factor), speed, words
+    return _scaled(moving, loads, factor), speed, words
 
 
 def _burns(torque: TrainTorque) -> bool:
@@ -182,24 +240,30 @@ _TORQUE_LEFT, _TWIST_ROUNDING = 1e-9, 1e-14
 
 def loaded_angles(train: MovingTrain, angle: Floats, speed: Floats) -> Floats:
     """Angles of the masses under mean torques, (masses,) [rad]; the first mass of a free train stays."""
-    is_free = not (train.tip < 0).any()
+    is_free, turning = train.is_free, train.turning
     # A train that is held does not turn: its torques are those at its angles.
     turns = 4 * np.pi * np.arange(_ANGLES) / _ANGLES if is_free else np.zeros(1)
     fixed = int(is_free)
     q = np.array(angle, dtype=float)
+    # Masses that rigid stages join turn alike.
+    alike = np.eye(int(train.groups.max()) + 1)[:, train.groups]
     steepest = train.lead**2 * (train.stiffness + _steepest(train))
     allowed = _TWIST_ROUNDING * steepest.max(initial=0.0)
     for _ in range(_STEPS):
-        net = train.net_torques(BEFORE, q + turns[:, None], speed)
-        torque, inertia = net.torque.mean(axis=0), net.inertia.mean(axis=0)
+        net = train.net_torques(BEFORE, q + turns[:, None] * turning, speed)
+        torque, inertia = alike @ net.torque.mean(axis=0), alike @ (net.inertia.mean(axis=0) * turning)
         left = torque - inertia * (torque.sum() / inertia.sum()) if is_free else torque
         # What only a fluid holds follows without twist.
-        stiffness = _stiffness(train, q, speed)
+        stiffness = alike @ _stiffness(train, q, speed) @ alike.T
         joined = stiffness.diagonal() > _TORQUE_LEFT * steepest.max(initial=0.0)
         allowed = max(allowed, _TORQUE_LEFT * float(np.abs(torque).max()))
         if np.abs(left[joined]).max(initial=0.0) <= allowed:
             return q
-        q[fixed:] += np.linalg.lstsq(stiffness[fixed:, fixed:], left[fixed:], rcond=1e-13)[0]
+        if train.has_losses and is_free:
+            # What stages lose changes the acceleration of the whole.
+            stiffness -= np.outer(inertia / inertia.sum(), stiffness.sum(axis=0))
+        step = np.linalg.lstsq(stiffness[fixed:, fixed:], left[fixed:], rcond=1e-13)[0]
+        q += np.concatenate([np.zeros(fixed), step]) @ alike
     raise ConvergenceError(
         "no twist of the shafts balances the mean torques at the start; start without them: loaded = false",
         method="Newton",

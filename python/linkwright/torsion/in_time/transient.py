@@ -28,7 +28,6 @@ from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label, declared
 from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
-from linkwright.torsion.core.train import HELD
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
 from linkwright.torsion.in_time.ice_impacts import (
     IceMilling,
@@ -42,6 +41,7 @@ from linkwright.torsion.in_time.ice_impacts import (
     within_limit,
 )
 from linkwright.torsion.in_time.moving_drive import moving_drive
+from linkwright.torsion.in_time.moving_parts import joint_leads
 from linkwright.torsion.in_time.moving_train import moving_train
 from linkwright.torsion.in_time.peak_judgement import PeakJudgement, judged, unjudged
 from linkwright.torsion.in_time.stage_torque import stage_torques
@@ -170,6 +170,17 @@ class TorsionTransient(Result):
             shape="(stages, n)",
         ),
     ] = field(default_factory=lambda: np.zeros((0, 0)))
+    pendulums: Annotated[tuple[str, ...], About("Centrifugal pendulums.")] = ()
+    swing: Annotated[
+        Floats,
+        Label(
+            "swing of each pendulum",
+            "ψ",
+            "rad",
+            "Relative to the disc that carries it, of any size.",
+            shape="(pendulums, n)",
+        ),
+    ] = field(default_factory=lambda: np.zeros((0, 0)))
     ice: Annotated[tuple[IceMilling, ...], About("Ice that the propeller met.")] = ()
 
     @property
@@ -186,6 +197,10 @@ class TorsionTransient(Result):
             for name, row in zip(self.stages, self.stage_torque, strict=True)
         }
         results["stages"] = finite(stages)
+        results["pendulums"] = {
+            name: {"swing_max": float(np.abs(row).max())}
+            for name, row in zip(self.pendulums, self.swing, strict=True)
+        }
         results["ice"] = [asdict(one) for one in self.ice]
         names = {"(shafts,)": self.shafts, "(discs,)": self.discs}
         for name, (_, mark) in declared(type(self)).items():
@@ -286,7 +301,7 @@ def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> To
         train,
         duration=manoeuvre.duration,
         speed=speed,
-        angle=_twisted(train, manoeuvre) if manoeuvre.twists else manoeuvre.angle,
+        angle=_start_angles(train, manoeuvre),
         loaded=manoeuvre.loaded and manoeuvre.speed > 0 and not manoeuvre.twists,
         settle=_settling_time(manoeuvre),
         sample_time=manoeuvre.sample_time,
@@ -294,6 +309,14 @@ def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> To
         method=manoeuvre.method,
         steps_max=manoeuvre.steps_max,
     )
+
+
+def _start_angles(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
+    """Angles of the masses at the start: with the given twists, and without twist behind joints, (masses,)."""
+    if manoeuvre.twists or any(manner.joint for manner in train.manners):
+        return _twisted(train, manoeuvre)
+    angles: Floats = manoeuvre.angle * train.turning
+    return angles
 
 
 def follow_train(
@@ -314,7 +337,7 @@ def follow_train(
     _require_inertia(train)
     n = train.masses
     at = np.broadcast_to(np.asarray(angle, dtype=float), n)
-    turning = np.broadcast_to(np.asarray(speed, dtype=float), n)
+    turning = np.broadcast_to(np.asarray(speed, dtype=float), n) * train.turning
     if loaded:
         at = loaded_angles(train, at, turning)
     times = _times(duration, sample_time)
@@ -328,26 +351,24 @@ def follow_train(
 
 def _twisted(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
     """Angles of the masses with given twists at the start, the first disc at its angle, (masses,) [rad]."""
-    joins = np.zeros((len(train.shafts), train.masses + 1))
-    # The last column is that of the ground.
-    ends = np.append(train.mass, train.masses)[train.tip]
-    for end, sign in zip(ends.T, (1.0, -1.0), strict=True):
-        np.add.at(joins, (np.arange(len(joins)), end), sign)
+    joins = train.joins
     for name in manoeuvre.twists.keys() - set(train.shafts):
         raise InputError(f'train.transient.twists: found "{name}", expected one of {", ".join(train.shafts)}')
-    wanted = np.array([manoeuvre.twists.get(name, 0.0) for name in train.shafts]) / train.lead
-    first, is_free = int(train.mass[0]), not (train.tip == HELD).any()
+    twists = np.array([manoeuvre.twists.get(name, 0.0) for name in train.shafts])
+    turned_so_far = manoeuvre.angle if train.is_free else 0.0
+    wanted = (twists - joint_leads(train, np.full(train.masses, turned_so_far))) / train.lead
+    first, is_free = int(train.mass[0]), train.is_free
     turned = [mass for mass in range(train.masses) if mass != first or not is_free]
     at = np.zeros(train.masses)
     at[turned] = np.linalg.lstsq(joins[:, turned], wanted, rcond=None)[0]
-    left = joins[:, :-1] @ at - wanted
+    left = joins @ at - wanted
     if np.abs(left).max() > _TWISTS_FIT * np.abs(wanted).max():
         name = train.shafts[int(np.abs(left).argmax())]
         raise InputError(
             f"train.transient.twists: found twists that do not fit together at {name}, expected those of "
             "shafts in a loop to add up to zero around it"
         )
-    angles: Floats = at + (manoeuvre.angle if is_free else 0.0)
+    angles: Floats = at + turned_so_far * train.turning
     return angles
 
 
@@ -458,14 +479,27 @@ def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTra
         evaluations=moved.evaluations,
         frequency_bound=moved.fastest / (2 * np.pi),
         notes=train.notes,
+        pendulums=tuple(train.discs[one.bob] for one in train.pendulums),
+        swing=_swings(train, moved),
     )
+
+
+def _swings(train: MovingTrain, moved: TrainMotion) -> Floats:
+    """Angle of swing of each pendulum, (pendulums, n) [rad]."""
+    rows = [
+        one.swing_per_lead
+        * float(train.speed[one.on])
+        * (moved.angle[train.mass[one.bob]] - moved.angle[train.mass[one.on]])
+        for one in train.pendulums
+    ]
+    return np.array(rows).reshape(len(rows), moved.angle.shape[1])
 
 
 def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
     work: dict[str, float] = {}
-    for torque, done in zip(train.torques, moved.work.tolist(), strict=True):
-        work[torque.name] = work.get(torque.name, 0.0) + done
+    for cause, done in zip((*train.torques, *train.controllers), moved.work.tolist(), strict=True):
+        work[cause.name] = work.get(cause.name, 0.0) + done
     loss: dict[str, Any] = dict(zip(train.shafts, moved.shaft_loss.tolist(), strict=True))
     loss["discs"] = float(moved.mass_loss.sum())
     if train.modal_damping is not None:

@@ -33,7 +33,16 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import CheckedDescription, Description, Name, Whole, fault
 from linkwright.kernel.numerics.tangent import tan, total
 from linkwright.kernel.units.kinds import ANGLE, COUNT, INERTIA, RATIO
-from linkwright.kernel.units.marks import Angle, Bound, Quantity, QuantityList, not_negative, positive
+from linkwright.kernel.units.marks import (
+    FRACTION,
+    SHARE,
+    Angle,
+    Bound,
+    Quantity,
+    QuantityList,
+    not_negative,
+    positive,
+)
 from linkwright.linkages.model.element import PositiveNumber
 from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
@@ -319,6 +328,14 @@ class TrainGear(CheckedDescription):
         description="Backlash of an elastic mesh, from flank to flank, as angle of the first disc; for "
         "motion in time.",
     )
+    efficiency: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
+        1.0, description="Efficiency while the first disc drives; for motion in time."
+    )
+    efficiency_reverse: Annotated[float, Quantity(RATIO, SHARE)] | None = Field(
+        None,
+        description="Efficiency while the second disc drives; 0 for a self-locking stage, which no load "
+        "drives (worm, screw). Default: as `efficiency`.",
+    )
     torque_permitted: PositiveTorque | None = Field(
         None, description="Maximum torque at the first disc, in steady running and in manoeuvres."
     )
@@ -351,6 +368,12 @@ class TrainGear(CheckedDescription):
             remedy = "give the stiffness of the mesh"
             yield fault("backlash", found=self.backlash, expected="none with a rigid mesh", remedy=remedy)
 
+    @property
+    def losses(self) -> tuple[float, float] | None:
+        """Torque at the first disc over that of the teeth while it drives, and while the second does."""
+        reverse = self.efficiency if self.efficiency_reverse is None else self.efficiency_reverse
+        return None if self.efficiency == 1 == reverse else (1 / self.efficiency, reverse)
+
     def _carrier_faults(self) -> Iterator[InitErrorDetails]:
         if self.carrier is None:
             if self.carrier_speed is not None:
@@ -359,8 +382,10 @@ class TrainGear(CheckedDescription):
         if self.stiffness is None:
             remedy = "give the stiffness of the mesh, referred to the first disc"
             yield fault("stiffness", expected="an elastic mesh between gears on a carrier", remedy=remedy)
-        if self.backlash:
-            yield fault("backlash", found=self.backlash, expected="none with a carrier")
+        for name in ("backlash", "efficiency", "efficiency_reverse"):
+            found = getattr(self, name)
+            if name in self.model_fields_set and found != (0.0 if name == "backlash" else 1.0):
+                yield fault(name, found=found, expected="none with a carrier", remedy="leave it out")
 
     @property
     def speed_ratio(self) -> float:
