@@ -22,6 +22,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,6 +44,7 @@ from linkwright.linkages.whole_cycle import over_whole_cycle
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
+from linkwright.torsion.core.torque import motor_program
 from linkwright.torsion.excitation.harmonics import Source
 from linkwright.torsion.model.drive_train import CRANK, MOTOR, STIFFNESS_KEYS, drive_train
 from linkwright.torsion.model.train import Train
@@ -152,11 +154,16 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     series, so that no sample is lost to a jump.
     """
     omega, compiled = _positive(speed), mechanism_alone(machine)
-    nu = _orders(orders, compiled.turns)
+    M = _harmonics(compiled, omega, _orders(orders, compiled.turns))
+    return M[:, 0] if np.ndim(speed) == 0 else M
+
+
+def _harmonics(compiled: CompiledMachine, omega: Floats, nu: Floats) -> Complexes:
+    """Harmonics of the torque of a mechanism, (orders, speeds)."""
     size = np.where(nu == 0, 1.0, 2.0) * _is_whole(nu * compiled.turns)
     M: Complexes = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     M[nu == 0] -= compiled.speed_load(omega)
-    return M[:, 0] if np.ndim(speed) == 0 else M
+    return M
 
 
 @public
@@ -287,6 +294,34 @@ def mechanism_sources(
         if station in place:
             damping[place[station]] += np.maximum(c, 0.0)
     return [Source(place[CRANK], n * of_crank[kept], M[kept], M[0].real)], damping
+
+
+def mounted_sources(
+    machine: Machine, turning: Floats, place: dict[str, int], speeds: Floats
+) -> tuple[list[Source], Floats]:
+    """Torques of the mechanisms of a train on their discs at constant speed, and their damping.
+
+    As of `mechanism_sources`, with the damping of the motors of the train too.
+    """
+    train, sources = machine.train, []
+    assert train is not None
+    damping = np.zeros((len(place), len(speeds)))
+    for name, mechanism in train.mechanisms.items():
+        disc, compiled = place[mechanism.on], mounted_mechanism(machine, name)
+        omega = turning[disc] * speeds
+        nu = np.arange(_ORDERS * compiled.turns + 1) / compiled.turns
+        M = _harmonics(compiled, omega, nu) * np.exp(1j * nu * mechanism.phase)[:, None]
+        size = np.abs(M).max(axis=1)
+        kept = (nu > 0) & (size > _NEGLIGIBLE * size.max())
+        sources.append(Source(disc, turning[disc] * nu[kept], M[kept], M[0].real))
+        c = mean_over_turn(compiled)[1] + _slope(partial(_resistance, compiled), omega)
+        damping[disc] += np.maximum(c, 0.0)
+    for motor in train.motors.values():
+        if not isinstance(motor.motor, ConstantSpeedMotor):
+            disc, driven = place[motor.on], motor_program(motor.motor)
+            slope = _slope(lambda at, driven=driven: driven.motor_torques(at).motor, turning[disc] * speeds)
+            damping[disc] += np.maximum(-slope, 0.0)
+    return sources, damping
 
 
 def steady_speed(machine: Machine) -> float:

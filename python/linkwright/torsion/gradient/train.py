@@ -27,6 +27,7 @@ _MECHANISM = (
 
 
 _CARRIER = "derivatives of trains with gears on a carrier are not available"
+_MOUNTED = "derivatives of trains with mechanisms are not available"
 
 _START = "the curve of a coupling starts at zero"
 
@@ -81,6 +82,8 @@ def train_tangents(
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
     if referred.twist is not None:
         refused.update(dict.fromkeys(variables, _CARRIER))
+    if machine.has_mounted_mechanisms:
+        refused.update(dict.fromkeys(variables, _MOUNTED))
     refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
     known, listed = followed(machine, free, partial(_numbers, inertia=J), refused)
