@@ -24,14 +24,10 @@ from linkwright.torsion.core.response import (
     tree_of,
 )
 from linkwright.torsion.core.train import ReferredTrain, refer
-from linkwright.torsion.excitation.drive_line import (
-    mechanism_sources,
-    mounted_sources,
-    steady_speed,
-    train_of,
-)
+from linkwright.torsion.excitation.drive_line import mechanism_sources, steady_speed, train_of
 from linkwright.torsion.excitation.engine_torques import EnginePlace, engine_sources
 from linkwright.torsion.excitation.harmonics import Source, Torques, torques_of
+from linkwright.torsion.excitation.mounted import mounted_sources
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Shaft, Train, TrainRun
 
@@ -216,7 +212,8 @@ def _sources(
     """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
     if machine.train is None:
         return mechanism_sources(machine, turning, place, speeds)
-    sources, damping = [], None
+    sources: list[Source] = []
+    damping = None
     if machine.train.mechanisms:
         sources, damping = mounted_sources(machine, turning, place, speeds)
     for engine in machine.train.installed:
