@@ -1,7 +1,7 @@
 """What do the shafts of a press line carry between two motors, and which phase of the presses is best?
 
-Presses that stamp together draw on all flywheels at once; half a revolution apart they take turns, and the
-shaft between them carries the energy from one side to the other.
+Presses that stamp together draw on all flywheels at once: the speed dips most. Half a revolution apart they
+take turns, and the coupling between them carries the energy from one side to the other.
 """
 
 from pathlib import Path

@@ -133,28 +133,43 @@ def test_equal_presses_half_a_revolution_apart_have_equal_torques(tmp_path: Path
     assert np.abs(later[2] - curves[2]).max() < 1e-6 * motion.speed_max[0]
 
 
-def test_a_driveline_is_the_same_as_drive_and_as_train() -> None:
-    """Motor, elastic coupling, crank: period, extremes and multipliers agree to rounding."""
-    press = PRESS
-    drive = lw.loads(
-        press + '[drive.motor]\nkind = "dc"\nspeed_no_load = 30\ntorque_stall = 2000\ninertia = 3\n'
-        "[drive.flywheel]\ninertia = 1.5\n[drive.crankshaft]\nstiffness = 4000\ndamping = 12\n"
-    )
-    # A rigid gearbox of ratio 1 stands between motor and crankshaft.
-    train = lw.loads(
-        press + "[train.discs]\nmotor = { inertia = 3 }\ncrank = { inertia = 1.5 }\n"
+def one_press(*, as_train: bool, more: str = "") -> lw.Machine:
+    """Motor, elastic coupling and press as [drive] or as [train]."""
+    if not as_train:
+        return lw.loads(
+            PRESS + '[drive.motor]\nkind = "dc"\nspeed_no_load = 30\ntorque_stall = 2000\ninertia = 3\n'
+            "[drive.flywheel]\ninertia = 1.5\n[drive.crankshaft]\nstiffness = 4000\ndamping = 12\n" + more
+        )
+    return lw.loads(
+        PRESS + "[train.discs]\nmotor = { inertia = 3 }\ncrank = { inertia = 1.5 }\n"
         '[train.shafts]\ncrankshaft = { between = ["motor", "crank"], stiffness = 4000, damping = 12 }\n'
         '[train.motors.motor]\non = "motor"\n'
         'motor = { kind = "dc", speed_no_load = 30, torque_stall = 2000 }\n'
-        '[train.mechanisms.press]\non = "crank"\n'
+        '[train.mechanisms.press]\non = "crank"\n' + more
     )
-    one, other = lw.elastic_motion(drive), lw.elastic_motion(train)
+
+
+def test_a_driveline_is_the_same_as_drive_and_as_train() -> None:
+    """Motor, elastic coupling, crank: period, extremes and multipliers agree to rounding."""
+    one, other = (lw.elastic_motion(one_press(as_train=is_train)) for is_train in (False, True))
     assert other.period == pytest.approx(one.period, rel=1e-9)
     assert other.torque_max == pytest.approx(one.torque_max, rel=1e-8)
     assert other.torque_min == pytest.approx(one.torque_min, rel=1e-8)
     assert other.speed_max[-1] == pytest.approx(one.speed_max[-1], rel=1e-9)
     assert np.sort(np.abs(other.multipliers)) == pytest.approx(np.sort(np.abs(one.multipliers)), abs=1e-9)
     assert other.torque_motor_mean == pytest.approx(one.torque_motor_mean, rel=1e-9)
+
+
+def test_linear_vibration_of_a_press_is_the_same_as_drive_and_as_train() -> None:
+    """Natural frequencies with the mean inertia; torques under its harmonics over the speeds of a run."""
+    drive = one_press(as_train=False)
+    forced = lw.forced_vibration(drive)
+    speeds = f"[train.run]\nspeed_min = {forced.speeds[0]}\nspeed_max = {forced.speeds[-1]}\n"
+    train = one_press(as_train=True, more=speeds + f"points = {len(forced.speeds)}\n")
+    f = [lw.free_vibration(machine).natural_frequencies for machine in (drive, train)]
+    assert f[1] == pytest.approx(f[0], rel=1e-12)
+    other = lw.forced_vibration(train)
+    assert other.shaft_torque_vibratory[0] == pytest.approx(forced.shaft_torque_vibratory[-1], rel=1e-6)
 
 
 def test_a_motor_that_keeps_its_speed_holds_its_disc(tmp_path: Path) -> None:

@@ -170,7 +170,7 @@ def cycle(drive: Drive, start: np.ndarray, steps: np.ndarray) -> Cycle:
         ends,
         slopes,
         y[m, 0],
-        *(extremes(each) for each in whole),
+        *(_extremes(each) for each in whole),
         y[m + 1 : m + n, 0] / y[m, 0],
         y[m + n :, 0],
     )
@@ -182,7 +182,7 @@ def _sampled(drive: Drive, at: np.ndarray, states: np.ndarray) -> list[np.ndarra
     return [speed, *accelerations(drive, at, states[: n - 1], speed)]
 
 
-def extremes(values: np.ndarray) -> np.ndarray:
+def _extremes(values: np.ndarray) -> np.ndarray:
     """Minimum and maximum of samples, with the parabola through the three about each, (rows, 2)."""
     found = np.empty((len(values), 2))
     for row, out in zip(values, found, strict=True):

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from elastic_drives import extremes
 from numpy.random import Generator
 from scipy.integrate import solve_ivp
 
@@ -216,10 +215,29 @@ def cycle(train: MountedTrain, start: np.ndarray, steps: np.ndarray) -> Cycle:
         turns = np.flatnonzero(sine[:-1] * sine[1:] < 0)
         at = np.unique(np.concatenate([at, *(np.linspace(at[j], at[j + 1], 200) for j in turns)]))
         states = solved.sol(at).reshape(-1, copies, len(at))[:m, 0]
-        samples.append([states[4:9], *accelerations(train, at, states[:4], states[4:9])])
+        curves = (states[4:9], *accelerations(train, at, states[:4], states[4:9]))
+        samples.append([_extremes(at, curve) for curve in curves])
     y = y.reshape(-1, copies)
     moved = y[:m, 1:].reshape(m, 4, m)
     # Differences of fourth order.
     slopes = (8 * (moved[:, 0] - moved[:, 1]) - (moved[:, 2] - moved[:, 3])) / (12 * steps)
-    whole = [np.concatenate([piece[k] for piece in samples], axis=1) for k in range(3)]
-    return Cycle(y[:m, 0], slopes, float(y[m, 0]), *(extremes(each) for each in whole))
+    low, high = (
+        [of([piece[k][:, side] for piece in samples], axis=0) for k in range(3)]
+        for side, of in enumerate((np.min, np.max))
+    )
+    whole = (np.column_stack(pair) for pair in zip(low, high, strict=True))
+    return Cycle(y[:m, 0], slopes, float(y[m, 0]), *whole)
+
+
+def _extremes(at: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Minimum and maximum of curves, with the parabola through the three samples about each, (rows, 2)."""
+    found = np.empty((len(values), 2))
+    for row, out in zip(values, found, strict=True):
+        for k, best in enumerate((np.argmin, np.argmax)):
+            n = int(best(row))
+            out[k] = row[n]
+            if 0 < n < len(row) - 1:
+                x, y = at[n - 1 : n + 2] - at[n], row[n - 1 : n + 2] - row[n]
+                bend, slope = np.linalg.solve([[x[0] ** 2, x[0]], [x[2] ** 2, x[2]]], y[[0, 2]])
+                out[k] -= slope**2 / (4 * bend) if bend else 0.0
+    return found

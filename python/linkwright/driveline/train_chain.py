@@ -226,12 +226,10 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
         for motor in train.motors.values()
         if motor.motor.speed_without_load is not None
     ]
-    if chain.held is not None:
-        return next(
-            float(motor.motor.speed) / ratio[motor.on]
-            for motor in train.motors.values()
-            if isinstance(motor.motor, ConstantSpeedMotor)
-        )
+    for motor in train.motors.values():
+        if isinstance(motor.motor, ConstantSpeedMotor):
+            held: float = float(motor.motor.speed) / ratio[motor.on]
+            return held
     known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
     known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
     highest = max(known, default=100.0)

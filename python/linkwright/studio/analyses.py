@@ -149,7 +149,8 @@ def said(results: Any, lane: str, to: Language = ENGLISH) -> Answers:
 
 def lanes(machine: Machine) -> list[str]:
     """The lanes beside that a machine has, in their order."""
-    return [*([] if machine.is_train_alone else ["study"]), *(["torsion"] if machine.twists else [])]
+    is_studied = not machine.is_train_alone or machine.has_mounted_mechanisms
+    return [*(["study"] if is_studied else []), *(["torsion"] if machine.twists else [])]
 
 
 def _study(results: Study, to: Language) -> Answers:

@@ -6,4 +6,5 @@
 | `engine_torques` | Torques of an engine on its throws: gas, inertia, weight; its data |
 | `excited_train` | A train made ready for forced vibration: its torques, and what it is at each speed |
 | `harmonics` | Torques on discs as harmonics, and what harmonics add up to in phase |
+| `mounted` | Torques of the mechanisms on a train |
 """

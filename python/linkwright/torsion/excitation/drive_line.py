@@ -152,11 +152,16 @@ def mechanism_harmonics(machine: Machine, speed: ArrayLike, orders: ArrayLike) -
     series, so that no sample is lost to a jump.
     """
     omega, compiled = _positive(speed), mechanism_alone(machine)
-    nu = _orders(orders, compiled.turns)
+    M = harmonics_of(compiled, omega, _orders(orders, compiled.turns))
+    return M[:, 0] if np.ndim(speed) == 0 else M
+
+
+def harmonics_of(compiled: CompiledMachine, omega: Floats, nu: Floats) -> Complexes:
+    """Harmonics of the torque of a mechanism, (orders, speeds)."""
     size = np.where(nu == 0, 1.0, 2.0) * _is_whole(nu * compiled.turns)
     M: Complexes = -size[:, None] * _resistance_harmonics(compiled, nu, omega)
     M[nu == 0] -= compiled.speed_load(omega)
-    return M[:, 0] if np.ndim(speed) == 0 else M
+    return M
 
 
 @public
@@ -185,11 +190,11 @@ def station_damping(machine: Machine, speed: ArrayLike) -> dict[str, Floats]:
     """
     omega = _positive(speed)
     compiled = mechanism_alone(machine)
-    damping = {CRANK: mean_over_turn(compiled)[1] + _slope(lambda at: _resistance(compiled, at), omega)}
+    damping = {CRANK: damping_of(compiled, omega)}
     motor = None if machine.drive is None else machine.drive.motor
     if machine.drive is not None and motor is not None and not isinstance(motor, ConstantSpeedMotor):
         driven = compile_machine(machine)
-        slope = _slope(lambda at: driven.motor_torques(at).crank, omega)
+        slope = slope_of(lambda at: driven.motor_torques(at).crank, omega)
         damping[MOTOR] = -slope / machine.drive.gearbox.ratio**2
     return {station: c.reshape(np.shape(speed)) for station, c in damping.items()}
 
@@ -224,7 +229,13 @@ def _resistance(compiled: CompiledMachine, omega: Floats) -> Floats:
     return mean_laws(compiled, omega) + compiled.speed_load(omega)
 
 
-def _slope(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
+def damping_of(compiled: CompiledMachine, omega: Floats) -> Floats:
+    """Mean damping of a mechanism at speeds of its crank [N m s/rad]."""
+    damping: Floats = mean_over_turn(compiled)[1] + slope_of(lambda at: _resistance(compiled, at), omega)
+    return damping
+
+
+def slope_of(torque: Callable[[Floats], Floats], omega: Floats) -> Floats:
     """Derivative by the speed, (speeds,) [N m s/rad]."""
     low, high = omega * (1 - _STEP), omega * (1 + _STEP)
     slope: Floats = (torque(high) - torque(low)) / (high - low)
@@ -260,8 +271,8 @@ def _positive(speed: ArrayLike) -> Floats:
 
 
 # Orders of the crank that count, and the share of the largest below which one does not.
-_ORDERS = 24
-_NEGLIGIBLE = 1e-12
+ORDERS = 24
+NEGLIGIBLE = 1e-12
 
 # Share by which rounding takes a fraction such as 1/3 off a whole number.
 _WHOLE = 1e-12
@@ -278,10 +289,10 @@ def mechanism_sources(
     """
     n = turning[place[CRANK]]
     turns = mechanism_alone(machine).turns
-    of_crank = np.arange(_ORDERS * turns + 1) / turns
+    of_crank = np.arange(ORDERS * turns + 1) / turns
     M = mechanism_harmonics(machine, n * speeds, of_crank)
     size = np.abs(M).max(axis=1)
-    kept = (of_crank > 0) & (size > _NEGLIGIBLE * size.max())
+    kept = (of_crank > 0) & (size > NEGLIGIBLE * size.max())
     damping = np.zeros((len(place), len(speeds)))
     for station, c in station_damping(machine, n * speeds).items():
         if station in place:

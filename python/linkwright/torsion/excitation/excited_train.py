@@ -30,6 +30,7 @@ from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mechanism_sources, steady_speed, train_of
 from linkwright.torsion.excitation.engine_torques import EnginePlace, engine_sources
 from linkwright.torsion.excitation.harmonics import Source, Torques, torques_of
+from linkwright.torsion.excitation.mounted import mounted_sources
 from linkwright.torsion.model.drive_train import CRANK
 from linkwright.torsion.model.train import Shaft, Train, TrainRun
 
@@ -209,7 +210,7 @@ def pulsates(train: Train) -> bool:
     """Whether a train has torques that pulsate."""
     waves = any(load.harmonics for load in train.loads.values())
     joints = any(shaft.joint_angle is not None for shaft in train.shafts.values())
-    return bool(train.excitations) or waves or joints or bool(train.installed)
+    return bool(train.excitations or train.installed or train.mechanisms) or waves or joints
 
 
 def highest_order(train: Train) -> float:
@@ -223,7 +224,10 @@ def _sources(
     """Torques of the engine or of the mechanism, and their damping (discs, speeds)."""
     if machine.train is None:
         return mechanism_sources(machine, turning, place, speeds)
-    sources = []
+    sources: list[Source] = []
+    damping = None
+    if machine.train.mechanisms:
+        sources, damping = mounted_sources(machine, turning, place, speeds)
     for engine in machine.train.installed:
         first = place[engine.throws[0]]
         sources += engine_sources(
@@ -232,7 +236,7 @@ def _sources(
             highest_order(machine.train),
             EnginePlace(first, float(turning[first]), engine.phase),
         )
-    return sources, None
+    return sources, damping
 
 
 def _speeds(machine: Machine, turning: Floats, place: dict[str, int]) -> Floats:

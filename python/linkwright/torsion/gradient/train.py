@@ -28,6 +28,8 @@ _MECHANISM = (
 )
 
 
+_MOUNTED = "derivatives of trains with mechanisms are not available"
+
 _START = "the curve of a coupling starts at zero"
 
 
@@ -84,6 +86,8 @@ def train_tangents(
     if machine.train is None:
         moving = ("mechanism.", "bodies.", "pumping_unit.", "rod_rotator.")
         refused.update({name: _MECHANISM for name in variables if name.startswith(moving)})
+    if machine.has_mounted_mechanisms:
+        refused.update(dict.fromkeys(variables, _MOUNTED))
     refused.update({name: _START for name in variables if name in _starts_of_curves(machine)})
     free = [name for name in variables if name not in refused]
     known, listed = followed(machine, free, partial(_numbers, inertia=J), refused)
