@@ -78,7 +78,9 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
             _along(axes, along, k, place, colour)
         elif first in place and second in place:
             x = (place[first], place[second])
-            axes.plot(x, shape[list(x)], color=colour, linewidth=1.4)
+            # What joins discs that do not stand beside each other, or in a loop, is no shape between them.
+            beside = abs(x[0] - x[1]) == 1 and len(free.joined) <= len(free.discs)
+            axes.plot(x, shape[list(x)], color=colour, linewidth=1.4 if beside else 0.5)
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
     axes.plot(range(len(shape)), shape, "o", color=INK, markersize=4)
     axes.set_ylim(-1.15, 1.15)
@@ -204,7 +206,7 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
         last = along
         at_right = x == right
         axes.annotate(
-            f"{order:g}",
+            f"{order:.4g}",
             (x, y),
             xytext=(3, 0) if at_right else (0, 2),
             textcoords="offset points",
