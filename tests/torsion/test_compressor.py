@@ -11,6 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright import MachineError, torsion_study, torsion_transient
 from linkwright.machine import machine_parts
+from linkwright.torsion.tables.torsion import study_tables
 
 BORE, R, L, DEAD, N = 0.2, 0.06, 0.24, 0.1, 1.3
 LOW, HIGH = 1e5, 4e5
@@ -92,6 +93,10 @@ def test_without_drivers_the_first_disc_drives() -> None:
 def test_it_is_called_a_compressor() -> None:
     """Its data stand under its name; an engine beside drivers with shares is refused as before."""
     assert any(part.group == "Compressor" or part.name == "Compressor" for part in machine_parts(machine()))
+    tables = {table.title: [row[0] for row in table.rows] for table in study_tables(torsion_study(machine()))}
+    (rows,) = (rows for title, rows in tables.items() if title.startswith("Compressor, gas at"))
+    assert {"working order", "working intervals"} <= {*rows}
+    assert not any("firing" in row for row in rows)
     entries = machine().model_dump(exclude_unset=True)["train"]
     engine = {**entries["engine"], "machine": "engine"}
     with pytest.raises(MachineError, match="the torque that it gives beside the engine"):

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import linkwright as lw
 from linkwright import MachineError, campbell, forced_vibration, torsion_study, torsion_transient
+from linkwright.torsion.figures.modes import campbell_figure
 
 J = np.array([0.6, 2.5])
 K, C = 3e4, 1.5
@@ -82,6 +83,31 @@ def test_critical_speeds_of_interharmonics() -> None:
     assert study.campbell is not None
     assert {one.line for one in study.campbell.critical} <= {"2", "12 − 100 Hz"}
     assert any("12 − 100 Hz" in warning for warning in study.warnings)
+
+
+def test_amplitudes_over_the_slip_in_steady_running() -> None:
+    """Factors over the speed count in forced vibration and in the severity of critical speeds."""
+    law = {"speeds": [0.0, 60.0, 160.0], "factors": [1.5, 1.0, 0.2]}
+    plain, scaled = (machine(LINES, run=RUN, excitation=one) for one in ({}, law))
+    factor = np.interp(np.linspace(20.0, 160.0, 71), law["speeds"], law["factors"])
+    forced, without = forced_vibration(scaled), forced_vibration(plain)
+    assert forced.amplitudes == pytest.approx(factor * without.amplitudes, rel=1e-12)
+    for one, other in zip(campbell(scaled).critical, campbell(plain).critical, strict=True):
+        assert one.vector_sum == pytest.approx(
+            np.interp(one.speed, law["speeds"], law["factors"]) * other.vector_sum, rel=1e-12
+        )
+
+
+def test_names_of_lines_in_the_campbell_diagram() -> None:
+    """Lines at 1× and 2× supply and beside an order are drawn and named, critical speeds by their line."""
+    study = torsion_study(machine(LINES, run=RUN))
+    assert study.campbell is not None
+    axes = campbell_figure(study.campbell).axes[0]
+    words = [text.get_text() for text in axes.texts]
+    assert {"50 Hz", "100 Hz", "12 − 100 Hz", "2"} <= {*words}
+    assert any(word.endswith("(12 − 100 Hz)") for word in words)
+    level = [line for line in axes.lines if np.ptp(line.get_ydata()) == 0]
+    assert {round(float(line.get_ydata()[0]), 6) for line in level} >= {50.0, 100.0}
 
 
 @pytest.mark.parametrize("wave", LINES)

@@ -160,8 +160,9 @@ def _balanced(train: Train, at: ExcitedTrain | None) -> str:
     if train.is_driven:
         shares = ", ".join(f"{on} {share:.4g}" for on, share in train.shares.items() if share < 1)
         parts = f", by shares of the power: {shares}" if shares else ""
+        driven = "compressors and loads" if train.installed else "loads"
         return (
-            f"Mean torques balance: the drivers give the torque of the loads{parts}; the slope of these "
+            f"Mean torques balance: the drivers give the torque of the {driven}{parts}; the slope of these "
             "torques over the speed acts as damping."
         )
     if train.run is not None and train.run.loads_follow:

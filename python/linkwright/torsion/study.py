@@ -461,7 +461,8 @@ def _about_throws(train: Train) -> Iterator[str]:
         if engine.throw is None or engine.stiffness is not None or len(engine.throws) < 2:
             continue
         if remark := compliance_remarks(engine.throw).get(engine.stiffness_formula):
-            of = f"Engine {name}".rstrip()
+            word = "Engine" if engine.machine == "engine" else "Compressor"
+            of = f"{word} {name}".rstrip()
             formula = engine.stiffness_formula.replace("_", " ")
             yield f"{of}: the throw is outside the range of the formula {formula}: {remark}."
 

@@ -194,6 +194,7 @@ class EngineData(Result):
     speed: Annotated[float, Label("speed at which the gas is reported", "ω", "rad/s")]
     mean_effective_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
     peak_pressure: Annotated[tuple[float, ...], About("Of a sound cylinder of each bank [Pa].")]
+    machine: Annotated[str, About('"engine" or "compressor".')] = "engine"
 
     @property
     def intervals(self) -> tuple[float, ...]:
@@ -244,4 +245,5 @@ def engine_data(engine: ReciprocatingEngine, speed: float) -> EngineData:
         speed=speed,
         mean_effective_pressure=tuple(float(load.mean_effective_pressure[0]) for load in gas),
         peak_pressure=tuple(float(load.peak_pressure[0]) for load in gas),
+        machine=engine.machine,
     )

@@ -342,6 +342,12 @@ def line_words(order: float, fixed: float) -> str:
     return f"{order:.4g} {'−' if fixed < 0 else '+'} {frequency}"
 
 
+def line_name(order: float, fixed: float) -> str:
+    """The same as a name, "order 2" or "50 Hz"."""
+    words = line_words(order, fixed)
+    return f"order {words}" if order else words
+
+
 def span(orders: Orders, amplitudes: Complexes, mean: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Maximum and minimum value of what harmonics add up to.
 

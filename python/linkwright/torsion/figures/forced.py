@@ -25,6 +25,7 @@ from linkwright.kernel.figure.style import (
     shortened,
     styled,
 )
+from linkwright.torsion.excitation.harmonics import line_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,8 +117,9 @@ def orders_figure(
         if k not in largest
     ]
     named_orders = [
-        Line(single[k] * factor, colour, f"order {forced.lines[k]}", style={"linewidth": 1.3})
+        Line(single[k] * factor, colour, name, style={"linewidth": 1.3})
         for k, colour in zip(largest, LINES, strict=False)
+        for name in (line_name(forced.orders[k], forced.offsets[k]),)
     ]
     every = Line(total * factor, INK, "all orders", style={"linewidth": 2.0})
     panel = Panel(label, [*faint, *named_orders, every], room=None)

@@ -78,7 +78,9 @@ def _mode(axes: Axes, free: FreeVibration, k: int, colour: str) -> None:
             _along(axes, along, k, place, colour)
         elif first in place and second in place:
             x = (place[first], place[second])
-            axes.plot(x, shape[list(x)], color=colour, linewidth=1.4)
+            # What joins discs that do not stand beside each other, or in a loop, is no shape between them.
+            beside = abs(x[0] - x[1]) == 1 and len(free.joined) <= len(free.discs)
+            axes.plot(x, shape[list(x)], color=colour, linewidth=1.4 if beside else 0.5)
     axes.vlines(range(len(shape)), 0, shape, color=SOFT, linewidth=0.8)
     axes.plot(range(len(shape)), shape, "o", color=INK, markersize=4)
     axes.set_ylim(-1.15, 1.15)
@@ -126,8 +128,11 @@ _PLAIN, _LARGEST = 14.0, 150.0
 # Critical speeds that are reported beside their points.
 _TOLD = 6
 
-# Width and height of the words beside a point, as shares of the picture.
-_WORDS = (0.11, 0.045)
+# Width of a letter, and height, of the words beside a point, as shares of the picture.
+_WORDS = (0.0105, 0.045)
+
+# Heights of the modes up to which a fixed frequency is shown.
+_ABOVE = 3.0
 
 # Room between numbers of orders along an edge, as a share of it.
 _APART = 0.035
@@ -164,7 +169,10 @@ def _top(diagram: CampbellDiagram) -> float:
     ends = np.abs(np.outer(diagram.orders, diagram.speeds[[0, -1]]) + _offsets(diagram)[:, None])
     ray = float(ends.max()) / (2 * math.pi)
     reached = [row.max() for row in diagram.frequencies if 0 < row.min() <= ray]
-    return 1.12 * float(max(reached, default=ray))
+    top = 1.12 * float(max(reached, default=ray))
+    # Lines of a supply are named where they lie not far above the modes.
+    fixed = np.abs(diagram.fixed[diagram.orders == 0] if len(diagram.fixed) else np.empty(0)) / math.pi / 2
+    return max(top, 1.05 * float(fixed[fixed <= _ABOVE * top].max(initial=0.0)))
 
 
 def _offsets(diagram: CampbellDiagram) -> Floats:
@@ -180,14 +188,7 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
         rpm = np.linspace(left, right, 200)
         hertz = np.abs(order * rpm / 60 + offset / (2 * math.pi))
         axes.plot(rpm, hertz, color=SOFT, linewidth=0.5, linestyle="--", alpha=0.8, zorder=1)
-        if hertz[-1] <= top:
-            where: dict[str, Any] = {
-                "textcoords": "offset points",
-                "va": "center",
-                "color": SOFT,
-                "fontsize": SMALL,
-            }
-            axes.annotate(line_words(order, offset), (right, hertz[-1]), xytext=(3, 0), **where)
+        _name_of_line(axes, rpm, hertz, line_words(order, offset))
     for order in sorted(diagram.orders[fixed == 0].tolist()):
         axes.plot(
             [left, right],
@@ -205,7 +206,7 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
         last = along
         at_right = x == right
         axes.annotate(
-            f"{order:g}",
+            f"{order:.4g}",
             (x, y),
             xytext=(3, 0) if at_right else (0, 2),
             textcoords="offset points",
@@ -214,6 +215,22 @@ def _rays(axes: Axes, diagram: CampbellDiagram) -> None:
             color=SOFT,
             fontsize=SMALL,
         )
+
+
+def _name_of_line(axes: Axes, rpm: Floats, hertz: Floats, words: str) -> None:
+    """The name of a line of fixed frequency where it leaves the picture on the right, or above."""
+    top = axes.get_ylim()[1]
+    inside = np.flatnonzero(hertz <= top)
+    if not len(inside):
+        return
+    where: dict[str, Any] = {"textcoords": "offset points", "color": SOFT, "fontsize": SMALL}
+    last = int(inside[-1])
+    if last == len(rpm) - 1:
+        # Inside: numbers of orders stand beside the edge.
+        axes.annotate(words, (rpm[last], hertz[last]), xytext=(-4, 2), ha="right", va="bottom", **where)
+    else:
+        # Below the numbers of the orders, which stand on the upper edge.
+        axes.annotate(words, (rpm[last], top), xytext=(-4, -5), ha="right", va="top", **where)
 
 
 def _points(axes: Axes, diagram: CampbellDiagram) -> None:
@@ -230,21 +247,23 @@ def _points(axes: Axes, diagram: CampbellDiagram) -> None:
     )
     if name:
         worst = [n for n in np.argsort(-severity, kind="stable").tolist() if share[n] > 0]
-        _write_labels(axes, [(x[n], y[n], area[n], critical[n].order) for n in worst[:_TOLD]])
+        _write_labels(axes, [(x[n], y[n], area[n], critical[n].line) for n in worst[:_TOLD]])
 
 
-def _write_labels(axes: Axes, listed: list[tuple[float, float, float, float]]) -> None:
-    """Speed and order beside points of known area, the most severe first, where there is room."""
+def _write_labels(axes: Axes, listed: list[tuple[float, float, float, str]]) -> None:
+    """Speed and line beside points of known area, the most severe first, where there is room."""
     (left, right), top = axes.get_xlim(), axes.get_ylim()[1]
-    taken: list[tuple[float, float]] = []
-    for x, y, area, order in listed:
-        place = (x - left) / (right - left), y / top
-        if any(abs(place[0] - u) < _WORDS[0] and abs(place[1] - v) < _WORDS[1] for u, v in taken):
+    taken: list[tuple[float, float, float]] = []
+    for x, y, area, line in listed:
+        words = f"{x:.4g} ({line})"
+        across, height = (x - left) / (right - left), y / top
+        half = _WORDS[0] * len(words) / 2
+        if any(abs(across - u) < half + w and abs(height - v) < _WORDS[1] for u, v, w in taken):
             continue
-        taken.append(place)
-        side = "left" if place[0] < _WORDS[0] / 2 else "right" if place[0] > 1 - _WORDS[0] / 2 else "center"
+        taken.append((across, height, half))
+        side = "left" if across < half else "right" if across > 1 - half else "center"
         axes.annotate(
-            f"{x:.4g} ({order:g})",
+            words,
             (x, y),
             xytext=(0, 3 + math.sqrt(area) / 2),
             textcoords="offset points",

@@ -35,7 +35,7 @@ from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.modes.free import own_stiffness
 
-Kind = Literal["shaft", "coupling", "mesh", "gears", "bearing", "damper"]
+Kind = Literal["shaft", "coupling", "mesh", "gears", "bearing", "damper", "pendulum"]
 
 # Shear modulus of the shaft of equivalent lengths: steel.
 _SHEAR_MODULUS = 79.3e9
@@ -147,7 +147,9 @@ def _twisting(
         kind = _kind(machine, train, name)
         if referred.stiffness[n] > 0:
             k = float(referred.stiffness[n])
-            yield Connection(name, kind, first, second, ratio, float(own[n]), k, GI / k)
+            # The stiffness of a pendulum is that of centrifugal force: no shaft has it.
+            length = None if kind == "pendulum" else GI / k
+            yield Connection(name, kind, first, second, ratio, float(own[n]), k, length)
         else:
             yield Connection(name, kind, first, second, ratio)
 
@@ -158,8 +160,9 @@ def _kind(machine: Machine, train: Train, name: str) -> Kind:
     described = machine.train
     if described is not None and name in described.couplings:
         return "coupling"
-    rings = {} if described is None else {**described.dampers, **described.pendulums}
-    return "damper" if name in rings else "shaft"
+    if described is not None and name in described.pendulums:
+        return "pendulum"
+    return "damper" if described is not None and name in described.dampers else "shaft"
 
 
 def _rigid(train: Train) -> Iterator[Connection]:

@@ -55,10 +55,12 @@ def engine_table(data: EngineData, names: str = "") -> Table:
         )
         for n, value in enumerate(values)
     ]
-    rows.append(("firing order", "", "-".join(data.firing), ""))
-    title = f"Engines {names}" if " and " in names else f"Engine {names}".rstrip()
+    is_engine = data.machine == "engine"
+    word, cycle = ("Engine", "firing") if is_engine else ("Compressor", "working")
+    rows.append((f"{cycle} order", "", "-".join(data.firing), ""))
+    title = f"{word}s {names}" if " and " in names else f"{word} {names}".rstrip()
     steps = sorted({f"{np.degrees(interval):.5g}°" for interval in data.intervals})
-    rows.append(("firing intervals", "", ", ".join(steps) or "a cycle", ""))
+    rows.append((f"{cycle} intervals", "", ", ".join(steps) or "a cycle", ""))
     return Table(
         "engine",
         f"{title}, gas at {data.speed * 30 / np.pi:.5g} rpm",

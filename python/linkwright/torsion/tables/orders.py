@@ -11,7 +11,7 @@ from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.page.table import Row, Table, columns_csv, part_table
 from linkwright.kernel.reader.numbers import quantity
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
-from linkwright.torsion.excitation.harmonics import line_words
+from linkwright.torsion.excitation.harmonics import line_name
 from linkwright.torsion.in_time.transient import TorsionTransient
 from linkwright.torsion.modes.phase_vectors import PhaseVectors
 from linkwright.torsion.response.forced import ForcedVibration
@@ -85,7 +85,7 @@ def excitation_tables(at: ExcitedTrain, place: int) -> Iterator[Table]:
     kept = [k for k in range(len(size)) if (size[k, discs] > _ROUNDING * size[:, discs].max()).any()]
     rows: list[Row] = [
         (
-            f"order {line_words(at.torques.orders[k], at.torques.offsets[k])}",
+            line_name(at.torques.orders[k], at.torques.offsets[k]),
             "",
             *(cell for disc in discs for cell in _cells(at.exciting[k, disc, place], size[:, disc].max())),
         )

@@ -101,6 +101,7 @@ _KINDS = {
     "gears": "gear stage",
     "bearing": "bearing on a carrier",
     "damper": "damper",
+    "pendulum": "pendulum",
 }
 
 

@@ -10,6 +10,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.page.table import Cell, NamedPart, Row, Table, part_table, parts_of
 from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.torsion.excitation.drive_line import train_of
+from linkwright.torsion.excitation.harmonics import line_name
 from linkwright.torsion.limits.critical_response import CriticalResponse
 from linkwright.torsion.modes.campbell import CampbellDiagram
 from linkwright.torsion.modes.damped import DampedVibration
@@ -142,7 +143,7 @@ def _critical(diagram: CampbellDiagram) -> Table:
         f"Critical speeds{more}",
         [crossing for crossing in diagram.critical if crossing in kept],
         heads,
-        lambda crossing: f"order {crossing.line}",
+        lambda crossing: line_name(crossing.order, crossing.fixed),
         "",
         "mode",
         lambda crossing: f"{crossing.frequency:.5g}",
