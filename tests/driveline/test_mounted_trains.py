@@ -297,3 +297,45 @@ def test_motors_of_the_train_move_it_in_time() -> None:
     )
     assert np.array_equal(one.torque, other.torque)
     assert one.speed[0, -1] > 1.0
+
+
+# Loads of angle, speed and position, with kinks in each.
+LOADS = """
+drag = { kind = "formula", on = "S", force = "-20 * v * abs(v)" }
+twist = { kind = "formula", on = "A", torque = "-30 * sin(phi)^2 - 2 * omega" }
+spring = { kind = "spring", between = ["A", "S"], stiffness = 2000, free_length = 0.6 }
+rub = { kind = "dry", on = "S", force = 100 }
+fan = { kind = "torque_speed", speed = [0, 20, 25, 60], torque = [0, 20, 50, 60] }
+"""
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_the_order_of_the_presses_changes_nothing(tmp_path: Path, ratio: float) -> None:
+    """Either crank counts the motion; the other has its inertia and loads by duals, where the twists put it."""
+    line_shaft(tmp_path)
+    (tmp_path / "press2.toml").write_text(PRESS + LOADS)
+    text = (tmp_path / "line.toml").read_text().replace('"hub", "c2"', '"wheel", "c2"')
+    gears = f"""
+[train.discs.wheel]
+inertia = 0.5
+[train.gears]
+pair = {{ between = ["hub", "wheel"], ratio = {ratio} }}
+"""
+    (tmp_path / "line.toml").write_text(text + gears)
+    machine = lw.read(tmp_path / "line.toml")
+    assert machine.train is not None
+    swapped = dict(reversed(machine.train.mechanisms.items()))
+    other = machine.with_entries({"train": machine.train.with_entries({"mechanisms": swapped})})
+    one, two = lw.elastic_motion(machine), lw.elastic_motion(other)
+    # Cycles of one and two revolutions last as long.
+    assert two.period == pytest.approx(one.period, rel=1e-10)
+    for name in (
+        "torque_min",
+        "torque_max",
+        "acceleration_min",
+        "acceleration_max",
+        "speed_min",
+        "speed_max",
+    ):
+        assert getattr(two, name) == pytest.approx(getattr(one, name), rel=1e-8), name
+    assert np.sort(np.abs(two.multipliers)) == pytest.approx(np.sort(np.abs(one.multipliers)), abs=3e-6)
