@@ -318,6 +318,10 @@ def test_motors_of_the_train_move_it_in_time() -> None:
     )
     assert np.array_equal(one.torque, other.torque)
     assert one.speed[0, -1] > 1.0
+    dc = '"dc", speed_no_load = 30, torque_stall = 200'
+    held = text.replace("PLACE", "motors").replace(dc, '"constant_speed", speed = 9')
+    with pytest.raises(lw.MachineError, match=r"train\.motors\.m\.motor\.kind(.|\n)*to move in time"):
+        lw.torsion_transient(lw.loads(held))
 
 
 # Loads of angle, speed and position, with kinks in each.
