@@ -13,6 +13,7 @@ from sizes import random_cases
 
 import linkwright as lw
 from linkwright.machine.write import dumps
+from linkwright.torsion.model.train_mechanism import TrainMechanism
 
 
 def test_random_trains_repeat_by_equations_written_down_here() -> None:
@@ -58,6 +59,14 @@ S = { mass = 60 }
 oil = { kind = "viscous", on = "S", damping = 300 }
 """
 
+# Both presses on one crankshaft, the second one radian ahead.
+BOTH = (
+    PRESS.replace(
+        "[mechanism.sliders.S]", "[mechanism.cranks.B]\nradius = 0.2\nphase = 1.0\n[mechanism.sliders.S]"
+    ).replace("[bodies]", '[mechanism.sliders.T]\ncrank = "B"\nrod = 0.7\n[bodies]\nT = { mass = 60 }')
+    + 'oil2 = { kind = "viscous", on = "T", damping = 300 }\n'
+)
+
 LINE_SHAFT = """
 format = 1
 name = "line shaft"
@@ -98,14 +107,8 @@ def test_stiff_shafts_approach_the_rigid_machine_with_both_presses_by_one_over_t
     """Rigid: one crankshaft with both cranks, the motor and the three discs as a flywheel."""
     rigid = lw.steady_state(
         lw.loads(
-            PRESS.replace(
-                "[mechanism.sliders.S]",
-                "[mechanism.cranks.B]\nradius = 0.2\nphase = 1.0\n[mechanism.sliders.S]",
-            ).replace(
-                "[bodies]", '[mechanism.sliders.T]\ncrank = "B"\nrod = 0.7\n[bodies]\nT = { mass = 60 }'
-            )
-            + 'oil2 = { kind = "viscous", on = "T", damping = 300 }\n[drive.motor]\nkind = "dc"\n'
-            "speed_no_load = 30\ntorque_stall = 2000\n[drive.flywheel]\ninertia = 5.7\n"
+            BOTH + '[drive.motor]\nkind = "dc"\nspeed_no_load = 30\ntorque_stall = 2000\n'
+            "[drive.flywheel]\ninertia = 5.7\n"
         )
     )
     off = []
@@ -158,6 +161,24 @@ def test_a_driveline_is_the_same_as_drive_and_as_train() -> None:
     assert other.speed_max[-1] == pytest.approx(one.speed_max[-1], rel=1e-9)
     assert np.sort(np.abs(other.multipliers)) == pytest.approx(np.sort(np.abs(one.multipliers)), abs=1e-9)
     assert other.torque_motor_mean == pytest.approx(one.torque_motor_mean, rel=1e-9)
+
+
+def test_two_presses_on_one_disc_are_one_machine_with_two_cranks() -> None:
+    """A press by duals on the crank itself, one radian ahead, does what a second crank does."""
+    both = one_press(as_train=True)
+    press = lw.loads(PRESS)
+    assert both.train is not None
+    mounted = {
+        name: TrainMechanism(on="crank", machine=press, phase=phase)
+        for name, phase in (("first", 0.0), ("second", 1.0))
+    }
+    one = lw.elastic_motion(both.with_entries({"train": both.train.with_entries({"mechanisms": mounted})}))
+    whole = {"both": TrainMechanism(on="crank", machine=lw.loads(BOTH))}
+    two = lw.elastic_motion(both.with_entries({"train": both.train.with_entries({"mechanisms": whole})}))
+    assert one.period == pytest.approx(two.period, rel=1e-10)
+    assert one.torque_max == pytest.approx(two.torque_max, rel=1e-9)
+    assert one.acceleration_min == pytest.approx(two.acceleration_min, rel=1e-9)
+    assert np.abs(one.multipliers) == pytest.approx(np.abs(two.multipliers), abs=1e-7)
 
 
 def test_linear_vibration_of_a_press_is_the_same_as_drive_and_as_train() -> None:
@@ -297,3 +318,49 @@ def test_motors_of_the_train_move_it_in_time() -> None:
     )
     assert np.array_equal(one.torque, other.torque)
     assert one.speed[0, -1] > 1.0
+    dc = '"dc", speed_no_load = 30, torque_stall = 200'
+    held = text.replace("PLACE", "motors").replace(dc, '"constant_speed", speed = 9')
+    with pytest.raises(lw.MachineError, match=r"train\.motors\.m\.motor\.kind(.|\n)*to move in time"):
+        lw.torsion_transient(lw.loads(held))
+
+
+# Loads of angle, speed and position, with kinks in each.
+LOADS = """
+drag = { kind = "formula", on = "S", force = "-20 * v * abs(v)" }
+twist = { kind = "formula", on = "A", torque = "-30 * sin(phi)^2 - 2 * omega" }
+spring = { kind = "spring", between = ["A", "S"], stiffness = 2000, free_length = 0.6 }
+rub = { kind = "dry", on = "S", force = 100 }
+fan = { kind = "torque_speed", speed = [0, 20, 25, 60], torque = [0, 20, 50, 60] }
+"""
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0])
+def test_the_order_of_the_presses_changes_nothing(tmp_path: Path, ratio: float) -> None:
+    """Either crank counts the motion; the other has inertia and loads by duals, where the twists put it."""
+    line_shaft(tmp_path)
+    (tmp_path / "press2.toml").write_text(PRESS + LOADS)
+    text = (tmp_path / "line.toml").read_text().replace('"hub", "c2"', '"wheel", "c2"')
+    gears = f"""
+[train.discs.wheel]
+inertia = 0.5
+[train.gears]
+pair = {{ between = ["hub", "wheel"], ratio = {ratio} }}
+"""
+    (tmp_path / "line.toml").write_text(text + gears)
+    machine = lw.read(tmp_path / "line.toml")
+    assert machine.train is not None
+    swapped = dict(reversed(machine.train.mechanisms.items()))
+    other = machine.with_entries({"train": machine.train.with_entries({"mechanisms": swapped})})
+    one, two = lw.elastic_motion(machine), lw.elastic_motion(other)
+    # Cycles of one and two revolutions last as long.
+    assert two.period == pytest.approx(one.period, rel=1e-10)
+    for name in (
+        "torque_min",
+        "torque_max",
+        "acceleration_min",
+        "acceleration_max",
+        "speed_min",
+        "speed_max",
+    ):
+        assert getattr(two, name) == pytest.approx(getattr(one, name), rel=1e-8), name
+    assert np.sort(np.abs(two.multipliers)) == pytest.approx(np.sort(np.abs(one.multipliers)), abs=3e-6)

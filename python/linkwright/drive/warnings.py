@@ -43,8 +43,8 @@ def drive_warnings(machine: Machine, reduced: Reduction, steady: SteadyState | N
         *first_revolution_words(machine),
         *unjudged_limits(machine, torques_are_judged=drive is not None and drive.motor is not None),
     ]
-    if machine.axes and (drive is None or drive.motor is None):
-        # Nothing but axes moves it: their motors are looked at instead.
+    if (machine.axes or machine.has_mounted_mechanisms) and (drive is None or drive.motor is None):
+        # Nothing but axes, or the motors of a train, move it: those are looked at instead.
         return tuple(sentences)
     if drive is None or drive.motor is None:
         return (*sentences, "The machine has no motor: steady motion and run-up are not computed.")

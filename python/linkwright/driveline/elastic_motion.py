@@ -55,7 +55,7 @@ class ElasticMotion(Result):
     """One cycle of steady motion of a torsionally flexible driveline; extremes are not those of the curves.
 
     Torques and twists are those of the shafts at their own speed, motions those of the stations; a torque is
-    positive where the side of the motor drives.
+    positive where the side of the motor drives, in a train where the first end of the shaft does.
     """
 
     crank_angle: Annotated[

@@ -73,9 +73,9 @@ _TURNS_MAX = 8
 
 def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
+    _require_motors_of_torque(manoeuvre)
     expanded, referred = whole_train(train), refer(train)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
-    _require_motors_of_torque(manoeuvre)
     if train.mechanisms:
         found, expected = f"the mechanism {next(iter(train.mechanisms))}", "none in a motion in time"
         remedy = "leave [train.transient] out; steady motion (elastic_motion) has mechanisms"

@@ -173,6 +173,10 @@ TrainDrive = Annotated[
 ]
 
 
+# A motor of constant speed gives whatever torque a motion asks for.
+_IN_TIME = 'one of "induction", "dc", "table", "constant_torque", to move in time'
+
+
 class TrainMotor(Description):
     """A motor that drives a disc of a train."""
 
@@ -269,6 +273,9 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
     motors = {**train.motors, **manoeuvre.motors}
     for name, motor in manoeuvre.motors.items():
         yield from _unknown(motor.on, discs, "disc", "motors", name, "on")
+        if isinstance(motor.motor, ConstantSpeedMotor):
+            place, expected = ("train", "transient", "motors", name, "motor", "kind"), _IN_TIME
+            yield fault(*place, found=motor.motor.kind, expected=expected)
     twisting = [name for table in (train.shafts, train.couplings) for name in table]
     twisting += [name for name, gear in train.gears.items() if gear.stiffness is not None]
     twisting += [crank for engine in train.installed for crank in engine.cranks]
