@@ -30,8 +30,12 @@ def test_a_train_is_drawn_with_its_modes(path: Path) -> None:
     twisting = free.natural_frequencies > 0
     count = len(view["frequencies"])
     np.testing.assert_array_equal(view["frequencies"], free.natural_frequencies[twisting][:count])
-    np.testing.assert_array_equal(view["shapes"], free.mode_shapes[twisting][:count])
-    assert [disc["name"] for disc in view["discs"]] == list(free.discs)
+    names = [disc["name"] for disc in view["discs"]]
+    # Of the equal planets of a stage one is drawn, which its name counts.
+    kept = [free.discs.index(name.rpartition(" × ")[2]) for name in names]
+    np.testing.assert_array_equal(view["shapes"], free.mode_shapes[twisting][:count, kept])
+    counts = [int(name.partition(" × ")[0]) if " × " in name else 1 for name in names]
+    assert sum(counts) == len(free.discs)
     low, high, rows = view["box"]
     assert all(low <= disc["x"] <= high and 0 <= disc["row"] < rows for disc in view["discs"])
 

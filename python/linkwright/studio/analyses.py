@@ -27,6 +27,7 @@ from linkwright.axes.axis import ServoAxis
 from linkwright.drive.obstacles import design_speed, no_mass
 from linkwright.drive.steady_state import SteadyState, steady_state
 from linkwright.drive.study import has_motor
+from linkwright.driveline.analyses import ELASTIC
 from linkwright.kernel.errors import LinkwrightError
 from linkwright.kernel.figure.style import CaptionedFigure
 from linkwright.kernel.findings import Findings
@@ -90,7 +91,7 @@ class Answers:
     figures: tuple[dict[str, str], ...] = ()
     views: tuple[dict[str, Any], ...] = ()  # pictures beside the drawing, of `views`
     tables: tuple[dict[str, Any], ...] = ()  # of the report: `name`, `title`, `heads`, `rows`
-    headline: tuple[Few, ...] = ()  # of a train: word, value and unit of what one looks for first
+    headline: tuple[Few, ...] = ()  # of a train or driveline: word, value, unit of what one looks for first
 
     def body(self) -> dict[str, Any]:
         """All of it for a message."""
@@ -157,6 +158,8 @@ def _study(results: Study, to: Language) -> Answers:
     known = [shown(name, result) for name, result in _new_results(results)]
     drawn = [figure for figure in results.figures() if figure.name not in _CURVES]
     knife = knife_view(results)
+    # What the page does not find among scalars: peak torques, a row a shaft.
+    lead = Content(title="", headline=[Few(*line) for line in results.headline([ELASTIC])])
     return Answers(
         known,
         results.findings,
@@ -164,6 +167,7 @@ def _study(results: Study, to: Language) -> Answers:
         figures=tuple(_svg(one, to) for one in drawn),
         views=() if knife is None else (knife,),
         tables=tuple(_tables(Content(title="", parts=[Part("", results.tables())]), results.machine, to)),
+        headline=tuple(in_language(lead, to).headline),
     )
 
 

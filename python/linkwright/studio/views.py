@@ -45,11 +45,13 @@ def train_view(machine: Machine) -> View:
     mode, the peak amplitude being 1; ``nodes`` of each mode on ``parts``; ``box``, minimum and maximum x and
     the number of rows.
     """
+    from linkwright.torsion.figures.equal_planets import equal_planets_once
     from linkwright.torsion.figures.scheme_layout import layout
     from linkwright.torsion.modes.free import free_vibration
     from linkwright.torsion.modes.scheme import scheme
 
-    free, drawn = free_vibration(machine), scheme(machine)
+    free, shown = free_vibration(machine), equal_planets_once(scheme(machine))
+    drawn = shown.scheme
     lengths = _lengths(drawn)
     laid = layout(drawn.discs, drawn.connections, lengths, _ROOM)
     twisting = [k for k, f in enumerate(free.natural_frequencies) if f > 0][:_MODES]
@@ -58,8 +60,11 @@ def train_view(machine: Machine) -> View:
         "discs": list(_discs(drawn, laid)),
         "parts": list(_parts(drawn, laid, free, twisting)),
         "frequencies": free.natural_frequencies[twisting],
-        "shapes": free.mode_shapes[twisting],
-        "nodes": [[{"at": node.at, "share": node.share} for node in free.nodes[k]] for k in twisting],
+        "shapes": free.mode_shapes[twisting][:, shown.kept],
+        "nodes": [
+            [{"at": shown.names.get(node.at, node.at), "share": node.share} for node in free.nodes[k]]
+            for k in twisting
+        ],
         "box": _box(laid),
     }
 

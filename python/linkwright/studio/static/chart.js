@@ -136,8 +136,11 @@ export function Chart({ plot }) {
   function refresh() {
     const made = chart.current;
     if (!made || !seen.current.is || seen.current.drawn === now.current) return;
+    const data = drawn(now.current);
+    // Another number of curves is drawn by a chart of its own, which follows.
+    if (data.length !== made.series.length) return;
     seen.current.drawn = now.current;
-    made.setData(drawn(now.current), !isZoomed(made));
+    made.setData(data, !isZoomed(made));
   }
   // In the frame of the answer, not in the one after it.
   useLayoutEffect(refresh, [plot]);

@@ -72,6 +72,9 @@ function wall({ ctx, ink, unit }, x, y, side) {
   stroke(ctx, ink.soft, 1.5);
 }
 
+/** What holds a ring on its disc. */
+const RINGS = new Set(["damper", "pendulum"]);
+
 /** What is no shaft: gears, a damper, a bridge. @param {Sight} sight @param {Joint} part */
 function tie({ ctx, ink, series, view, X, Y, unit }, part) {
   const isGear = part.kind === "gears" || part.kind === "mesh";
@@ -82,9 +85,9 @@ function tie({ ctx, ink, series, view, X, Y, unit }, part) {
   const b = [X(part.to[0]), Y(part.to[1]) - way * rim(part.ends[1])];
   ctx.setLineDash(isGear ? [2, 3] : [6, 4]);
   line(ctx, [a]);
-  if (a[1] === b[1] && part.kind !== "damper") ctx.quadraticCurveTo((a[0] + b[0]) / 2, a[1] - 0.6 * unit, b[0], b[1]);
+  if (a[1] === b[1] && !RINGS.has(part.kind) && part.kind !== "bearing") ctx.quadraticCurveTo((a[0] + b[0]) / 2, a[1] - 0.6 * unit, b[0], b[1]);
   else ctx.lineTo(b[0], b[1]);
-  stroke(ctx, isGear ? series[1] : part.kind === "damper" ? series[2] : ink.soft, isGear ? 3 : 2.5);
+  stroke(ctx, isGear ? series[1] : RINGS.has(part.kind) ? series[2] : ink.soft, isGear ? 3 : 2.5);
   ctx.setLineDash([]);
 }
 
@@ -138,7 +141,7 @@ function wheel(sight, disc, n) {
 /** Places at rest, on shafts and on discs. @param {Sight} sight */
 function nodes({ ctx, ink, view, mode, X, Y }) {
   for (const { at, share } of view.nodes[mode]) {
-    const part = view.parts.find(({ name, kind }) => name === at && kind !== "damper" && kind !== "arm");
+    const part = view.parts.find(({ name, kind }) => name === at && !RINGS.has(kind) && kind !== "arm");
     const disc = part ? null : view.discs.find(({ name }) => name === at);
     if (!part && !disc) continue;
     const way = part?.turned ? 1 - share : share;

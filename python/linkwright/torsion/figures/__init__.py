@@ -6,6 +6,7 @@
 | `forced` | Forced vibration of trains over their speeds; what a damper leaves of a resonance |
 | `modes` | Mode shapes of trains, Campbell's diagram |
 | `scheme` | Equivalent schemes of trains, by `scheme_layout` and `scheme_page` |
+| `equal_planets` | One of the equal planets of a stage, for drawings |
 | `scheme_layout` | Where the parts of a train's scheme are drawn |
 | `scheme_page` | How large the scheme of a train is drawn, and what is written beside its parts |
 | `stars` | Star diagrams of orders |

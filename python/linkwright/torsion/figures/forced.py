@@ -166,7 +166,8 @@ def torsion_unevenness_figure(forced: ForcedVibration, row: list[int], speed: fl
 @styled
 def gear_figure(meshes: MeshTorque) -> Figure:
     """Draw the torque of the gear stages over the speed, its mean with what the vibration adds and takes."""
-    known = [s for s in range(len(meshes.stages)) if np.isfinite(meshes.vibratory[s]).any()][:_LINES_MAX]
+    known = _unequal([s for s in range(len(meshes.stages)) if np.isfinite(meshes.vibratory[s]).any()], meshes)
+    known = known[:_LINES_MAX]
     figure, axes = panels(len(known), height=0.6 + 1.7 * len(known))
     for panel, s in zip(axes, known, strict=True):
         sense = -1.0 if meshes.mean[s].sum() < 0 else 1.0
@@ -186,6 +187,16 @@ def gear_figure(meshes: MeshTorque) -> Figure:
     return figure
 
 
+def _unequal(stages: list[int], meshes: MeshTorque) -> list[int]:
+    """Stages that do not carry what one before them does, as the meshes of equal planets do."""
+    curves = {s: np.concatenate([meshes.mean[s], meshes.greatest[s], meshes.least[s]]) for s in stages}
+    kept: list[int] = []
+    for s in stages:
+        if not any(np.allclose(curves[s], curves[t], rtol=_EQUAL, equal_nan=True) for t in kept):
+            kept.append(s)
+    return kept
+
+
 @styled
 def overlay_figure(one: Overlay) -> Figure:
     """Draw a measured curve over the computed one."""
@@ -198,6 +209,9 @@ def overlay_figure(one: Overlay) -> Figure:
         lines.append(dashed(one.permitted * factor, "continuous operation")._replace(x=_rpm(one.speeds)))
     return _over_speed(one.run_speeds, Panel(f"{one.what} [{unit}]", lines, room=None))
 
+
+# Share by which torques of stages that are one differ at most: rounding.
+_EQUAL = 1e-9
 
 # Units in which measured quantities are drawn.
 _SHOWN = {"stress": ("MPa", 1e-6), "torque": ("kN m", 1e-3), "angle": ("°", 180 / math.pi)}

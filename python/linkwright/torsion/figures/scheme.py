@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.kernel.figure.style import BLUE, GREEN, INK, PAPER, RED, SMALL, SOFT, styled
+from linkwright.torsion.figures.equal_planets import equal_planets_once
 from linkwright.torsion.figures.scheme_layout import Bridge, Riser, Span
 from linkwright.torsion.figures.scheme_page import GAP, HALF, HIGH, LINE, LOW, MARGIN, Page, in_a_row, page
 
@@ -34,7 +34,7 @@ def scheme_figure(scheme: Scheme) -> Figure:
     """Draw the equivalent scheme of a train."""
     from matplotlib.figure import Figure
 
-    scheme = _with_equal_planets_once(scheme)
+    scheme = equal_planets_once(scheme).scheme
     laid = page(scheme, turned=False)
     if laid.oversize > 1:
         laid = min(laid, page(scheme, turned=True), key=lambda part: part.oversize)
@@ -48,55 +48,6 @@ def scheme_figure(scheme: Scheme) -> Figure:
     _Pen(axes, laid).draw()
     axes.text(laid.left, bottom, "\n".join(note), size=SMALL, color=SOFT, va="bottom", linespacing=1.3)
     return figure
-
-
-# Parts of a planetary stage.
-_OF_PLANETS = {"mesh", "bearing"}
-
-
-def _with_equal_planets_once(scheme: Scheme) -> Scheme:
-    """The scheme with one of the equal planets of a stage, which its name counts."""
-    about: dict[str, list[Connection]] = {name: [] for name in scheme.discs}
-    for part in scheme.connections:
-        for end in {part.first, part.second} & about.keys():
-            about[end].append(part)
-    numbers = {
-        name: (_rounded(J), _rounded(n))
-        for name, J, n in zip(scheme.discs, scheme.inertia, scheme.speed, strict=True)
-    }
-    alike: dict[Any, list[str]] = {}
-    for name, parts in about.items():
-        if len(parts) > 1 and {part.kind for part in parts} == _OF_PLANETS:
-            joins = frozenset(_join(part, name) for part in parts)
-            alike.setdefault((numbers[name], joins), []).append(name)
-    counted = {names[0]: f"{len(names)} × {names[0]}" for names in alike.values() if len(names) > 1}
-    left_out = {name for names in alike.values() for name in names[1:]}
-    kept = [n for n, name in enumerate(scheme.discs) if name not in left_out]
-    return replace(
-        scheme,
-        discs=tuple(counted.get(scheme.discs[n], scheme.discs[n]) for n in kept),
-        speed=scheme.speed[kept],
-        inertia=scheme.inertia[kept],
-        inertia_referred=scheme.inertia_referred[kept],
-        connections=tuple(
-            part._replace(
-                first=counted.get(part.first, part.first), second=counted.get(part.second, part.second)
-            )
-            for part in scheme.connections
-            if not {part.first, part.second} & left_out
-        ),
-    )
-
-
-def _join(part: Connection, name: str) -> tuple[Any, ...]:
-    """A connection of a disc but for its name: its kind, what it joins, and its numbers."""
-    other = (part.first == name, part.second if part.first == name else part.first)
-    return part.kind, *other, _rounded(part.ratio), _rounded(part.stiffness or 0.0)
-
-
-def _rounded(number: float) -> float:
-    """A number without the rounding of its last digits."""
-    return float(f"{number:.9g}")
 
 
 class _Pen:
