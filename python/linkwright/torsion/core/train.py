@@ -282,7 +282,7 @@ def _twist(twisting: Mapping[str, Shaft | TrainGear], signed: Mapping[str, float
         return None
     place = {name: n for n, name in enumerate(signed)}
     ratios = [part.speed_ratio if isinstance(part, TrainGear) else 1.0 for part in twisting.values()]
-    twist: Any = zeros_for(ratios, (len(twisting), len(place)))
+    twist: Floats = zeros_for(ratios, (len(twisting), len(place)))
     for row, (part, ratio) in enumerate(zip(twisting.values(), ratios, strict=True)):
         carrier = (isinstance(part, TrainGear) and part.carrier) or GROUND
         ends = zip((*part.between, carrier), (1.0, -ratio, ratio - 1.0), strict=True)

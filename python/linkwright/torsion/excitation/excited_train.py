@@ -306,6 +306,7 @@ def _operating(
         stiffness[s] = lead[s] ** 2 * pendulum.stiffness(lead[s] * torques.speeds)
     damping = np.broadcast_to(by_columns(referred.disc_damping), (len(referred.inertia), columns)).copy()
     np.add.at(damping, referred.mass, referred.scale[:, None] ** 2 * torques.damping)
-    held = onto_masses(referred, referred.scale[None, :, None] * torques.control[None, :, None])[0, :, 0]
+    held = np.zeros(len(referred.inertia))
+    np.add.at(held, referred.mass, referred.scale**2 * torques.control)
     modal = modal_losses(referred, stiffness)
     return OperatingState(torques.speeds, stiffness, damping, modal, held if held.any() else None)

@@ -162,7 +162,7 @@ class CutTrain:
         if self.cut.twist is not None:
             # Torques of the meshes, by twists that follow the ratios, and at masses that do.
             k, moved = self._at.stiffness[:, 0], np.einsum("smv,m->sv", slopes.joins, q)
-            torques = self.cut.joins.T @ (spring + k[:, None] * moved)
+            torques: Complexes = self.cut.joins.T @ (spring + k[:, None] * moved)
             torques += np.einsum("smv,s->mv", slopes.joins, k * self._twists(q)) + slopes.masses * q[:, None]
             return torques
         first, second = self._forces(q, slopes)

@@ -244,8 +244,9 @@ def at_rest(
 
 def _summed(referred: ReferredTrain, of_discs: Floats) -> Floats:
     """Damping or stiffness of the discs, referred, as that of the masses."""
-    counted: Floats = np.bincount(referred.mass, referred.scale**2 * of_discs, len(referred.inertia))
-    return counted
+    masses = np.zeros(len(referred.inertia))
+    np.add.at(masses, referred.mass, referred.scale**2 * of_discs)
+    return masses
 
 
 def _of_shafts(train: ReferredTrain, referred: ReferredTrain, masses: Complexes, omega: Floats) -> Floats:

@@ -123,7 +123,8 @@ class _ManyTrains:
 
     def one(self, n: int) -> ReferredTrain:
         """One of them, referred."""
-        return replace(self._structure, **{name: rows[n] for name, rows in self.rows.items()})
+        own: dict[str, Any] = {name: rows[n] for name, rows in self.rows.items()}
+        return replace(self._structure, **own)
 
     @property
     def is_plain(self) -> bool:
@@ -170,7 +171,7 @@ class _ManyTrains:
         n, speeds = self.count, len(torques.speeds)
         repeated = {address: np.repeat(column, speeds) for address, column in self.entries.items()}
         train = _expanded(self.machine, repeated)
-        columns = {
+        columns: dict[str, Any] = {
             name: np.ascontiguousarray(np.repeat(rows, speeds, axis=0).T) for name, rows in self.rows.items()
         }
         at = loaded(self.machine, train, replace(self.first, **columns), _tiled(torques, n))
@@ -210,7 +211,7 @@ def _tiled(torques: Torques, times: int) -> Torques:
 
 def _parts(whole: Vibration, axis: int, size: int, count: int) -> Iterator[Vibration]:
     """Results of each train, of which arrays have `size` places of an axis of `count` times as many."""
-    arrays = {
+    arrays: dict[str, Any] = {
         field.name: value
         for field in fields(whole)
         if isinstance(value := getattr(whole, field.name), np.ndarray)
@@ -220,4 +221,5 @@ def _parts(whole: Vibration, axis: int, size: int, count: int) -> Iterator[Vibra
     for n in range(count):
         part = slice(n * size, (n + 1) * size)
         place = (part,) if axis == 0 else (..., part)
-        yield replace(whole, **{name: array[place] for name, array in arrays.items()})
+        own: dict[str, Any] = {name: array[place] for name, array in arrays.items()}
+        yield replace(whole, **own)
