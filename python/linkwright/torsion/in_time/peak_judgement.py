@@ -107,7 +107,7 @@ def _limited_stages(machine: Machine, moved: TorsionTransient) -> Iterator[tuple
     """Gear stages with a permitted torque: name, torque (n,) and permitted torque [N m]."""
     gears = {} if machine.train is None else machine.train.gears
     for name, row in zip(moved.stages, moved.stage_torque, strict=True):
-        permitted = gears[name].torque_permitted
+        permitted = gears[name].torque_permitted if name in gears else None
         if permitted is not None:
             yield name, row, permitted
 
