@@ -1,4 +1,4 @@
-"""Planetary stages, pendulums, joints and speed controllers in time: laws, closed forms, SciPy on equations written here."""
+"""Planetary stages, pendulums, joints, speed controllers in time: laws, closed forms, SciPy."""
 
 from __future__ import annotations
 
@@ -55,26 +55,28 @@ SEAT = {"seat": {"between": ["ring", "ground"], "stiffness": 1e6}}
 @pytest.mark.parametrize("mode", [1, 2, 4])
 @pytest.mark.parametrize("speed", [0.0, 80.0])
 def test_a_mode_of_a_planetary_stage_vibrates_by_itself(mode: int, speed: float) -> None:
-    """Twisted as a mode, the stage vibrates with the frequency of linear vibration, at rest and while it turns."""
+    """Twisted as a mode, the stage vibrates with that frequency alone, at rest and while it turns."""
     free = free_vibration(planetary(SEAT, {"duration": 0.01}))
     twists = {name: 1e-4 * float(twist) for name, twist in zip(free.shafts, free.twists[mode], strict=True)}
     moved = torsion_transient(planetary(SEAT, {"duration": 0.01, "twists": twists, "speed": speed}))
     omega = free.angular_frequencies[mode]
     for s, name in enumerate(moved.shafts):
         first = moved.torque[s, 0]
-        assert moved.torque[s] == pytest.approx(first * np.cos(omega * moved.time), abs=1e-7 * abs(moved.torque).max()), name
+        assert moved.torque[s] == pytest.approx(
+            first * np.cos(omega * moved.time), abs=1e-7 * abs(moved.torque).max()
+        ), name
     assert abs(moved.energy_error) < 1e-10
 
 
 def test_a_free_planetary_stage_keeps_energy_and_momentum() -> None:
-    """Three free members: Willis' relation on the mean, energy, and momentum by virtual work, under a torque on the motor."""
+    """Three free members under a torque: Willis' relation on the mean, energy, momentum."""
     events = [{"kind": "torque", "on": "motor", "torque": 30.0, "time": 0.0}]
     transient = {"duration": 0.1, "events": events, "sample_time": 1e-4}
     moved = torsion_transient(planetary({}, transient, carrier_speed=0.25))
     assert abs(moved.energy_error) < 1e-10
     place = moved.discs.index
     sun, ring, carrier = (moved.speed[place(name), -500:].mean() for name in ("sun", "ring", "carrier"))
-    sense = np.sign((0.25 * (1 + 24 / 84) - 24 / 84))
+    sense = np.sign(0.25 * (1 + 24 / 84) - 24 / 84)
     assert sun * 24 + sense * ring * 84 == pytest.approx(108 * carrier, rel=2e-3)
     # Two motions twist nothing; along each the momentum is the impulse of the torque on the motor.
     free = free_vibration(planetary({}, transient, carrier_speed=0.25))
@@ -138,11 +140,9 @@ def swinging(t: float, y: Floats, torque: float, J: float, c: float) -> Floats:
 
 
 def test_a_pendulum_swings_far_by_lagrange() -> None:
-    """Swings of half a right angle and more: the equations in other coordinates, with damping, and the energy."""
+    """Swings of half a right angle and more: the equations in other coordinates, and the energy."""
     J, c, torque = 0.05, 0.002, 60.0
-    moved = torsion_transient(
-        pendulum({"duration": 0.3, "speed": 100.0, "sample_time": 1e-3}, torque, J, c)
-    )
+    moved = torsion_transient(pendulum({"duration": 0.3, "speed": 100.0, "sample_time": 1e-3}, torque, J, c))
     wanted = solve_ivp(
         swinging, (0, 0.3), [0.0, 0.0, 100.0, 100.0], t_eval=moved.time, args=(torque, J, c), **TIGHT
     ).y
@@ -171,7 +171,7 @@ def test_small_swings_have_the_order_of_the_pendulum(speed: float) -> None:
 
 @pytest.mark.parametrize("speed", [60.0, 250.0])
 def test_den_hartog_at_order_two_in_time(speed: float) -> None:
-    """Tuned to order 2, the pendulum takes the torque of that order: the disc turns evenly, at two speeds."""
+    """Tuned to order 2, the pendulum balances the torque of that order, at two speeds."""
     torque = 1e-4 * MASS * RADIUS * (RADIUS + LENGTH) * speed**2
     # Steady: the torque on the disc, mR(R + l)Ω² ψ, is that from outside, reversed.
     psi = -torque / (MASS * RADIUS * (RADIUS + LENGTH) * speed**2)
@@ -258,7 +258,7 @@ def controlled(control: dict[str, Any], **transient: Any) -> lw.Machine:
 
 
 def test_a_controller_by_its_equations() -> None:
-    """A run-up along a set-point with a limit of the torque: back-calculation, its kinks and all, by SciPy."""
+    """A run-up along a set-point with a limit of the torque: back-calculation by SciPy."""
     kp, ki, most = 8.0, 30.0, 90.0
     control = {
         "times": [0.0, 1.0, 3.0],
@@ -300,7 +300,7 @@ def test_a_controller_holds_its_speed_after_a_load_step() -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_energy_of_random_trains(seed: int) -> None:
-    """Stages that lose power, backlash, planetary, pendulum, joint and controller together: the energy balances to 1e-9."""
+    """All parts together, with stages that lose power and backlash: the energy balances to 1e-9."""
     rng = np.random.default_rng(seed)
 
     def size(least: float, most: float) -> float:

@@ -1,7 +1,7 @@
 //! Where the equations bend: flanks that meet or part, the direction of power, the limit of a controller.
 //!
-//! Each is told by a number that is the same all along a smooth stretch. A step ends where one changes, so that its error is
-//! that of a smooth motion.
+//! Each has a number that is the same all along a smooth stretch. A step ends where one changes, so that its error is that of a
+//! smooth motion.
 
 use super::rates::Rates;
 

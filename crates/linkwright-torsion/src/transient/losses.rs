@@ -19,16 +19,9 @@
 //! International Modelica Conference (2002); reference model LossyGear of the Modelica Standard Library.
 
 use super::rates::Rates;
+use super::stages::{Change, LOSSLESS, Sense};
 use super::system::{Link, Loss};
 use linkwright_kernel::matrix::LuFactors;
-
-/// Rotation of the first end of a stage with losses: forward, backward, stuck.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sense {
-    Forward,
-    Backward,
-    Stuck,
-}
 
 /// Share of the sizes of torques, and of the largest speed, within which a bound counts as kept; speed that is rest \[rad/s\].
 const ROUNDING: f64 = 1e-11;
@@ -40,27 +33,6 @@ const DEPENDENT: f64 = 1e-12;
 /// Attempts to find the directions of power of rigid stages, and the senses at one instant.
 const ATTEMPTS: usize = 30;
 
-/// Of a rigid stage without losses.
-const LOSSLESS: Loss = Loss { forward: 1.0, reverse: 1.0 };
-
-impl Loss {
-    /// Torque at the first end over that of the teeth.
-    fn factor(&self, torque: f64, sense: Sense) -> f64 {
-        let drives = match sense {
-            Sense::Stuck => return 1.0,
-            Sense::Forward => torque > 0.0,
-            Sense::Backward => torque < 0.0,
-        };
-        if drives { self.forward } else { self.reverse }
-    }
-
-    /// Bounds of the torque at the first end at rest.
-    fn bounds(&self, torque: f64) -> [f64; 2] {
-        let (a, b) = (self.forward * torque, self.reverse * torque);
-        [a.min(b), a.max(b)]
-    }
-}
-
 /// A row of the equilibrium of rigid and stuck stages: the sum of accelerations times `join` vanishes, its torque acts by `push`.
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -69,41 +41,6 @@ struct Row {
     masses: [usize; 2],
     join: [f64; 2],
     push: [f64; 2],
-}
-
-/// A change that the sense of a stage has to make.
-#[derive(Clone, Copy, Debug)]
-pub struct Change {
-    stage: usize,
-    next: Sense,
-}
-
-/// Stages that are rigid or have losses, at an instant.
-#[derive(Clone, Debug, Default)]
-pub struct Stages {
-    /// Places of the links, among all and among those that are no chain.
-    pub links: Vec<usize>,
-    others: Vec<usize>,
-    senses: Vec<Sense>,
-    /// Torque of the teeth of each, and what friction adds at rest at the first end.
-    teeth: Vec<f64>,
-    held: Vec<f64>,
-}
-
-impl Stages {
-    /// Of links, of which some are no chain; stuck until their speeds are known.
-    pub fn of(links: &[Link], others: &[usize]) -> Self {
-        let counts = |place: &usize| links[*place].manner.loss.is_some() || links[*place].manner.rigid;
-        let (others, links): (Vec<usize>, Vec<usize>) =
-            others.iter().copied().enumerate().filter(|(_, place)| counts(place)).unzip();
-        let none = vec![0.0; links.len()];
-        Stages { senses: vec![Sense::Stuck; links.len()], teeth: none.clone(), held: none, links, others }
-    }
-
-    /// Place of a link among them.
-    fn place(&self, link: usize) -> Option<usize> {
-        self.links.iter().position(|&place| place == link)
-    }
 }
 
 impl Rates<'_> {

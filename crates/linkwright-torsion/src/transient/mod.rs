@@ -9,9 +9,9 @@
 //! | [`between`] | errors between the ends of a step |
 //! | [`chains`] | links that follow each other, in lanes |
 //! | [`bond`] | a link at one instant: joints, meshes on carriers, flanks |
-//! | [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
+//! | [`stages`], [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
 //! | [`kinks`] | where the equations bend |
-//! | [`pendulums`] | centrifugal pendulums of any swing |
+//! | [`pendulums`], [`swings`] | centrifugal pendulums of any swing |
 //! | [`controllers`] | speed controllers |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
@@ -39,6 +39,8 @@ pub mod pendulums;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;
+pub mod stages;
 pub mod stepper;
+pub mod swings;
 pub mod system;
 pub mod torque;

@@ -19,8 +19,8 @@
 use super::bank::{Bank, OfAngle, WIDEST};
 use super::bond::{Bond, BondTorque};
 use super::chains::{Links, Twists};
-use super::losses::Stages;
 use super::pendulums::Pendulum;
+use super::stages::Stages;
 use super::system::{Carrier, Link, Rotor, System};
 use super::torque::{Law, Pull, Shape, Stretch, Torque};
 use linkwright_kernel::lanes::{Job, in_single_lanes};

@@ -207,7 +207,7 @@ class MovingTrain:
     modal_damping: Floats | None = None
     notes: tuple[str, ...] = field(default=())  # what was assumed
     manners: tuple[Manner, ...] = ()  # of each shaft; empty where all are plain
-    # (discs,) 0 for a disc that rests while the train runs, else 1; `speed` of the former is 1. None: all turn.
+    # (discs,) 0 for a disc that rests while the train runs, whose `speed` is 1, else 1. None: all turn.
     turns: Floats | None = None
     pendulums: tuple[MovingPendulum, ...] = ()
     controllers: tuple[Controller, ...] = ()

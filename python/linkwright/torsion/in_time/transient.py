@@ -311,7 +311,7 @@ def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> To
 
 
 def _start_angles(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
-    """Angles of the masses at the start: with the given twists, and without twist behind joints, (masses,)."""
+    """Angles of the masses at the start: with the given twists, none of joints, (masses,) [rad]."""
     if manoeuvre.twists or any(manner.joint for manner in train.manners):
         return _twisted(train, manoeuvre)
     angles: Floats = manoeuvre.angle * train.turning
