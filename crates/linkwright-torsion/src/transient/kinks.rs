@@ -9,7 +9,7 @@ impl Rates<'_> {
     /// Whether something in the train bends.
     pub fn has_kinks(&self) -> bool {
         let system = self.system;
-        self.has_stages()
+        self.stages.any()
             || !system.controllers.is_empty()
             || system.links.iter().any(|link| link.manner.contact)
     }
@@ -32,7 +32,7 @@ impl Rates<'_> {
             to.push(if link.manner.loss.is_some() { sense } else { 0 });
             to.push(u32::from(limited));
         }
-        to.extend(self.rigid_senses());
+        to.extend(self.stages.rigid_senses(&system.links));
         for controller in &system.controllers {
             let speeds = [self.omega[controller.mass], self.omega[controller.integral]];
             let command = controller.at(&system.curves, self.stretch(), t, speeds);

@@ -11,7 +11,7 @@
 //! | [`bond`] | a link at one instant: joints, meshes on carriers, flanks |
 //! | [`stages`], [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
 //! | [`kinks`] | where the equations bend |
-//! | [`pendulums`], [`swings`] | centrifugal pendulums of any swing |
+//! | [`pendulums`] | centrifugal pendulums of any swing |
 //! | [`controllers`] | speed controllers |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
@@ -41,6 +41,5 @@ pub mod rates;
 pub mod rounding;
 pub mod stages;
 pub mod stepper;
-pub mod swings;
 pub mod system;
 pub mod torque;

@@ -25,10 +25,10 @@ pub struct Pendulum {
 
 /// What it adds at an instant: to the inertia of its disc and between both, and torques on both.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Added {
-    pub(super) disc: f64,
-    pub(super) both: f64,
-    pub(super) torque: [f64; 2],
+struct Added {
+    disc: f64,
+    both: f64,
+    torque: [f64; 2],
 }
 
 impl Pendulum {
@@ -45,7 +45,7 @@ impl Pendulum {
     }
 
     /// From the lead of χ over θ and both speeds.
-    pub(super) fn at(&self, lead: f64, [theta, chi]: [f64; 2]) -> Added {
+    fn at(&self, lead: f64, [theta, chi]: [f64; 2]) -> Added {
         let (sine, u) = of_swing(self.swing * lead);
         let (a, b, s) = (self.of_disc, self.of_both, self.swing);
         let rate = s * (chi - theta);
@@ -68,7 +68,7 @@ impl Pendulum {
 
     /// Derivatives of the torques on both by the lead of χ and by both speeds, at accelerations of both: of all that depends on
     /// the swing, inertias included.
-    pub(super) fn slopes(&self, lead: f64, [theta, chi]: [f64; 2], [disc, bob]: [f64; 2]) -> [[f64; 3]; 2] {
+    fn slopes(&self, lead: f64, [theta, chi]: [f64; 2], [disc, bob]: [f64; 2]) -> [[f64; 3]; 2] {
         let (psi, s) = (self.swing * lead, self.swing);
         let (a, b, rate) = (self.of_disc, self.of_both, self.swing * (chi - theta));
         let (sine, cosine) = psi.sin_cos();
@@ -93,4 +93,97 @@ impl Pendulum {
 fn of_swing(psi: f64) -> (f64, f64) {
     let half = (0.5 * psi).sin();
     (psi.sin(), 2.0 * half * half)
+}
+
+/// What the pendulums of a train add at an instant: to the inertia of the disc, and between disc and pendulum.
+#[derive(Clone, Debug)]
+pub struct Bobs(Vec<[f64; 2]>);
+
+/// Angles beside the first mass and speeds of all masses.
+#[derive(Clone, Copy, Debug)]
+pub struct Swing<'a> {
+    pub aside: &'a [f64],
+    pub omega: &'a [f64],
+}
+
+impl Swing<'_> {
+    /// Lead of χ over θ, and both speeds, of a pendulum.
+    fn of(&self, pendulum: &Pendulum) -> (f64, [f64; 2]) {
+        let Pendulum { disc, bob, .. } = *pendulum;
+        (self.aside[bob] - self.aside[disc], [self.omega[disc], self.omega[bob]])
+    }
+}
+
+impl Bobs {
+    /// Of so many pendulums.
+    pub fn new(count: usize) -> Self {
+        Bobs(vec![[0.0; 2]; count])
+    }
+
+    /// Whether there are any.
+    pub fn any(&self) -> bool {
+        !self.0.is_empty()
+    }
+
+    /// Torques of the pendulums on the masses, and what they add to inertias.
+    pub fn push(&mut self, pendulums: &[Pendulum], swing: Swing<'_>, torque: &mut [f64]) {
+        for (pendulum, bob) in pendulums.iter().zip(&mut self.0) {
+            let (lead, speeds) = swing.of(pendulum);
+            let added = pendulum.at(lead, speeds);
+            torque[pendulum.disc] += added.torque[0];
+            torque[pendulum.bob] += added.torque[1];
+            *bob = [added.disc, added.both];
+        }
+    }
+
+    /// Accelerations of the masses from those that torque over own inertia would give: each disc feels its pendulums.
+    pub fn share(&self, pendulums: &[Pendulum], inertia: &[f64], acceleration: &mut [f64]) {
+        for (first, one) in pendulums.iter().enumerate() {
+            if pendulums[..first].iter().any(|other| other.disc == one.disc) {
+                continue;
+            }
+            let on_disc = || pendulums.iter().zip(&self.0).filter(|(other, _)| other.disc == one.disc);
+            let i = one.disc;
+            let (mut own, mut torque) = (inertia[i], inertia[i] * acceleration[i]);
+            for (pendulum, [disc, both]) in on_disc() {
+                own += disc - both * both / inertia[pendulum.bob];
+                torque -= both * acceleration[pendulum.bob];
+            }
+            acceleration[i] = torque / own;
+            for (pendulum, [_, both]) in on_disc() {
+                acceleration[pendulum.bob] -= both / inertia[pendulum.bob] * acceleration[i];
+            }
+        }
+    }
+
+    /// Inertia torque of a mass at accelerations, beyond its own inertia times its acceleration.
+    pub fn torque_of(&self, pendulums: &[Pendulum], mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
+        let of = |(pendulum, [disc, both]): (&Pendulum, &[f64; 2])| match mass {
+            i if i == pendulum.disc => disc * acceleration(i) + both * acceleration(pendulum.bob),
+            i if i == pendulum.bob => both * acceleration(pendulum.disc),
+            _ => 0.0,
+        };
+        pendulums.iter().zip(&self.0).map(of).sum()
+    }
+}
+
+/// Adds to the derivatives of the torques of n masses, row by row, by angles and speeds.
+pub fn add_slopes(
+    pendulums: &[Pendulum],
+    swing: Swing<'_>,
+    acceleration: &[f64],
+    n: usize,
+    [by_angle, by_speed]: [&mut [f64]; 2],
+) {
+    for pendulum in pendulums {
+        let [i, j] = [pendulum.disc, pendulum.bob];
+        let (lead, speeds) = swing.of(pendulum);
+        let slopes = pendulum.slopes(lead, speeds, [acceleration[i], acceleration[j]]);
+        for (row, [by_lead, by_disc, by_bob]) in [i, j].into_iter().zip(slopes) {
+            by_angle[row * n + j] += by_lead;
+            by_angle[row * n + i] -= by_lead;
+            by_speed[row * n + i] += by_disc;
+            by_speed[row * n + j] += by_bob;
+        }
+    }
 }
