@@ -265,7 +265,7 @@ class MovingTrain:
             if manner.rigid:
                 a, b = group[self.mass[self.tip[s]]]
                 group[group == b] = a
-        return np.unique(group, return_inverse=True)[1]
+        return np.unique(group, return_inverse=True)[1].astype(np.int32)
 
     @property
     def lead(self) -> Floats:
