@@ -39,8 +39,8 @@ def test_a_balanced_start_gives_what_the_stage_loses(gear: dict[str, Any]) -> No
     assert "55.556 N m" in moved.balance
     assert moved.torque[moved.shafts.index("stage")] == pytest.approx(50.0, rel=near)
     assert moved.stage_torque[0] == pytest.approx(50.0 / ETA, rel=near)
-    assert moved.speed[0] == pytest.approx(100.0, rel=1e-9)
-    assert moved.loss["stage"] == pytest.approx((1 / ETA - 1) * 50.0 * 100.0 * 0.4, rel=1e-8)
+    assert moved.speed[0] == pytest.approx(100.0, rel=0.1 * near)
+    assert moved.loss["stage"] == pytest.approx((1 / ETA - 1) * 50.0 * 100.0 * 0.4, rel=near)
     assert [one.part for one in moved.judgements if not one.is_kept] == ["stage"]
 
 
