@@ -1683,7 +1683,7 @@ class TorsionLink:
     Stiffness [N m/rad], damping [N m s/rad], torque over twist in addition [N m, rad]. `rigid`: its ends move
     as one; `contact`: damping acts while flanks touch; `loss`: torque at the first end over that of the teeth
     while that end drives, and while the other does; `joint`: cos α and phase [rad] of a Hooke's joint at the
-    first end; `carrier`: mass that carries a mesh, with the parts of first, second and its angle in the twist.
+    first end; `carrier`: mass that carries a mesh, with the parts of all three angles in the twist.
     """
 
     def __new__(

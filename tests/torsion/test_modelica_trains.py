@@ -1,4 +1,4 @@
-"""Reference trains of the Modelica Standard Library, Rotational.Examples, by their equations, integrated here by SciPy.
+"""Reference trains of Modelica's Rotational.Examples by their equations, integrated here by SciPy.
 
 Each phase between two kinks or changes of state is integrated by itself, up to its event.
 """
@@ -67,7 +67,10 @@ def test_first() -> None:
             shafts={"spring": {"between": ["output", "load"], "stiffness": 1e4}},
             loads={"damper": {"on": "output", "torque": 10.0, "speed": 1.0, "exponent": 1.0}},
             excitations={
-                "sine": {"on": "motor", "harmonics": [{"frequency": 5.0, "torque": 10.0, "phase": -np.pi / 2}]}
+                "sine": {
+                    "on": "motor",
+                    "harmonics": [{"frequency": 5.0, "torque": 10.0, "phase": -np.pi / 2}],
+                }
             },
             transient={"duration": 1.0, "sample_time": 1e-3, "accuracy": 1e-12},
         )
@@ -84,7 +87,7 @@ def test_first() -> None:
 
 
 def test_elastic_bearing() -> None:
-    """ElasticBearing: a gear in a housing on an elastic seat; here its mesh is elastic and its wheel has inertia."""
+    """ElasticBearing: a gear in a housing on an elastic seat; here with an elastic mesh and a wheel."""
     k, wheel = 2e5, 0.3
     moved = torsion_transient(
         machine(
@@ -123,11 +126,13 @@ def test_elastic_bearing() -> None:
     wanted = solve_ivp(rates, (0, 2), np.zeros(8), t_eval=moved.time, **TIGHT).y
     # The load follows with a thousandth of the speed of the shaft.
     assert moved.speed == pytest.approx(wanted[4:], abs=1e-8)
-    assert moved.torque[moved.shafts.index("seat")] == pytest.approx(1e5 * wanted[2] + 5 * wanted[6], abs=1e-5)
+    assert moved.torque[moved.shafts.index("seat")] == pytest.approx(
+        1e5 * wanted[2] + 5 * wanted[6], abs=1e-5
+    )
 
 
 def test_backlash() -> None:
-    """Backlash: an inertia released at 90° in a backlash of 45°; the damper neither pulls nor pushes more than the spring.
+    """Backlash: an inertia released at 90° in a backlash of 45°; its damper stays within the spring.
 
     Two discs of 10 kg m² that turn freely against each other are one of 5 kg m² against the ground.
     """
@@ -145,7 +150,12 @@ def test_backlash() -> None:
                     "backlash": 2 * half,
                 }
             },
-            transient={"duration": 1.0, "sample_time": 1e-3, "accuracy": 1e-12, "twists": {"mesh": np.pi / 2}},
+            transient={
+                "duration": 1.0,
+                "sample_time": 1e-3,
+                "accuracy": 1e-12,
+                "twists": {"mesh": np.pi / 2},
+            },
         )
     )
 
@@ -157,7 +167,12 @@ def test_backlash() -> None:
 
     # The torque is continuous; steps short beside the swing of 63 rad/s meet its kinks closely.
     wanted = solve_ivp(
-        lambda t, y: [y[1], -torque(y) / J], (0, 1), [np.pi / 2, 0.0], t_eval=moved.time, max_step=2e-4, **TIGHT
+        lambda t, y: [y[1], -torque(y) / J],
+        (0, 1),
+        [np.pi / 2, 0.0],
+        t_eval=moved.time,
+        max_step=2e-4,
+        **TIGHT,
     ).y
     twist = moved.angle[0] - moved.angle[1]
     assert twist == pytest.approx(wanted[0], abs=1e-8)
@@ -179,7 +194,7 @@ def lossy(
     times: Floats,
     speed: float = 0.0,
 ) -> tuple[Floats, list[str]]:
-    """Speed of the first disc of a rigid stage with losses between 1 and 1.5 kg m², and its states in order."""
+    """Speed of the first disc of a rigid stage between 1 and 1.5 kg m², and its states in order."""
     J1, J2 = 1.0, 1.5
     passed: list[str] = []
 
@@ -229,13 +244,11 @@ def lossy(
 
 
 def test_lossy_gear_demo_1() -> None:
-    """LossyGearDemo1: an efficiency of 0.5 either way lets the stage roll forward, stick, and roll backward."""
+    """LossyGearDemo1: with an efficiency of 0.5 the stage rolls forward, sticks, and rolls backward."""
     moved = torsion_transient(
         machine(
             discs=discs(a=1.0, b=1.5),
-            gears={
-                "gear": {"between": ["a", "b"], "ratio": RATIO, "kind": "internal", "efficiency": 0.5}
-            },
+            gears={"gear": {"between": ["a", "b"], "ratio": RATIO, "kind": "internal", "efficiency": 0.5}},
             excitations={
                 "sine": {"on": "a", "harmonics": [{"frequency": 1.0, "torque": 10.0, "phase": -np.pi / 2}]}
             },
@@ -288,5 +301,5 @@ def test_a_load_drives_back_or_not(reverse: float) -> None:
     )
     assert moved.speed[0] == pytest.approx(wanted, abs=1e-8)
     assert abs(moved.energy_error) < 1e-9
-    # Through a stage that locks itself the load takes no power from the motor's disc, which it never turns alone.
+    # The lower the efficiency in reverse, the more holds the stage at rest.
     assert ("stuck" in states) == (reverse < 1)

@@ -270,12 +270,22 @@ def test_torques_of_a_planetary_stage_balance() -> None:
             "an elastic mesh",
         ),
         (
-            {"planetaries": stage(), "shafts": held("ring"), "transient": {"duration": 1.0}},
-            "on a carrier",
+            {
+                "gears": {
+                    "g": {
+                        "between": ["sun", "ring"],
+                        "ratio": 2.0,
+                        "carrier": "carrier",
+                        "stiffness": 1e5,
+                        "efficiency": 0.9,
+                    }
+                }
+            },
+            "none with a carrier",
         ),
     ],
 )
 def test_what_is_wrong_is_told(change: dict[str, Any], words: str) -> None:
-    """Members without a disc, an open speed, a torque by the revolution on a disc at rest, motion in time."""
+    """Members without a disc, an open speed, torques on a disc at rest, losses on a carrier."""
     with pytest.raises((MachineError, lw.InputError), match=words):
         torsion_study(machine(discs=discs(sun=1.0, ring=1.0, carrier=1.0), **change))

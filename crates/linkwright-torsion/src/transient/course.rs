@@ -4,9 +4,9 @@ use super::equilibrium::Equilibrium;
 use super::explicit::{Explicit, STABLE_PHASE};
 use super::extremes::{Extreme, Extremes};
 use super::implicit::Implicit;
-use super::losses::Change;
 use super::rates::Rates;
 use super::rounding::Rounding;
+use super::stages::Change;
 use super::stepper::{Scale, Stepper};
 use super::system::System;
 use linkwright_kernel::call::poll;
@@ -100,7 +100,7 @@ pub fn follow(system: &System, request: &Request<'_>) -> Course {
     let state = rates.state(request.angle, request.speed);
     rates.enter(request.start);
     rates.derivative(request.start, &state, &mut state.clone());
-    if rates.has_stages() {
+    if rates.stages.any() {
         rates.set_senses(request.start, &state);
     }
     let fastest = rates.fastest();
@@ -236,7 +236,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let start = self.course.time;
         self.rates.enter(0.5 * (start + mark));
         // Torques that jump may set free what was stuck.
-        if self.rates.has_stages() && !self.rates.make(None, start, &mut self.state) {
+        if self.rates.stages.any() && !self.rates.make(None, start, &mut self.state) {
             return End::Inaccurate;
         }
         let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));

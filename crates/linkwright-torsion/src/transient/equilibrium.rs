@@ -187,7 +187,7 @@ impl Equilibrium {
         };
         for i in 0..n {
             let inertia = rates.inertia_of(i);
-            self.missing[i] = inertia * over(i) + rates.torque_of_bobs(i, &over);
+            self.missing[i] = inertia * over(i) + rates.torque_of_bobs(i, over);
             let [sum, all] = &mut self.whole[self.root[i]];
             (*sum, *all) = (*sum + self.missing[i], *all + inertia);
         }

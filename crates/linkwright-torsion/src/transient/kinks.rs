@@ -1,7 +1,7 @@
 //! Where the equations bend: flanks that meet or part, the direction of power, the limit of a controller.
 //!
-//! Each is told by a number that is the same all along a smooth stretch. A step ends where one changes, so that its error is
-//! that of a smooth motion.
+//! Each has a number that is the same all along a smooth stretch. A step ends where one changes, so that its error is that of a
+//! smooth motion.
 
 use super::rates::Rates;
 
@@ -9,7 +9,7 @@ impl Rates<'_> {
     /// Whether something in the train bends.
     pub fn has_kinks(&self) -> bool {
         let system = self.system;
-        self.has_stages()
+        self.stages.any()
             || !system.controllers.is_empty()
             || system.links.iter().any(|link| link.manner.contact)
     }
@@ -32,7 +32,7 @@ impl Rates<'_> {
             to.push(if link.manner.loss.is_some() { sense } else { 0 });
             to.push(u32::from(limited));
         }
-        to.extend(self.rigid_senses());
+        to.extend(self.stages.rigid_senses(&system.links));
         for controller in &system.controllers {
             let speeds = [self.omega[controller.mass], self.omega[controller.integral]];
             let command = controller.at(&system.curves, self.stretch(), t, speeds);

@@ -9,7 +9,7 @@
 //! | [`between`] | errors between the ends of a step |
 //! | [`chains`] | links that follow each other, in lanes |
 //! | [`bond`] | a link at one instant: joints, meshes on carriers, flanks |
-//! | [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
+//! | [`stages`], [`losses`] | gear stages with efficiency: direction of power, stuck at rest |
 //! | [`kinks`] | where the equations bend |
 //! | [`pendulums`] | centrifugal pendulums of any swing |
 //! | [`controllers`] | speed controllers |
@@ -39,6 +39,7 @@ pub mod pendulums;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;
+pub mod stages;
 pub mod stepper;
 pub mod system;
 pub mod torque;

@@ -11,8 +11,6 @@
 //!
 //! Source: Den Hartog, *Mechanical Vibrations*, 4th ed. 1956, ch. 5; kinetic energy of a point on two circles, Lagrange.
 
-use super::rates::Rates;
-
 /// A pendulum: mass of its disc, and mass that its angle χ is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pendulum {
@@ -97,34 +95,54 @@ fn of_swing(psi: f64) -> (f64, f64) {
     (psi.sin(), 2.0 * half * half)
 }
 
-impl Rates<'_> {
-    /// Lead of χ over θ, and both speeds, of a pendulum at the instant.
-    fn swing(&self, pendulum: &Pendulum) -> (f64, [f64; 2]) {
+/// What the pendulums of a train add at an instant: to the inertia of the disc, and between disc and pendulum.
+#[derive(Clone, Debug)]
+pub struct Bobs(Vec<[f64; 2]>);
+
+/// Angles beside the first mass and speeds of all masses.
+#[derive(Clone, Copy, Debug)]
+pub struct Swing<'a> {
+    pub aside: &'a [f64],
+    pub omega: &'a [f64],
+}
+
+impl Swing<'_> {
+    /// Lead of χ over θ, and both speeds, of a pendulum.
+    fn of(&self, pendulum: &Pendulum) -> (f64, [f64; 2]) {
         let Pendulum { disc, bob, .. } = *pendulum;
-        (self.aside[bob + 1] - self.aside[disc + 1], [self.omega[disc], self.omega[bob]])
+        (self.aside[bob] - self.aside[disc], [self.omega[disc], self.omega[bob]])
+    }
+}
+
+impl Bobs {
+    /// Of so many pendulums.
+    pub fn new(count: usize) -> Self {
+        Bobs(vec![[0.0; 2]; count])
+    }
+
+    /// Whether there are any.
+    pub fn any(&self) -> bool {
+        !self.0.is_empty()
     }
 
     /// Torques of the pendulums on the masses, and what they add to inertias.
-    pub(super) fn swing_pendulums(&mut self) {
-        let system = self.system;
-        self.bobs.clear();
-        for pendulum in &system.pendulums {
-            let (lead, speeds) = self.swing(pendulum);
-            let Added { disc, both, torque } = pendulum.at(lead, speeds);
-            self.outer[pendulum.disc] += torque[0];
-            self.outer[pendulum.bob] += torque[1];
-            self.bobs.push([disc, both]);
+    pub fn push(&mut self, pendulums: &[Pendulum], swing: Swing<'_>, torque: &mut [f64]) {
+        for (pendulum, bob) in pendulums.iter().zip(&mut self.0) {
+            let (lead, speeds) = swing.of(pendulum);
+            let added = pendulum.at(lead, speeds);
+            torque[pendulum.disc] += added.torque[0];
+            torque[pendulum.bob] += added.torque[1];
+            *bob = [added.disc, added.both];
         }
     }
 
     /// Accelerations of the masses from those that torque over own inertia would give: each disc feels its pendulums.
-    pub(super) fn share_with_pendulums(&self, acceleration: &mut [f64]) {
-        let (pendulums, inertia) = (&self.system.pendulums, &self.inertia);
+    pub fn share(&self, pendulums: &[Pendulum], inertia: &[f64], acceleration: &mut [f64]) {
         for (first, one) in pendulums.iter().enumerate() {
             if pendulums[..first].iter().any(|other| other.disc == one.disc) {
                 continue;
             }
-            let on_disc = || pendulums.iter().zip(&self.bobs).filter(|(other, _)| other.disc == one.disc);
+            let on_disc = || pendulums.iter().zip(&self.0).filter(|(other, _)| other.disc == one.disc);
             let i = one.disc;
             let (mut own, mut torque) = (inertia[i], inertia[i] * acceleration[i]);
             for (pendulum, [disc, both]) in on_disc() {
@@ -139,28 +157,33 @@ impl Rates<'_> {
     }
 
     /// Inertia torque of a mass at accelerations, beyond its own inertia times its acceleration.
-    pub(super) fn torque_of_bobs(&self, mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
+    pub fn torque_of(&self, pendulums: &[Pendulum], mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
         let of = |(pendulum, [disc, both]): (&Pendulum, &[f64; 2])| match mass {
             i if i == pendulum.disc => disc * acceleration(i) + both * acceleration(pendulum.bob),
             i if i == pendulum.bob => both * acceleration(pendulum.disc),
             _ => 0.0,
         };
-        self.system.pendulums.iter().zip(&self.bobs).map(of).sum()
+        pendulums.iter().zip(&self.0).map(of).sum()
     }
+}
 
-    /// Adds to the derivatives of the torques, row by row, by angles and speeds.
-    pub(super) fn pendulum_slopes(&self, by_angle: &mut [f64], by_speed: &mut [f64]) {
-        let n = self.system.len();
-        for pendulum in &self.system.pendulums {
-            let [i, j] = [pendulum.disc, pendulum.bob];
-            let (lead, speeds) = self.swing(pendulum);
-            let slopes = pendulum.slopes(lead, speeds, [self.acceleration[i], self.acceleration[j]]);
-            for (row, [by_lead, by_disc, by_bob]) in [i, j].into_iter().zip(slopes) {
-                by_angle[row * n + j] += by_lead;
-                by_angle[row * n + i] -= by_lead;
-                by_speed[row * n + i] += by_disc;
-                by_speed[row * n + j] += by_bob;
-            }
+/// Adds to the derivatives of the torques of n masses, row by row, by angles and speeds.
+pub fn add_slopes(
+    pendulums: &[Pendulum],
+    swing: Swing<'_>,
+    acceleration: &[f64],
+    n: usize,
+    [by_angle, by_speed]: [&mut [f64]; 2],
+) {
+    for pendulum in pendulums {
+        let [i, j] = [pendulum.disc, pendulum.bob];
+        let (lead, speeds) = swing.of(pendulum);
+        let slopes = pendulum.slopes(lead, speeds, [acceleration[i], acceleration[j]]);
+        for (row, [by_lead, by_disc, by_bob]) in [i, j].into_iter().zip(slopes) {
+            by_angle[row * n + j] += by_lead;
+            by_angle[row * n + i] -= by_lead;
+            by_speed[row * n + i] += by_disc;
+            by_speed[row * n + j] += by_bob;
         }
     }
 }

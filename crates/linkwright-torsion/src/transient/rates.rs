@@ -19,8 +19,8 @@
 use super::bank::{Bank, OfAngle, WIDEST};
 use super::bond::{Bond, BondTorque};
 use super::chains::{Links, Twists};
-use super::losses::Stages;
-use super::pendulums::Pendulum;
+use super::pendulums::{Bobs, Pendulum, Swing, add_slopes};
+use super::stages::Stages;
 use super::system::{Carrier, Link, Rotor, System};
 use super::torque::{Law, Pull, Shape, Stretch, Torque};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
@@ -33,18 +33,17 @@ pub struct Rates<'a> {
     stretch: Stretch,
     links: Links,
     pub(super) stages: Stages,
-    /// What pendulums add at the instant: to the inertia of the disc, and between disc and pendulum.
-    pub(super) bobs: Vec<[f64; 2]>,
+    bobs: Bobs,
     /// Whether angles of the state are counted from that of the first mass.
     relative: bool,
     /// Zero for the mass from which the others are counted and behind the last, else one.
     beside: Vec<f64>,
     /// Zero for masses that rest while the train runs, else one.
     turns: Vec<f64>,
-    pub(super) theta: Vec<f64>,
+    theta: Vec<f64>,
     pub omega: Vec<f64>,
     /// Angles and speeds for twists: a place before the first mass, the masses, the ground.
-    pub(super) aside: Vec<f64>,
+    aside: Vec<f64>,
     aside_speed: Vec<f64>,
     /// Shares of the masses in the inertia of the whole.
     shares: Vec<f64>,
@@ -52,7 +51,7 @@ pub struct Rates<'a> {
     constant: Vec<f64>,
     damping: Vec<f64>,
     swing_damping: Vec<f64>,
-    pub(super) inertia: Vec<f64>,
+    inertia: Vec<f64>,
     /// Whether anything damps swings.
     damps_swings: bool,
     /// J′ of each mass.
@@ -63,7 +62,7 @@ pub struct Rates<'a> {
     alone: Vec<usize>,
     pub acceleration: Vec<f64>,
     /// Torques from outside and of links that are no chain, on each mass and on the ground.
-    pub(super) outer: Vec<f64>,
+    outer: Vec<f64>,
     /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, of controllers,
     /// losses in other links \[W\]: [`Rates::in_order`].
     pub powers: Vec<f64>,
@@ -125,7 +124,7 @@ impl<'a> Rates<'a> {
             shapes,
             alone,
             stages: Stages::of(&system.links, &links.others),
-            bobs: vec![[0.0; 2]; system.pendulums.len()],
+            bobs: Bobs::new(system.pendulums.len()),
             links,
             room: [vec![0.0; 2 * places], vec![0.0; 2 * places]],
             evaluations: 0,
@@ -220,8 +219,9 @@ impl<'a> Rates<'a> {
         }
         self.push(t);
         self.twist();
-        if !self.bobs.is_empty() {
-            self.swing_pendulums();
+        if self.bobs.any() {
+            let swing = Swing { aside: &self.aside[1..], omega: &self.omega };
+            self.bobs.push(&self.system.pendulums, swing, &mut self.outer);
         }
         let whole = self.whole_speed();
         for at in (0..places).step_by(R::LANES) {
@@ -239,14 +239,27 @@ impl<'a> Rates<'a> {
 
     /// Accelerations with what joins masses beyond twists: pendulums, rigid and stuck stages.
     fn join(&mut self) {
-        if !self.bobs.is_empty() {
-            let mut acceleration = std::mem::take(&mut self.acceleration);
-            self.share_with_pendulums(&mut acceleration);
-            self.acceleration = acceleration;
+        let (system, first) = (self.system, self.losses_of_others());
+        if self.bobs.any() {
+            self.bobs.share(&system.pendulums, &self.inertia, &mut self.acceleration);
         }
-        if self.has_stages() {
-            self.engage();
+        if self.stages.any() {
+            if !self.stages.engage(system, &self.inertia, &self.bobs, &mut self.acceleration) {
+                self.acceleration[0] = f64::NAN;
+            }
+            self.stages.lose(&system.links, &self.omega, &mut self.powers[first..]);
         }
+    }
+
+    /// Inertia torque of a mass at accelerations by the pendulums on it, or by its disc.
+    pub fn torque_of_bobs(&self, mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
+        self.bobs.torque_of(&self.system.pendulums, mass, acceleration)
+    }
+
+    /// Sets the senses of stages that lose power from the speeds of a state.
+    pub fn set_senses(&mut self, t: f64, state: &[f64]) {
+        self.derivative(t, state, &mut state.to_vec());
+        self.stages.set_senses(&self.system.links, &self.omega);
     }
 
     /// Accelerations of some masses, with the speed of the train as a whole.
@@ -357,7 +370,7 @@ impl<'a> Rates<'a> {
             let mut loss = friction * bond.rate;
             let mut at_end = torque;
             if link.manner.loss.is_some() {
-                at_end *= self.tooth_factor(place, torque);
+                at_end *= self.stages.factor(&system.links, place, torque);
                 loss += (at_end - torque) * link.ratio * self.omega[link.ends[0]];
             }
             self.powers[first + nth] = loss;
@@ -390,7 +403,7 @@ impl<'a> Rates<'a> {
     pub fn link_torque(&self, place: usize) -> (f64, f64) {
         let link = &self.system.links[place];
         if link.manner.rigid {
-            return (self.rigid_torque(place), f64::NAN);
+            return (self.stages.torque(place), f64::NAN);
         }
         let bond = self.bond(link);
         let pulls = link.pulls(self.system, bond.twist, bond.rate);
@@ -403,7 +416,7 @@ impl<'a> Rates<'a> {
     pub fn link_torque_at(&self, place: usize, state: impl Fn(usize) -> f64) -> f64 {
         let (n, link) = (self.system.len(), &self.system.links[place]);
         if link.manner.rigid {
-            return self.rigid_torque(place);
+            return self.stages.torque(place);
         }
         let first = if self.relative { [state(0), state(n)] } else { [0.0; 2] };
         let aside = |i: usize, value: f64| if i == 0 && self.relative { 0.0 } else { value };
@@ -466,7 +479,7 @@ impl<'a> Rates<'a> {
         inertia: &mut [f64],
     ) {
         let state = self.state(angle, speed);
-        if self.has_stages() {
+        if self.stages.any() {
             self.set_senses(t, &state);
         }
         self.derivative(t, &state, &mut state.clone());
@@ -565,14 +578,15 @@ impl<'a> Rates<'a> {
                 self.couple(place, link, by_angle, by_speed);
             }
         }
-        self.pendulum_slopes(by_angle, by_speed);
+        let swing = Swing { aside: &self.aside[1..], omega: &self.omega };
+        add_slopes(&system.pendulums, swing, &self.acceleration, n, [&mut *by_angle, &mut *by_speed]);
         for i in 0..n {
             let inverse = 1.0 / self.inertia[i];
             for list in [&mut *by_angle, &mut *by_speed] {
                 list[i * n..(i + 1) * n].iter_mut().for_each(|x| *x *= inverse);
             }
         }
-        if !self.bobs.is_empty() || self.has_stages() {
+        if self.bobs.any() || self.stages.any() {
             [by_angle, by_speed].into_iter().for_each(|matrix| self.join_columns(matrix));
         }
     }
@@ -581,8 +595,11 @@ impl<'a> Rates<'a> {
     fn couple(&self, place: usize, link: &Link, by_angle: &mut [f64], by_speed: &mut [f64]) {
         let (n, bond) = (self.system.len(), self.bond(link));
         let pulls = link.pulls(self.system, bond.twist, bond.rate);
-        let factors =
-            [if link.manner.loss.is_some() { self.last_tooth_factor(place) } else { 1.0 }, 1.0, 1.0];
+        let factors = [
+            if link.manner.loss.is_some() { self.stages.last_factor(&self.system.links, place) } else { 1.0 },
+            1.0,
+            1.0,
+        ];
         let present = |k: &usize| bond.masses[*k] < n;
         for a in (0..3).filter(present) {
             let row = bond.masses[a] * n;
@@ -609,9 +626,9 @@ impl<'a> Rates<'a> {
         let mut column = vec![0.0; n];
         for j in 0..n {
             (0..n).for_each(|i| column[i] = matrix[i * n + j]);
-            self.share_with_pendulums(&mut column);
-            if self.has_stages() {
-                self.engage_changes(&mut column);
+            self.bobs.share(&self.system.pendulums, &self.inertia, &mut column);
+            if self.stages.any() {
+                self.stages.engage_changes(self.system, &self.inertia, &self.bobs, &mut column);
             }
             (0..n).for_each(|i| matrix[i * n + j] = column[i]);
         }

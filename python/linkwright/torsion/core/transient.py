@@ -207,7 +207,7 @@ class MovingTrain:
     modal_damping: Floats | None = None
     notes: tuple[str, ...] = field(default=())  # what was assumed
     manners: tuple[Manner, ...] = ()  # of each shaft; empty where all are plain
-    # (discs,) 0 for a disc that rests while the train runs, else 1; `speed` of the former is 1. None: all turn.
+    # (discs,) 0 for a disc that rests while the train runs, whose `speed` is 1, else 1. None: all turn.
     turns: Floats | None = None
     pendulums: tuple[MovingPendulum, ...] = ()
     controllers: tuple[Controller, ...] = ()
@@ -265,7 +265,7 @@ class MovingTrain:
             if manner.rigid:
                 a, b = group[self.mass[self.tip[s]]]
                 group[group == b] = a
-        return np.unique(group, return_inverse=True)[1]
+        return np.unique(group, return_inverse=True)[1].astype(np.int32)
 
     @property
     def lead(self) -> Floats:

@@ -4,6 +4,7 @@
 | --- | --- |
 | `ice_impacts` | Ice at a propeller: pulses over its angle |
 | `moving_drive` | A driveline that moves in time |
+| `moving_parts` | Stages, joints, pendulums and speed controllers of a train in motion |
 | `moving_train` | A train of a machine file, with its engine, made ready to move in time |
 | `peak_judgement` | Whether shafts and couplings bear a manoeuvre |
 | `stage_torque` | Torque in the gear stages over time |

@@ -4,6 +4,7 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 | --- | --- |
 | `torque_permitted` | largest torque either way, of shafts, couplings and gear stages |
 | `stress_max` | its stress |
+| `swing_permitted` | largest swing of a pendulum |
 | vibratory stress in transient passage | half the peak-to-peak stress within two revolutions of disc 1 |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
@@ -20,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.units.kinds import PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import ANGLE, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity
@@ -82,7 +83,8 @@ class PeakJudgement:
 
 def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
     """Limits of shafts, couplings and gear stages against a manoeuvre; empty without limits."""
-    return (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
+    judgements = (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
+    return (*judgements, *_swings_of_pendulums(machine, moved))
 
 
 def unjudged(machine: Machine, moved: TorsionTransient) -> Iterator[str]:
@@ -103,11 +105,22 @@ def _stages(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement
             yield PeakJudgement(name, "torque", TORQUE, torque, permitted, time)
 
 
+def _swings_of_pendulums(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
+    pendulums = {} if machine.train is None else machine.train.pendulums
+    for name, row in zip(moved.pendulums, moved.swing, strict=True):
+        permitted = pendulums[name].swing_permitted
+        if permitted is not None:
+            worst = int(np.abs(row).argmax())
+            yield PeakJudgement(
+                name, "swing", ANGLE, float(abs(row[worst])), permitted, float(moved.time[worst])
+            )
+
+
 def _limited_stages(machine: Machine, moved: TorsionTransient) -> Iterator[tuple[str, Floats, float]]:
     """Gear stages with a permitted torque: name, torque (n,) and permitted torque [N m]."""
     gears = {} if machine.train is None else machine.train.gears
     for name, row in zip(moved.stages, moved.stage_torque, strict=True):
-        permitted = gears[name].torque_permitted
+        permitted = gears[name].torque_permitted if name in gears else None
         if permitted is not None:
             yield name, row, permitted
 

@@ -54,7 +54,8 @@ def _at_first(train: MovingTrain, shaft: int, speed: Floats, torque: Floats) -> 
     """Torque of the first disc, where friction of the teeth adds to what they carry, (n,) [N m]."""
     loss = train.manners[shaft].loss if train.manners else None
     if loss is None:
-        return torque[shaft]
+        alone: Floats = torque[shaft]
+        return alone
     power = torque[shaft] * speed[train.mass[train.tip[shaft, 0]]]
     at_first: Floats = torque[shaft] * np.where(power > 0, loss[0], np.where(power < 0, loss[1], 1.0))
     return at_first

@@ -312,7 +312,7 @@ def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> To
 
 
 def _start_angles(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
-    """Angles of the masses at the start: with the given twists, and without twist behind joints, (masses,)."""
+    """Angles of the masses at the start: with the given twists, none of joints, (masses,) [rad]."""
     if manoeuvre.twists or any(manner.joint for manner in train.manners):
         return _twisted(train, manoeuvre)
     angles: Floats = manoeuvre.angle * train.turning
@@ -498,8 +498,9 @@ def _swings(train: MovingTrain, moved: TrainMotion) -> Floats:
 def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
     work: dict[str, float] = {}
-    for cause, done in zip((*train.torques, *train.controllers), moved.work.tolist(), strict=True):
-        work[cause.name] = work.get(cause.name, 0.0) + done
+    names = [*(torque.name for torque in train.torques), *(one.name for one in train.controllers)]
+    for name, done in zip(names, moved.work.tolist(), strict=True):
+        work[name] = work.get(name, 0.0) + done
     loss: dict[str, Any] = dict(zip(train.shafts, moved.shaft_loss.tolist(), strict=True))
     loss["discs"] = float(moved.mass_loss.sum())
     if train.modal_damping is not None:

@@ -320,7 +320,8 @@ class TrainGear(CheckedDescription):
     )
     damping: Damping = Field(
         0.0,
-        description="Damping of an elastic mesh, referred to the first disc: torque per angular velocity.",
+        description="Damping of an elastic mesh, referred to the first disc: torque per angular velocity; "
+        "with backlash, in contact only.",
     )
     loss_factor: LossFactor = Field(0.0, description="Loss factor of an elastic mesh.")
     backlash: Annotated[float, not_negative(ANGLE)] = Field(

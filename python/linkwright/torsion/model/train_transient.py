@@ -278,6 +278,7 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
             yield fault(*place, found=motor.motor.kind, expected=expected)
     twisting = [name for table in (train.shafts, train.couplings) for name in table]
     twisting += [name for name, gear in train.gears.items() if gear.stiffness is not None]
+    twisting += [mesh for name, stage in train.planetaries.items() for mesh in stage.meshes(name)]
     twisting += [crank for engine in train.installed for crank in engine.cranks]
     for name in manoeuvre.twists:
         yield from _unknown(name, twisting, "shaft, coupling or elastic mesh", "twists", name)

@@ -1,4 +1,4 @@
-"""Tables of a manoeuvre: ice that the propeller met, torques of shafts and of gear stages."""
+"""Tables of a manoeuvre: ice, torques of shafts and of gear stages, swings of pendulums."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
     yield _shafts(moved)
     if moved.stages:
         yield _stages(moved)
+    if moved.pendulums:
+        yield _pendulums(moved)
 
 
 def _ice(moved: TorsionTransient) -> Table:
@@ -48,3 +50,13 @@ def _stages(moved: TorsionTransient) -> Table:
         rows.append((name, "", *cells, sides))
     heads = ("stage", "", "maximum", "at", "minimum", "at", "torque")
     return Table("manoeuvre_gears", "Manoeuvre: torques of the gear stages at the first wheel", heads, rows)
+
+
+def _pendulums(moved: TorsionTransient) -> Table:
+    rows: list[Row] = []
+    for name, row in zip(moved.pendulums, moved.swing, strict=True):
+        worst = int(np.abs(row).argmax())
+        size = quantity(float(abs(row[worst])), "rad", usual="deg")
+        rows.append((name, "", size, quantity(float(moved.time[worst]), "s")))
+    heads = ("pendulum", "", "peak swing", "at")
+    return Table("manoeuvre_pendulums", "Manoeuvre: swings of the pendulums", heads, rows)
