@@ -11,7 +11,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.rods.model.rod_string import RodString
 
 # Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load.
-_SWEEPS, _TOLERANCE = 5000, 1e-9
+_SWEEPS, _TOLERANCE = 2000, 1e-9
 
 # Prime factors of a number of samples.
 _FACTORS = (2, 3, 5)
@@ -64,15 +64,16 @@ def solve_string(string: RodString, period: float, motion: Floats, start: Floats
     return Solved(solved.cards, solved.wave, solved.sweeps, solved.change)
 
 
-def sample_count(string: RodString, period: float, least: int) -> int:
-    """An even number of samples, `least` or up to a third more, between which waves travel through sections in
-    whole steps as nearly as can be: then corners of the load stay corners, as in the method of characteristics.
+def sample_counts(string: RodString, period: float, least: int) -> list[int]:
+    """Even numbers of samples, `least` or up to a third more, best first: those in whose steps waves travel through
+    sections as nearly as can be, so that corners of the load stay corners as in the method of characteristics.
     """
     columns = string.columns
     delays = columns.length * np.sqrt(columns.mass / columns.rigidity) / period
     counts = [n for n in range(least, least * 4 // 3 + 2) if n % 2 == 0 and _is_smooth(n)]
     steps = np.outer(counts, 2 * delays)
-    return counts[int(np.abs(steps - np.round(steps)).max(axis=1).argmin())]
+    order = np.abs(steps - np.round(steps)).max(axis=1).argsort(kind="stable")
+    return [counts[place] for place in order]
 
 
 def _is_smooth(n: int) -> bool:
@@ -80,3 +81,15 @@ def _is_smooth(n: int) -> bool:
         while n % factor == 0:
             n //= factor
     return n == 1
+
+
+def cards_of(
+    string: RodString, period: float, position: Floats, load: Floats, damping: float
+) -> _core.RodCards:
+    """Cards along a string by samples (n,) of position [m] and dynamic load [N] at the polished rod."""
+    return core_string(string, damping).cards(
+        period=period,
+        position=np.ascontiguousarray(position),
+        load=np.ascontiguousarray(load),
+        harmonics=len(position) // 2 - 1,
+    )

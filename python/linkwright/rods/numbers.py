@@ -53,6 +53,16 @@ class ApiNumbers(Result):
     minimum_ratio: Annotated[
         float, Label("minimum load", "F_2/Sk_r", "", "W_rf − MPRL over S k_r.", table="rod_numbers")
     ]
+    torque_ratio: Annotated[
+        float | None,
+        Label(
+            "peak torque of the gearbox",
+            "2T/S²k_r",
+            "",
+            "With the best counterbalance; None without a pumping unit.",
+            table="rod_numbers",
+        ),
+    ]
     counterbalance_effect: Annotated[
         float,
         Label(
@@ -66,9 +76,9 @@ class ApiNumbers(Result):
 
 
 def api_numbers(
-    string: RodString, stroke: float, period: float, plunger_stroke: float, load: Floats
+    string: RodString, stroke: float, period: float, plunger_stroke: float, load: Floats, torque: float | None
 ) -> ApiNumbers:
-    """The terms of a motion with `load` (n,) of the polished rod [N]."""
+    """The terms of a motion with `load` (n,) of the polished rod [N] and a peak torque of the gearbox [N m]."""
     uniform = float(string.sound / (4 * string.length))
     tapered = natural_frequency(string)
     force = float(stroke * string.stiffness)
@@ -86,6 +96,7 @@ def api_numbers(
         stroke_ratio=plunger_stroke / stroke,
         peak_ratio=float(load.max() - weight) / force,
         minimum_ratio=float(weight - load.min()) / force,
+        torque_ratio=None if torque is None else 2 * torque / (stroke * force),
         counterbalance_effect=1.06 * (weight + 0.5 * float(string.fluid_load)),
     )
 

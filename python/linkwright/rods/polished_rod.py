@@ -23,10 +23,10 @@ from linkwright.pumping.unit import PolishedRod
 from linkwright.rods.model.rod_string import RodString
 
 # Crank angles of the table by which the drive knows the torque of the gearbox.
-_ANGLES = 720
+_ANGLES = 360
 
 # Intervals of the revolution over which the crank angle is a function of time.
-_INTERVALS = 2880
+_INTERVALS = 1440
 
 # Name of the load of the crankshaft.
 _LOAD = "rod_string"
@@ -110,12 +110,19 @@ class UnitRod:
         """Counterbalance and efficiency of the unit."""
         return PolishedRodLoad() if self.unit.load is None else self.unit.load
 
-    def with_load(self, angles: Floats, load: Floats) -> Any:
-        """The unit with a load of the polished rod over crank angles."""
+    @property
+    def has_given_counterbalance(self) -> bool:
+        """Whether the counterbalance is given in place of the best one."""
+        entries = self.load_entries
+        return isinstance(entries.counterbalance, float) or entries.counterbalance_effect is not None
+
+    def with_load(self, angles: Floats, load: Floats, *, is_best: bool) -> Any:
+        """The unit with a load of the polished rod over crank angles; `is_best`: with the best counterbalance."""
         order = np.argsort(angles)
         entries: Mapping[str, Any] = {
             "angle": tuple(angles[order].tolist()),
             "force": tuple(load[order].tolist()),
+            **({"counterbalance": "optimal", "counterbalance_effect": None} if is_best else {}),
         }
         return self.unit.with_entries({"load": self.load_entries.with_entries(entries)})
 

@@ -27,7 +27,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.pumping.gear_torque import GearTorque, gear_torque
-from linkwright.rods.core import Solved, sample_count, solve_string
+from linkwright.rods.core import Solved, sample_counts, solve_string
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import ApiNumbers, api_numbers
 from linkwright.rods.polished_rod import HarmonicRod, RodMotion, UnitRod, polished_rod_of
@@ -36,8 +36,11 @@ from linkwright.rods.stress import RodStress, rod_stress
 # Samples of the first solution, and of the finest.
 _FIRST, _MOST = 512, 20_000
 
-# Rounds between string and drive at most, and the change of the motion at which they end.
-_ROUNDS, _ALIKE = 40, 1e-9
+# Rounds between string and drive at most, and the change of the motion at which they end, over the accuracy.
+_ROUNDS, _ALIKE = 40, 1e-3
+
+# Numbers of samples that are tried.
+_TRIALS = 4
 
 # Corners of the load by which the torque of the gearbox is examined.
 _CORNERS = 360
@@ -103,6 +106,9 @@ class RodStringMotion(Result):
     numbers: Annotated[ApiNumbers, About("Terms of API RP 11L.")]
     stress: Annotated[RodStress, About("Loads and stresses of the sections, with the Goodman diagram.")]
     gear: Annotated[GearTorque | None, About("Torque of the gearbox; None without a pumping unit.")]
+    gear_best: Annotated[
+        GearTorque | None, About("The same with the best counterbalance; None without a pumping unit.")
+    ]
     drive: Annotated[SteadyState | None, About("Steady motion of the drive; None without a motor.")]
     balance: Annotated[
         float,
@@ -163,7 +169,7 @@ def rod_string(machine: Machine, *, accuracy: float = 1e-3) -> RodStringMotion:
     rod = polished_rod_of(machine, string)
     least, before, start = _FIRST, None, None
     while True:
-        moved, solved = _settled(string, rod, least, start)
+        moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         reached = np.inf if before is None else _difference(result, before)
         if reached <= accuracy or 2 * least > _MOST:
@@ -180,24 +186,34 @@ def string_of(machine: Machine) -> RodString:
 
 
 def _settled(
-    string: RodString, rod: HarmonicRod | UnitRod, least: int, start: Floats | None
+    string: RodString, rod: HarmonicRod | UnitRod, least: int, start: Floats | None, alike: float
 ) -> tuple[RodMotion, Solved]:
     """String and drive at their common motion."""
-    n = sample_count(string, rod.period, least)
+    counts = sample_counts(string, rod.period, least)
     for _ in range(_ROUNDS):
-        moved = rod.motion(n)
-        solved = solve_string(string, moved.period, moved.position, start)
-        if not solved.has_converged:
-            raise ConvergenceError(
-                f"the rod string has no periodic motion that was found: waves between string and pump still "
-                f"change by {solved.change:.2g} of the fluid load; expected damping by which they die out, see "
-                "rod_string.damping"
-            )
+        moved, solved = _periodic(string, rod, counts, start)
         start = np.asarray(solved.wave)
-        if rod.take(polished_rod_load(string, moved, solved.cards.load[0])) <= _ALIKE:
+        if rod.take(polished_rod_load(string, moved, solved.cards.load[0])) <= alike:
             return moved, solved
     raise ConvergenceError(
         "string and drive have not come to a common steady motion: the drive is close to its limit"
+    )
+
+
+def _periodic(
+    string: RodString, rod: HarmonicRod | UnitRod, counts: list[int], start: Floats | None
+) -> tuple[RodMotion, Solved]:
+    """The string under a motion of the polished rod. Where a jump of the load falls on a sample, sweeps may move it to
+    and fro: other samples have it between them.
+    """
+    for n in counts[:_TRIALS]:
+        moved = rod.motion(n)
+        solved = solve_string(string, moved.period, moved.position, start)
+        if solved.has_converged:
+            return moved, solved
+    raise ConvergenceError(
+        f"no periodic motion of the rod string was found: waves between string and pump still change by "
+        f"{solved.change:.2g} of the fluid load; expected damping by which they die out, see rod_string.damping"
     )
 
 
@@ -222,7 +238,11 @@ def _result(
     stroke = float(np.ptp(plunger - pump.tubing_compliance(string.length) * pump_load))
     leaked = pump.leak * float(pump_load.mean()) / string.fluid_load
     production = pump.area * pump.fillage * stroke / period - leaked
-    numbers = api_numbers(string, moved.stroke, period, stroke, load)
+    gear = _gear(rod, moved, load, is_best=False)
+    is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
+    best = _gear(rod, moved, load, is_best=True) if is_given else gear
+    peak = None if best is None else max(best.torque_net_up, best.torque_net_down)
+    numbers = api_numbers(string, moved.stroke, period, stroke, load, peak)
     friction = 2 * string.stuffing_box * moved.stroke
     lost = float(cards.loss.sum())
     return RodStringMotion(
@@ -250,7 +270,8 @@ def _result(
         power_hydraulic=production * (string.discharge - string.intake),
         numbers=numbers,
         stress=rod_stress(string, cards.load),
-        gear=_gear(rod, moved, load),
+        gear=gear,
+        gear_best=best,
         drive=rod.steady if isinstance(rod, UnitRod) else None,
         balance=float((cards.work[0] - cards.work[-1] - lost) / cards.work[0]),
         harmonics=len(load) // 2 - 1,
@@ -265,11 +286,13 @@ def station_names(string: RodString) -> tuple[str, ...]:
     return ("polished rod", *tapers, "pump")
 
 
-def _gear(rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats) -> GearTorque | None:
+def _gear(
+    rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats, *, is_best: bool
+) -> GearTorque | None:
     if not isinstance(rod, UnitRod) or moved.crank_angle is None:
         return None
     order = np.argsort(moved.crank_angle)
     angles = np.linspace(0.0, 2 * np.pi, _CORNERS, endpoint=False)
     at = np.interp(angles, moved.crank_angle[order], load[order], period=2 * np.pi)
     shown = np.linspace(0.0, 2 * np.pi, _CORNERS + 1)
-    return gear_torque(rod.with_load(angles, at), rod.rod.motion, rod.ends, shown)
+    return gear_torque(rod.with_load(angles, at, is_best=is_best), rod.rod.motion, rod.ends, shown)
