@@ -104,7 +104,7 @@ impl RodString {
 
     /// The periodic motion under samples of the polished rod's position.
     #[pyo3(signature = (
-        *, period, motion, load, compliance, slip, fillage, discharge, softness, start, tolerance, sweeps
+        *, period, motion, load, compliance, compressibility, slip, fillage, discharge, softness, start, tolerance, sweeps
     ))]
     fn predict(
         &self,
@@ -113,6 +113,7 @@ impl RodString {
         motion: Floats<'_>,
         load: f64,
         compliance: f64,
+        compressibility: f64,
         slip: f64,
         fillage: f64,
         discharge: f64,
@@ -129,7 +130,7 @@ impl RodString {
         }
         require_room(ANALYSIS, [4 * (self.0.len() + 2), fourier.samples])?;
         let impedance = self.0[self.0.len() - 1].impedance();
-        let pump = Pump { load, impedance, compliance, slip, fillage, discharge, softness };
+        let pump = Pump { load, impedance, compliance, compressibility, slip, fillage, discharge, softness };
         let request = Request { tolerance, sweeps };
         let (found, along) = guarded(py, ANALYSIS, || {
             let found = predict(&self.0, &pump, period, motion, start, request, &fourier);

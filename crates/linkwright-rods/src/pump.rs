@@ -6,12 +6,12 @@
 //! ```text
 //! standing valve open     F = F₀    the barrel fills
 //! travelling valve open   F = 0     the plunger sinks through the liquid
-//! both shut               the liquid under the plunger holds it: v = 0, or v = F'/k with tubing of stiffness k that is not
-//!                         anchored; gas in the barrel of length ℓ at intake pressure: ℓ (G/(D − F))^{1/n}, D and G the
+//! both shut               the liquid under the plunger holds it: v = κF', with the compliance κ of tubing that is not anchored and
+//!                         of the liquid; gas in the barrel of length ℓ at intake pressure: ℓ (G/(D − F))^{1/n}, D and G the
 //!                         discharge and intake pressure on the plunger
 //! ```
 //!
-//! With rigid tubing and a full barrel that is F = min(max(W, 0), F₀) at any instant, without an error of a step. Else the balance of
+//! With κ = 0 and a full barrel that is F = min(max(W, 0), F₀) at any instant, without an error of a step. Else the balance of
 //! volume over a step weights both its ends as the exponential of a step does, which is exact for tubing under a wave of constant
 //! slope.
 
@@ -30,8 +30,10 @@ pub struct Pump<R> {
     pub load: R,
     /// Z, impedance of the lowest section \[N s/m\].
     pub impedance: R,
-    /// 1/k of the tubing \[m/N\]; 0 where it is anchored.
+    /// Compliance of the tubing \[m/N\]; 0 where it is anchored.
     pub compliance: R,
+    /// Compliance of a metre of liquid in the barrel, 1/(KA) \[1/N\].
+    pub compressibility: R,
     /// Velocity by which the plunger slips through the liquid under its full load \[m/s\].
     pub slip: R,
     /// Share of the volume that the barrel takes in which is liquid.
@@ -42,7 +44,7 @@ pub struct Pump<R> {
     pub softness: R,
 }
 
-/// Load and velocity of the plunger, and what gas is under it.
+/// Load and velocity of the plunger, and what is under it.
 #[derive(Clone, Copy, Debug)]
 pub struct Plunger<R> {
     /// F \[N\].
@@ -51,13 +53,15 @@ pub struct Plunger<R> {
     pub velocity: R,
     /// ℓ, length of the gas in the barrel at intake pressure \[m\].
     pub gas: R,
+    /// Length of the liquid in the barrel \[m\].
+    pub liquid: R,
 }
 
 impl<R: Real> Plunger<R> {
     /// At rest without load.
     pub fn at_rest() -> Self {
         let zero = R::splat(0.0);
-        Plunger { load: zero, velocity: zero, gas: zero }
+        Plunger { load: zero, velocity: zero, gas: zero, liquid: zero }
     }
 }
 
@@ -81,7 +85,9 @@ impl<R: Real> Pump<R> {
         let load = zero.select_lt(is_up, full, load);
         let sunk = zero.select_lt(collapses, left.max(zero), before.gas);
         let gas = zero.select_lt(is_up, filled, zero.select_lt(load, sunk, zero));
-        Plunger { load, velocity: (wave - load) / self.impedance, gas }
+        let full_of = before.liquid + self.fillage * taken;
+        let liquid = zero.select_lt(is_up, full_of, zero.select_lt(load, before.liquid, zero));
+        Plunger { load, velocity: (wave - load) / self.impedance, gas, liquid }
     }
 
     /// Load with both valves shut, within what opens them.
@@ -107,7 +113,8 @@ impl<R: Real> Pump<R> {
         let soft = zero.select_lt(self.softness, before.gas, zero);
         let under = self.under(before.load);
         // How far the plunger gives way a newton, over a step a newton of the wave: ∞ of a rigid column counts as 1e4.
-        let give = self.compliance + soft * self.softness * self.relative(under) / under;
+        let compliance = self.compliance + self.compressibility * before.liquid;
+        let give = compliance + soft * self.softness * self.relative(under) / under;
         let z = (step / (self.impedance * give.max(step * 1e-4 / self.impedance))).max(R::splat(1e-6));
         let weight = z.select_lt(
             R::splat(1e-2),
@@ -120,7 +127,7 @@ impl<R: Real> Pump<R> {
         let held = before.load.select_lt(self.load, held, held.min(zero));
         let slip = self.slip / self.load;
         let start = (held - slip * before.load) * (one - weight);
-        Balance { wave, step, weight, start, slip, soft, length: soft * self.relative(under) }
+        Balance { wave, step, weight, start, slip, soft, compliance, length: soft * self.relative(under) }
     }
 
     /// Pressure under the plunger on its area, at a load \[N\].
@@ -148,6 +155,8 @@ struct Balance<R> {
     slip: R,
     /// Gas that is compressed, at intake pressure \[m\].
     soft: R,
+    /// κ \[m/N\].
+    compliance: R,
     /// The length that it had \[m\].
     length: R,
 }
@@ -159,11 +168,11 @@ impl<R: Real> Balance<R> {
         let under = pump.under(load);
         let length = self.soft * pump.relative(under);
         let velocity = (self.wave - load) / pump.impedance - self.slip * load;
-        let grown = length - self.length + pump.compliance * (load - before.load);
+        let grown = length - self.length + self.compliance * (load - before.load);
         let excess = grown - self.step * (self.start + self.weight * velocity);
         let zero = R::splat(0.0);
         let soft = zero.select_lt(self.soft, length * pump.softness / under, zero);
         let rate = self.step * self.weight * (pump.impedance.recip() + self.slip);
-        (excess, soft + pump.compliance + rate)
+        (excess, soft + self.compliance + rate)
     }
 }

@@ -53,6 +53,7 @@ def solve_string(string: RodString, period: float, motion: Floats, start: Floats
         motion=np.ascontiguousarray(motion, dtype=float),
         load=float(string.fluid_load),
         compliance=float(pump.tubing_compliance(string.length)),
+        compressibility=float(1 / (pump.bulk_modulus * pump.area)),
         slip=float(pump.leak / pump.area),
         fillage=pump.fillage,
         discharge=float(string.discharge * pump.area),

@@ -12,7 +12,7 @@ from linkwright.kernel.arrays import Floats
 _MOVING = 0.3
 
 # Weight of a load while the plunger sinks, which is none with the travelling valve open, beside the scatter.
-_NO_LOAD = 0.3
+_NO_LOAD = 0.5
 
 # Share of the fluid load beyond which a sample is no scatter about a level but a change of it.
 _SCATTER = 0.25

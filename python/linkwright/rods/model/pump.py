@@ -42,6 +42,11 @@ class SuckerRodPump(CheckedDescription):
         "the intake pressure. Default: gas without pressure; the load falls where the plunger meets the "
         "liquid.",
     )
+    bulk_modulus: Annotated[float, positive(PRESSURE)] = Field(
+        1.5e9,
+        description="Bulk modulus of the liquid, which the plunger compresses in the barrel before the "
+        "travelling valve opens.",
+    )
     leak: Annotated[float, not_negative(VOLUME_FLOW)] = Field(
         0.0, description="Slippage past plunger and travelling valve under the full fluid load."
     )
