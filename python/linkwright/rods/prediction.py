@@ -95,7 +95,7 @@ class RodStringMotion(Result):
         float, Label("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.", table="rod_string")
     ]
     production: Annotated[
-        float, Label("production", "Q", "m³/s", "Liquid, at pump conditions.", table="rod_string")
+        float, Label("production", "Q", "m³/s", "Liquid, at discharge pressure.", table="rod_string")
     ]
     power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="rod_string")]
     power_pump: Annotated[float, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")]
@@ -237,7 +237,9 @@ def _result(
     plunger, pump_load = cards.position[-1], cards.load[-1]
     stroke = float(np.ptp(plunger - pump.tubing_compliance(string.length) * pump_load))
     leaked = pump.leak * float(pump_load.mean()) / string.fluid_load
-    production = pump.area * pump.fillage * stroke / period - leaked
+    # Liquid is sold at discharge pressure, to which the plunger compresses it.
+    compressed = 1 - (string.discharge - string.intake) / pump.bulk_modulus
+    production = pump.area * pump.fillage * stroke * compressed / period - leaked
     gear = _gear(rod, moved, load, is_best=False)
     is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
     best = _gear(rod, moved, load, is_best=True) if is_given else gear
