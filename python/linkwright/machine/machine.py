@@ -205,13 +205,13 @@ class Machine(WholeDescription):
 
     @property
     def is_rod_string_alone(self) -> bool:
-        """Whether it is a rod string whose polished rod moves harmonically or was measured, and nothing else."""
+        """Whether it is a rod string without a unit, and nothing else."""
         beside = (self.topper, self.train, self.pumping_unit, self.turning_moment)
         return self.rod_string is not None and not any(beside) and _is_left_out(self)
 
     @property
     def has_crank(self) -> bool:
-        """Whether a crank moves a mechanism: not so where a train, topper, diagram or rod string stands alone."""
+        """Whether a crank moves a mechanism: not so in a train, topper, diagram or rod string alone."""
         alone = (self.is_train_alone, self.is_topper_alone, self.is_diagram_alone, self.is_rod_string_alone)
         return not any(alone)
 

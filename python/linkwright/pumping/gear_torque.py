@@ -297,7 +297,7 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
 
 
 def equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:
-    """The counterbalance with which samples of both strokes have equal peaks; `is_up`: those of the upstroke."""
+    """The counterbalance of equal peaks by samples of both strokes; `is_up`: those of the upstroke."""
 
     def excess(size: float) -> float:
         net = turn.net(size)

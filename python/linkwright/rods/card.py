@@ -17,14 +17,14 @@ from linkwright.rods.model.rod_string import GRAVITY, RodString
 # Samples of a stroke at least.
 _LEAST = 24
 
-# A card closes if the step from its end to its start, over the ranges of position and load, is not above this share
-# and some times the largest of its other steps.
+# A card closes if the step from its end to its start, over the ranges of position and load, is below this
+# share, or some times the largest of its other steps.
 _GAP, _STEPS = 0.05, 3.0
 
 # What a stroke may differ from that of the unit, beyond which it is in another unit or of another hole.
 _STROKE_AGREES = 0.1
 
-# Mean dynamic load that a card may have: beyond the load of a column of fluid from the pump up, or below none.
+# Mean dynamic load that a card may have: above the load of a fluid column from the pump, or below none.
 _ABOVE, _BELOW = 1.25, 0.15
 
 # Factors between units of force, and between units of length, with the unit that the numbers are in.
@@ -61,8 +61,8 @@ def read_card(path: str | os.PathLike[str]) -> SurfaceCard:
     steps = np.diff(columns["time"])
     if not len(steps) or steps.min() <= 0 or np.ptp(steps) > 0.2 * steps.mean():
         raise InputError(
-            f"{path}: column time: found times that are not equally spaced; expected samples of one stroke at "
-            "equal steps of time"
+            f"{path}: column time: found times that are not equally spaced; expected samples of one "
+            "stroke at equal steps of time"
         )
     closes = position[0] == position[-1] and load[0] == load[-1]
     period = float(steps.mean() * (len(steps) + (0 if closes else 1)))
@@ -101,8 +101,8 @@ def _require_closed(position: Floats, load: Floats) -> None:
     )
     if steps[-1] > max(_GAP, _STEPS * np.sort(steps[:-1])[-2]):
         raise InputError(
-            f"card: it does not close: from its last sample to its first it is {100 * steps[-1]:.0f} % of its "
-            "ranges; expected samples of one whole stroke"
+            f"card: it does not close: from its last sample to its first it is {100 * steps[-1]:.0f} % "
+            "of its ranges; expected samples of one whole stroke"
         )
 
 
@@ -111,9 +111,9 @@ def _require_forward(position: Floats, load: Floats) -> None:
     work = float(load @ (np.roll(position, -1) - np.roll(position, 1))) / 2
     if work <= 0:
         raise InputError(
-            f"card: found a stroke in which the rods drive the unit, its work is {work:.4g} J; expected loads that "
-            "are higher on the upstroke: reverse the order of the samples, or the sign of the position, which "
-            "counts upward"
+            f"card: found a stroke in which the rods drive the unit, its work is {work:.4g} J; expected "
+            "loads that are higher on the upstroke: reverse the order of the samples, or the sign of the "
+            "position, which counts upward"
         )
 
 
@@ -136,8 +136,9 @@ def _require_load(mean: float, string: RodString) -> None:
         return
     remedy = _unit_remedy(_FORCES, lambda factor: low <= mean * factor <= high)
     raise InputError(
-        f"card: found a mean load of {mean:.4g} N, expected {low:.4g} to {high:.4g} N by the weight of the rods in "
-        f"the fluid, {weight:.4g} N, and the column of fluid on the plunger" + (remedy or "; compare the sections")
+        f"card: found a mean load of {mean:.4g} N, expected {low:.4g} to {high:.4g} N by the weight of the "
+        f"rods in the fluid, {weight:.4g} N, and the column of fluid on the plunger"
+        + (remedy or "; compare the sections")
     )
 
 

@@ -1,4 +1,4 @@
-"""``linkwright rods FILE``: prediction of a rod string; with ``--card``, diagnosis of a measured surface card."""
+"""``linkwright rods FILE``: prediction of a rod string; with ``--card``, diagnosis of a measured card."""
 
 from __future__ import annotations
 
@@ -19,13 +19,15 @@ Card = Annotated[
     Option(
         "--card",
         "CSV",
-        "Measured surface card: one stroke at equal steps of time, with a header such as `position [m], load [kN]`; "
-        "a column `time [s]` gives its period.",
+        "Measured surface card: one stroke at equal steps of time, with a header such as `position [m], "
+        "load [kN]`; a column `time [s]` gives its period.",
     ),
 ]
 Period = Annotated[
     float | None,
-    Value("--period", positive(TIME), "Period of the stroke of the card. Default: column time, or the speed."),
+    Value(
+        "--period", positive(TIME), "Period of the stroke of the card. Default: column time, or the speed."
+    ),
 ]
 Damping = Annotated[
     float | None,
@@ -35,9 +37,7 @@ Harmonics = Annotated[
     int | None,
     Option("--harmonics", "N", "Harmonics of the card that count. Default: those above its noise.", min=1),
 ]
-To = Annotated[
-    FolderOutput, to_folder("Write results.json and the cards as CSV there.", curves=Curves)
-]
+To = Annotated[FolderOutput, to_folder("Write results.json and the cards as CSV there.", curves=Curves)]
 
 
 def rods(

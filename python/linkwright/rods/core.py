@@ -21,9 +21,7 @@ def core_string(string: RodString, damping: float | None = None) -> _core.RodStr
     """The sections of a string, with another damping [1/s] if given."""
     columns = string.columns
     rate = columns.damping if damping is None else np.full(len(columns.mass), damping)
-    return _core.RodString(
-        rigidity=columns.rigidity, mass=columns.mass, damping=rate, length=columns.length
-    )
+    return _core.RodString(rigidity=columns.rigidity, mass=columns.mass, damping=rate, length=columns.length)
 
 
 class Solved(NamedTuple):
@@ -66,8 +64,10 @@ def solve_string(string: RodString, period: float, motion: Floats, start: Floats
 
 
 def sample_counts(string: RodString, period: float, least: int) -> list[int]:
-    """Even numbers of samples, `least` or up to a third more, best first: those in whose steps waves travel through
-    sections as nearly as can be, so that corners of the load stay corners as in the method of characteristics.
+    """Even numbers of samples, `least` or up to a third more, best first.
+
+    In whose steps waves travel through sections as nearly as can be, corners of the load stay corners, as in the
+    method of characteristics.
     """
     columns = string.columns
     delays = columns.length * np.sqrt(columns.mass / columns.rigidity) / period

@@ -1,8 +1,8 @@
 """Diagnosis of a measured surface card: the cards of every taper and of the pump.
 
-Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is fitted: with
-the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever it sinks through
-it.
+Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever it
+sinks through it.
 
 References
 ----------
@@ -50,7 +50,13 @@ class CardDiagnosis(Result):
     position: Annotated[Floats, Label("position", "u", "m", "Upward.", "(stations, n)")]
     load: Annotated[
         Floats,
-        Label("dynamic load", "F", "N", "Tension beyond the weight of the rods in the fluid below.", "(stations, n)"),
+        Label(
+            "dynamic load",
+            "F",
+            "N",
+            "Tension beyond the weight of the rods in the fluid below.",
+            "(stations, n)",
+        ),
     ]
     rod_position: Annotated[
         Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
@@ -59,7 +65,9 @@ class CardDiagnosis(Result):
     period: Annotated[float, Label("period of a stroke", "T", "s", table="diagnosis")]
     stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", table="diagnosis")]
     load_max: Annotated[float, Label("peak polished-rod load", "PPRL", "N", "Measured.", table="diagnosis")]
-    load_min: Annotated[float, Label("minimum polished-rod load", "MPRL", "N", "Measured.", table="diagnosis")]
+    load_min: Annotated[
+        float, Label("minimum polished-rod load", "MPRL", "N", "Measured.", table="diagnosis")
+    ]
     plunger_stroke: Annotated[float, Label("plunger stroke", "S_p", "m", table="diagnosis")]
     fillage: Annotated[
         float,
@@ -74,9 +82,7 @@ class CardDiagnosis(Result):
     fluid_load: Annotated[
         float, Label("fluid load on the plunger", "F_o", "N", "By the pump card.", table="diagnosis")
     ]
-    fluid_load_file: Annotated[
-        float, Label("fluid load by the machine file", "", "N", table="diagnosis")
-    ]
+    fluid_load_file: Annotated[float, Label("fluid load by the machine file", "", "N", table="diagnosis")]
     intake_pressure: Annotated[
         float, Label("intake pressure by the pump card", "p_i", "Pa", table="diagnosis")
     ]
@@ -84,7 +90,9 @@ class CardDiagnosis(Result):
         float, Label("production", "Q", "m³/s", "Fillage times plunger displacement.", table="diagnosis")
     ]
     power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="diagnosis")]
-    power_pump: Annotated[float, Label("power of the pump", "P_p", "W", "Area of its card.", table="diagnosis")]
+    power_pump: Annotated[
+        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="diagnosis")
+    ]
     power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="diagnosis")]
     damping: Annotated[float, Label("damping", "c", "1/s", table="diagnosis")]
     damping_factor: Annotated[float, Label("damping factor", "ν", "", "2cL/(πa).", table="diagnosis")]
@@ -139,7 +147,8 @@ def diagnose_card(
     Raises
     ------
     InputError
-        The card does not close, runs backwards, has too few samples, or loads that rods and fluid cannot cause.
+        The card does not close, runs backwards, has too few samples, or loads that rods and fluid cannot
+        cause.
     FindingError
         The pump card has no upstroke with a load above that of the downstroke.
     """
@@ -176,7 +185,7 @@ def _period(machine: Machine, string: RodString, given: float | None) -> float:
 
 
 def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) -> float:
-    """Damping at which the pump load is most even while the plunger lifts, and next to none while it sinks."""
+    """Damping at which the pump load is even while the plunger lifts, and none while it sinks."""
     from scipy.optimize import minimize_scalar
 
     unit = np.pi * float(string.sound) / (2 * float(string.length))
@@ -198,8 +207,8 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
 
 def _no_pump_card() -> FindingError:
     return FindingError(
-        "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, or "
-        "sections and card are of different wells"
+        "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, "
+        "or sections and card are of different wells"
     )
 
 

@@ -38,7 +38,11 @@ class ApiNumbers(Result):
     stroke_force: Annotated[
         float,
         Label(
-            "force that stretches the rods by the stroke", "S k_r", "N", "Stroke times spring rate.", table="rod_numbers"
+            "force that stretches the rods by the stroke",
+            "S k_r",
+            "N",
+            "Stroke times spring rate.",
+            table="rod_numbers",
         ),
     ]
     load_ratio: Annotated[float, Label("fluid load", "F_o/Sk_r", "", "Over S k_r.", table="rod_numbers")]
@@ -78,7 +82,7 @@ class ApiNumbers(Result):
 def api_numbers(
     string: RodString, stroke: float, period: float, plunger_stroke: float, load: Floats, torque: float | None
 ) -> ApiNumbers:
-    """The terms of a motion with `load` (n,) of the polished rod [N] and a peak torque of the gearbox [N m]."""
+    """The terms of a motion: load (n,) of the polished rod [N], peak torque of the gearbox [N m]."""
     uniform = float(string.sound / (4 * string.length))
     tapered = natural_frequency(string)
     force = float(stroke * string.stiffness)

@@ -25,13 +25,14 @@ class PlungerLoad(NamedTuple):
     fluid_load: float  # level of the upstroke over that of the downstroke [N]
     level: float  # load while the plunger sinks through the fluid [N]
     fillage: float  # share of the stroke left when half the fluid load has fallen
-    # Mean square of the scatter about both levels and of a load with the travelling valve open, over the fluid load
-    # squared.
+    # Mean square of scatter about both levels and of load with the travelling valve open, over its square.
     unevenness: float
 
 
 def plunger_load(position: Floats, load: Floats) -> PlungerLoad | None:
-    """Of samples (n,) over a stroke; None where the load of the upstroke is not above that of the downstroke."""
+    """Of samples (n,) over a stroke; None where the load of the upstroke is not above that of the
+    downstroke.
+    """
     velocity = np.roll(position, -1) - np.roll(position, 1)
     up, down = velocity > _MOVING * velocity.max(), velocity < _MOVING * velocity.min()
     if not (up.any() and down.any()):

@@ -100,7 +100,7 @@ class UnitRod:
 
         steady = self.steady
         angle_of = CubicHermiteSpline(steady.time, steady.crank_angle, steady.speed)
-        at_start = np.interp(start, steady.crank_angle, steady.time)
+        at_start = float(np.interp(start, steady.crank_angle, steady.time))
         while abs(late := angle_of(at_start) - start) > 1e-13:
             at_start -= late / angle_of(at_start, 1)
         return np.asarray(angle_of((at_start + times * self.period) % self.period))
@@ -117,7 +117,9 @@ class UnitRod:
         return isinstance(entries.counterbalance, float) or entries.counterbalance_effect is not None
 
     def with_load(self, angles: Floats, load: Floats, *, is_best: bool) -> Any:
-        """The unit with a load of the polished rod over crank angles; `is_best`: with the best counterbalance."""
+        """The unit with a load of the polished rod over crank angles; `is_best`: with the best
+        counterbalance.
+        """
         order = np.argsort(angles)
         entries: Mapping[str, Any] = {
             "angle": tuple(angles[order].tolist()),
@@ -136,8 +138,9 @@ class UnitRod:
         return turn, float(given) if isinstance(given, int | float) else equal_peaks(turn, factor >= 0)
 
     def take(self, load: Floats) -> float:
-        """The motion of the drive under samples (n,) of the load over the period; by how much that moves the rod
-        at most, over its stroke.
+        """The motion of the drive under samples (n,) of the load over the period.
+
+        Returns by how much that moves the rod at most, over its stroke.
         """
         if not self.has_motor:
             return 0.0

@@ -1,6 +1,7 @@
 r"""Predicted motion of a rod string: cards from the polished rod to the pump.
 
-The displacement of a section is :math:`u_{tt} = a^2 u_{xx} - c\,u_t`, exact per harmonic through any number of
+The displacement of a section is :math:`u_{tt} = a^2 u_{xx} - c\,u_t`, exact per harmonic through any
+number of
 sections; valves of the pump make its load of the wave that comes down the rods, instant by instant
 (`crates/linkwright-rods`). The polished rod moves as its unit does at the speed that its drive has under this
 load.
@@ -53,7 +54,8 @@ class RodStringMotion(Result):
     time: Annotated[Floats, Label("time", "t", "s", "From the bottom of the stroke.")]
     stations: Annotated[tuple[str, ...], About("The polished rod, the tapers, the pump.")]
     position: Annotated[
-        Floats, Label("position", "u", "m", "Upward, from the string at rest without pump load.", "(stations, n)")
+        Floats,
+        Label("position", "u", "m", "Upward, from the string at rest without pump load.", "(stations, n)"),
     ]
     load: Annotated[
         Floats,
@@ -98,7 +100,9 @@ class RodStringMotion(Result):
         float, Label("production", "Q", "m³/s", "Liquid, at discharge pressure.", table="rod_string")
     ]
     power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="rod_string")]
-    power_pump: Annotated[float, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")]
+    power_pump: Annotated[
+        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")
+    ]
     power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="rod_string")]
     power_hydraulic: Annotated[
         float, Label("hydraulic power", "P_h", "W", "Production times pressure rise.", table="rod_string")
@@ -114,14 +118,17 @@ class RodStringMotion(Result):
         float,
         Label("residual of the work balance", "", "", "Of the string, over the work of the polished rod."),
     ]
-    harmonics: Annotated[int, Label("harmonics", "", "", "Of the stroke, the finest solution.", table="rod_string")]
+    harmonics: Annotated[
+        int, Label("harmonics", "", "", "Of the stroke, the finest solution.", table="rod_string")
+    ]
     accuracy: Annotated[
         float,
         Label(
             "accuracy reached",
             "",
             "",
-            "Difference from the solution with half the harmonics: of peak and minimum load over their range, of "
+            "Difference from the solution with half the harmonics: of peak and minimum load over their "
+            "range, of "
             "the plunger stroke over the stroke.",
             table="rod_string",
         ),
@@ -203,8 +210,9 @@ def _settled(
 def _periodic(
     string: RodString, rod: HarmonicRod | UnitRod, counts: list[int], start: Floats | None
 ) -> tuple[RodMotion, Solved]:
-    """The string under a motion of the polished rod. Where a jump of the load falls on a sample, sweeps may move it to
-    and fro: other samples have it between them.
+    """The string under a motion of the polished rod.
+
+    Where a jump of the load falls on a sample, sweeps may move it to and fro: others have it between them.
     """
     for n in counts[:_TRIALS]:
         moved = rod.motion(n)
@@ -213,12 +221,15 @@ def _periodic(
             return moved, solved
     raise ConvergenceError(
         f"no periodic motion of the rod string was found: waves between string and pump still change by "
-        f"{solved.change:.2g} of the fluid load; expected damping by which they die out, see rod_string.damping"
+        f"{solved.change:.2g} of the fluid load; expected damping by which they die out, see "
+        "rod_string.damping"
     )
 
 
 def polished_rod_load(string: RodString, moved: RodMotion, dynamic: Floats) -> Floats:
-    """Load of the polished rod: dynamic load, weight of the rods in the fluid, friction of the stuffing box [N]."""
+    """Load of the polished rod: dynamic load, weight of the rods in the fluid, friction of the stuffing
+    box [N].
+    """
     direction = np.sign(np.roll(moved.position, -1) - np.roll(moved.position, 1))
     return np.asarray(dynamic + string.weight_fluid + string.stuffing_box * direction)
 
@@ -288,9 +299,7 @@ def station_names(string: RodString) -> tuple[str, ...]:
     return ("polished rod", *tapers, "pump")
 
 
-def _gear(
-    rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats, *, is_best: bool
-) -> GearTorque | None:
+def _gear(rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats, *, is_best: bool) -> GearTorque | None:
     if not isinstance(rod, UnitRod) or moved.crank_angle is None:
         return None
     order = np.argsort(moved.crank_angle)

@@ -47,7 +47,8 @@ class RodStress(Result):
     stress_max: Annotated[Floats, Label("maximum stress", "S_max", "Pa", shape="(sections,)")]
     stress_min: Annotated[Floats, Label("minimum stress", "S_min", "Pa", shape="(sections,)")]
     stress_permissible: Annotated[
-        Floats, Label("permissible maximum stress", "S_A", "Pa", "At this minimum stress.", shape="(sections,)")
+        Floats,
+        Label("permissible maximum stress", "S_A", "Pa", "At this minimum stress.", shape="(sections,)"),
     ]
     loading: Annotated[
         Floats,
@@ -74,7 +75,7 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
     permissible = (tensile / 4 + 0.5625 * smallest) * string.service_factor
     room = permissible - smallest
     return RodStress(
-        sections=tuple(s.rod and f"{s.rod} in" or f"{1e3 * s.body:.4g} mm" for s in string.sections),
+        sections=tuple(f"{s.rod} in" if s.rod else f"{1e3 * s.body:.4g} mm" for s in string.sections),
         length=columns.length,
         load_max=high[:-1],
         load_min=low[:-1],
@@ -83,6 +84,8 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
         stress_min=smallest,
         stress_permissible=permissible,
         # Beyond what any range permits the loading is without bound.
-        loading=np.where(room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * tensile),
+        loading=np.where(
+            room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * tensile
+        ),
         tensile=tensile,
     )

@@ -49,7 +49,15 @@ def sections_table(stress: RodStress) -> Table:
         "rod_sections",
         "Sections of the rod string",
         parts_of(stress, "sections"),
-        ("section", "length", "maximum load", "minimum load", "maximum stress", "minimum stress", "Goodman loading"),
+        (
+            "section",
+            "length",
+            "maximum load",
+            "minimum load",
+            "maximum stress",
+            "minimum stress",
+            "Goodman loading",
+        ),
         _name,
         "length",
         "load_max",
@@ -74,7 +82,8 @@ def _gear(gear: GearTorque, best: GearTorque) -> Table:
     without = [name for name in in_table(GearTorque, "gear_torque") if getattr(gear, name) is None]
     of_given, of_best = (rows_in(each, "gear_torque", rated, without=without) for each in (gear, best))
     rows: list[Row] = [
-        (given[0], given[1], given[2], other[2], given[3]) for given, other in zip(of_given, of_best, strict=True)
+        (given[0], given[1], given[2], other[2], given[3])
+        for given, other in zip(of_given, of_best, strict=True)
     ]
     heads = ("quantity", "", "value", "best counterbalance", "rating")
     return Table("rod_gear", "Torque of the gearbox under the rod string", heads, rows)

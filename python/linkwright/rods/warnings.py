@@ -35,7 +35,8 @@ def string_findings(motion: RodStringMotion) -> Iterator[str]:
         )
     if gear.load_rated is not None and motion.load_max > gear.load_rated:
         yield (
-            f"The structure is overloaded by the rod string: the polished rod carries {motion.load_max:.4g} N, "
+            "The structure is overloaded by the rod string: the polished rod carries "
+            f"{motion.load_max:.4g} N, "
             f"{100 * motion.load_max / gear.load_rated:.0f} % of its rating of {gear.load_rated:.4g} N."
         )
 
@@ -44,7 +45,8 @@ def _goodman(stress: RodStress) -> Iterator[str]:
     for n, name in enumerate(stress.sections):
         if stress.loading[n] > 1:
             yield (
-                f"Section {n + 1} ({name}) is overloaded: its stress reaches {stress.stress_max[n] / 1e6:.4g} MPa, "
+                f"Section {n + 1} ({name}) is overloaded: its stress reaches "
+                f"{stress.stress_max[n] / 1e6:.4g} MPa, "
                 f"the modified Goodman diagram permits {stress.stress_permissible[n] / 1e6:.4g} MPa."
             )
 
@@ -54,17 +56,20 @@ def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]
     yield from _buckling(motion.stress, motion.fluid_load)
     if motion.load_min < 0:
         yield (
-            f"The load of the polished rod falls to {motion.load_min:.4g} N: the rods fall more slowly than the "
+            f"The load of the polished rod falls to {motion.load_min:.4g} N: the rods fall more slowly "
+            "than the "
             "carrier bar; reduce the speed."
         )
     if motion.accuracy > _INACCURATE:
         yield (
-            f"Peak loads of the rod string are accurate to {100 * motion.accuracy:.2g} % of their range only, with "
+            f"Peak loads of the rod string are accurate to {100 * motion.accuracy:.2g} % of their range "
+            "only, with "
             f"{motion.harmonics} harmonics: the load of the pump falls too suddenly."
         )
     if string.damping is None and "damping_factor" not in string.model_fields_set:
         yield (
-            f"The damping of the rod string is assumed: a damping factor of {string.damping_factor:.3g}. A measured "
+            f"The damping of the rod string is assumed: a damping factor of {string.damping_factor:.3g}. A "
+            "measured "
             "card tells it: `linkwright rods FILE --card`."
         )
 
@@ -85,13 +90,18 @@ def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]
     ratio = found.fluid_load / found.fluid_load_file
     if abs(ratio - 1) > _DIFFERS:
         yield (
-            f"The pump card shows a fluid load of {found.fluid_load:.4g} N, the machine file {found.fluid_load_file:.4g} N: "
+            f"The pump card shows a fluid load of {found.fluid_load:.4g} N, the machine file "
+            f"{found.fluid_load_file:.4g} N: "
             "compare fluid level, plunger and calibration of the load cell."
         )
     if found.is_fitted and (found.damping == 0 or found.damping_factor > 0.9):
         yield (
-            f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end of its range: "
+            f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "
+            "of its range: "
             "give rod_string.damping with --damping."
         )
     if np.isfinite(string.inclination) and string.inclination > np.radians(3):
-        yield "The well is inclined: friction of the rods on the tubing, which is left out, counts as load of the pump."
+        yield (
+            "The well is inclined: friction of the rods on the tubing, which is left out, counts as load of "
+            "the pump."
+        )

@@ -353,8 +353,8 @@ def _require_mechanism(machine: Machine) -> None:
         )
     if machine.is_rod_string_alone:
         raise InputError(
-            f"{machine.name} is a rod string without a [pumping_unit]: no crank moves it; `linkwright rods` has "
-            "its cards"
+            f"{machine.name} is a rod string without a [pumping_unit]: no crank moves it; "
+            "`linkwright rods` has its cards"
         )
     if machine.is_topper_alone:
         raise InputError(

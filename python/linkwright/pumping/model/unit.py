@@ -8,7 +8,7 @@ r"""Beam pumping units, described by the letters of API Spec 11E, and the mechan
 | `H`, `G` | heights of the saddle bearing and of the crankshaft above the base |
 | `P` | pitman: equalizer bearing to crank pin |
 | `R` | crank: crankshaft to crank pin |
-| `K` | crankshaft to saddle bearing, :math:`K^2 = I^2 + (H - G)^2`; tables of makers give it in place of H and G |
+| `K` | crankshaft to saddle bearing, :math:`K^2 = I^2 + (H - G)^2` (in place of H and G) |
 
 A conventional unit is a lever of class I: the pitman pulls behind the saddle bearing, and the shaft lies
 behind it. Mark II and air-balanced units are levers of class III: the pitman pushes between saddle and

@@ -2,7 +2,8 @@ r"""A string of sucker rods: sections from the polished rod down, the fluid arou
 
 Rods are catalogued by diameter and weight per length with couplings, not by a density: the speed of sound is
 :math:`a = \sqrt{EA/\mu}` with that weight. Displacements and dynamic forces are counted from the string at
-rest in the fluid without a load of the pump; its weight in the fluid is added to the load of the polished rod:
+rest in the fluid without a load of the pump; the load of the polished rod has its weight in the
+fluid besides:
 
 .. math::
 

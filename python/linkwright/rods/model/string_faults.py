@@ -18,7 +18,9 @@ def string_faults(machine: object) -> Iterator[InitErrorDetails]:
     if string is None:
         if load is not None and not tables:
             yield fault(
-                "pumping_unit", "load", expected="either angle and force, or position, up and down, or a [rod_string]"
+                "pumping_unit",
+                "load",
+                expected="either angle and force, or position, up and down, or a [rod_string]",
             )
         return
     if tables:
