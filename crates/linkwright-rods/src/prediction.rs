@@ -85,7 +85,7 @@ pub fn predict<R: Real>(
         sweeps += 1;
     }
     sweep.answer(&wave);
-    let top = sweep.top(&string, &position);
+    let top = sweep.top(&string, period, &position);
     Prediction { top, load: sweep.load, velocity: sweep.velocity, wave, sweeps, change }
 }
 
@@ -159,13 +159,21 @@ impl<R: Real> Sweep<'_, R> {
         self.fourier.backward(&self.harmonics, &mut self.room, next);
     }
 
-    /// Harmonics at the polished rod by those of the load of the pump: F₀ = (F − m₂₁ y₀)/m₂₂.
-    fn top(&mut self, string: &Returns<R>, position: &[Complex<R>]) -> Vec<State<R>> {
+    /// Harmonics at the polished rod by those of load and velocity of the plunger: F₀ = m₁₁ F − m₂₁ y, which holds where the
+    /// string is in resonance, too.
+    fn top(&mut self, string: &Returns<R>, period: R, position: &[Complex<R>]) -> Vec<State<R>> {
         self.fourier.forward(&self.load, &mut self.room, &mut self.harmonics);
-        let state = |((matrix, &position), &load): ((&Transfer<R>, _), _)| {
-            let [from_position, from_load] = matrix.rows[1];
-            State { position, load: (load - from_position * position) * from_load.recip() }
+        let mut velocity = self.harmonics.clone();
+        self.fourier.forward(&self.velocity, &mut self.room, &mut velocity);
+        let state = |(n, &position): (usize, _)| {
+            let [[own, _], [from_position, _]] = string.matrices[n].rows;
+            let load = self.harmonics[n];
+            if n == 0 {
+                return State { position, load };
+            }
+            let plunger = (velocity[n].turned() * -1.0).times(period * (1.0 / (TAU * n as f64)));
+            State { position, load: own * load - from_position * plunger }
         };
-        string.matrices.iter().zip(position).zip(&self.harmonics).map(state).collect()
+        position.iter().enumerate().map(state).collect()
     }
 }

@@ -11,7 +11,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.rods.model.rod_string import RodString
 
 # Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load.
-_SWEEPS, _TOLERANCE = 2000, 1e-9
+_SWEEPS, _TOLERANCE = 2000, 1e-11
 
 # Prime factors of a number of samples.
 _FACTORS = (2, 3, 5)
@@ -66,8 +66,8 @@ def solve_string(string: RodString, period: float, motion: Floats, start: Floats
 def sample_counts(string: RodString, period: float, least: int) -> list[int]:
     """Even numbers of samples, `least` or up to a third more, best first.
 
-    In whose steps waves travel through sections as nearly as can be, corners of the load stay corners, as in the
-    method of characteristics.
+    The steps of the best are nearly parts of the time of a wave through every section: corners of the load
+    stay corners, as in the method of characteristics.
     """
     columns = string.columns
     delays = columns.length * np.sqrt(columns.mass / columns.rigidity) / period
@@ -90,7 +90,7 @@ def cards_of(
     """Cards along a string by samples (n,) of position [m] and dynamic load [N] at the polished rod."""
     return core_string(string, damping).cards(
         period=period,
-        position=np.ascontiguousarray(position),
-        load=np.ascontiguousarray(load),
+        position=np.ascontiguousarray(position, dtype=float),
+        load=np.ascontiguousarray(load, dtype=float),
         harmonics=len(position) // 2 - 1,
     )

@@ -1,14 +1,15 @@
 """Diagnosis of a measured surface card: the cards of every taper and of the pump.
 
 Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
-fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever it
-sinks through it.
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever
+it sinks through it.
 
 References
 ----------
 .. [1] Gibbs, Neely, Computer Diagnosis of Down-Hole Conditions in Sucker Rod Pumping Wells, J. Pet. Tech. 18
 (1966) 91.
-.. [2] Everitt, Jennings, An Improved Finite-Difference Calculation of Downhole Dynamometer Cards for Sucker-Rod
+.. [2] Everitt, Jennings, An Improved Finite-Difference Calculation of Downhole Dynamometer Cards for
+Sucker-Rod
 Pumps,
    SPE Production Engineering 7 (1992) 121: fillage and net stroke.
 """

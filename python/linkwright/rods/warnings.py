@@ -57,20 +57,17 @@ def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]
     if motion.load_min < 0:
         yield (
             f"The load of the polished rod falls to {motion.load_min:.4g} N: the rods fall more slowly "
-            "than the "
-            "carrier bar; reduce the speed."
+            "than the carrier bar; reduce the speed."
         )
     if motion.accuracy > _INACCURATE:
         yield (
             f"Peak loads of the rod string are accurate to {100 * motion.accuracy:.2g} % of their range "
-            "only, with "
-            f"{motion.harmonics} harmonics: the load of the pump falls too suddenly."
+            f"only, with {motion.harmonics} harmonics: the load of the pump falls too suddenly."
         )
     if string.damping is None and "damping_factor" not in string.model_fields_set:
         yield (
             f"The damping of the rod string is assumed: a damping factor of {string.damping_factor:.3g}. A "
-            "measured "
-            "card tells it: `linkwright rods FILE --card`."
+            "measured card tells it: `linkwright rods FILE --card`."
         )
 
 
@@ -91,14 +88,12 @@ def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]
     if abs(ratio - 1) > _DIFFERS:
         yield (
             f"The pump card shows a fluid load of {found.fluid_load:.4g} N, the machine file "
-            f"{found.fluid_load_file:.4g} N: "
-            "compare fluid level, plunger and calibration of the load cell."
+            f"{found.fluid_load_file:.4g} N: compare fluid level, plunger and calibration of the load cell."
         )
     if found.is_fitted and (found.damping == 0 or found.damping_factor > 0.9):
         yield (
             f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "
-            "of its range: "
-            "give rod_string.damping with --damping."
+            "of its range: give rod_string.damping with --damping."
         )
     if np.isfinite(string.inclination) and string.inclination > np.radians(3):
         yield (

@@ -1,8 +1,8 @@
 """Pumping units of a maker from a file of comma-separated values that a machine file names.
 
 The head names each column, with its unit in brackets: ``type, A [in], C [in], I [in], K [in], P [in],
-R [in]``. A cell of ``R`` may hold several crank radii, from the outermost hole in, separated by spaces; ``hole`` in the
-machine file chooses one. ``H`` and ``G`` may stand in place of ``K``.
+R [in]``. A cell of ``R`` may hold several crank radii, from the outermost hole in, separated by spaces;
+``hole`` in the machine file chooses one. ``H`` and ``G`` may stand in place of ``K``.
 """
 
 from __future__ import annotations
