@@ -69,7 +69,9 @@ def test_two_damped_sections_are_the_closed_form_of_their_matrices():
 
 
 def test_a_march_in_time_agrees_with_the_harmonics():
-    """Spectral elements with damping, marched by their exact exponential under a smooth pump load: to 1e-8 of the stroke."""
+    """Spectral elements with damping, marched by their exact exponential under a smooth pump load: to 1e-8
+    of the stroke.
+    """
     from scipy.linalg import expm
 
     string = well().rod_string
@@ -140,7 +142,9 @@ def pump_position(string, period, damping, rod, pump, samples):
 
 
 def spectral_elements(columns, order):
-    """Stiffness and lumped mass of a string over its rigidity, by Gauss–Lobatto nodes; first and last node."""
+    """Stiffness and lumped mass of a string over its rigidity, by Gauss–Lobatto nodes; first and last
+    node.
+    """
     from numpy.polynomial import legendre
 
     coefficients = np.zeros(order + 1)
@@ -168,7 +172,8 @@ def spectral_elements(columns, order):
 def characteristics(string, period, motion, periods):
     """Wave equation without damping by characteristics at Courant number 1, with a full pump that slips: exact.
 
-    ``motion``: samples (n,) of the polished rod; sections must take whole numbers of steps. Returns position and
+    ``motion``: samples (n,) of the polished rod; sections must take whole numbers of steps. Returns
+    position and
     load of the plunger, and the load of the polished rod, over the last period.
     """
     columns = string.columns
@@ -221,7 +226,8 @@ def test_characteristics_at_courant_number_1_agree_with_the_harmonic_solution(ce
     rods = [section.with_entries({"length": 1.0}) for section in base.sections[-len(cells) :]]
     sound = [np.sqrt(rod.modulus * rod.area / rod.mass) for rod in rods]
     sections = tuple(
-        rod.with_entries({"length": float(m * period / n * a)}) for rod, m, a in zip(rods, cells, sound, strict=True)
+        rod.with_entries({"length": float(m * period / n * a)})
+        for rod, m, a in zip(rods, cells, sound, strict=True)
     )
     depth = sum(section.length for section in sections)
     string = base.with_entries(
@@ -295,7 +301,9 @@ def test_heat_of_the_damping_is_the_integral_of_its_power():
     # Simpson's rule over pairs of parts.
     for i in range(2):
         at = power[i * parts : (i + 1) * parts + 1]
-        integral = (at[0] + at[-1] + 4 * at[1:-1:2].sum() + 2 * at[2:-1:2].sum()) * columns.length[i] / parts / 3
+        integral = (
+            (at[0] + at[-1] + 4 * at[1:-1:2].sum() + 2 * at[2:-1:2].sum()) * columns.length[i] / parts / 3
+        )
         assert whole.loss[i] == pytest.approx(0.8 * columns.mass[i] * integral * period, rel=1e-9)
 
 

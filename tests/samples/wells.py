@@ -22,11 +22,13 @@ def well(pump: dict[str, Any] | None = None, **entries: Any) -> lw.Machine:
         "stroke": "54 in",
         "speed": "16 rpm",
         "sections": sections,
-        "pump": {"plunger": "1.5 in", "fluid_level": "4500 ft"} | (pump or {}),
+        "pump": _given({"plunger": "1.5 in", "fluid_level": "4500 ft"} | (pump or {})),
     }
-    return lw.Machine.model_validate(
-        {"format": 1, "name": "well", "rod_string": {k: v for k, v in (string | entries).items() if v is not None}}
-    )
+    return lw.Machine.model_validate({"format": 1, "name": "well", "rod_string": _given(string | entries)})
+
+
+def _given(entries: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in entries.items() if value is not None}
 
 
 def random_well(generator: np.random.Generator) -> lw.Machine:
@@ -52,6 +54,7 @@ def random_well(generator: np.random.Generator) -> lw.Machine:
         speed=generator.uniform(3, 16 * min(1, 1500 / length)) * 2 * np.pi / 60,
         damping_factor=generator.uniform(0.05, 0.3),
         sections=[
-            {"rod": rod, "length": share * length, "grade": "D"} for rod, share in zip(rods, shares, strict=True)
+            {"rod": rod, "length": share * length, "grade": "D"}
+            for rod, share in zip(rods, shares, strict=True)
         ],
     )

@@ -10,8 +10,9 @@ from linkwright import _core
 from linkwright.kernel.arrays import Floats
 from linkwright.rods.model.rod_string import RodString
 
-# Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load.
-_SWEEPS, _TOLERANCE = 2000, 1e-11
+# Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load;
+# the change that is still a solution.
+_SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-11, 1e-6
 
 # Prime factors of a number of samples.
 _FACTORS = (2, 3, 5)
@@ -35,7 +36,7 @@ class Solved(NamedTuple):
     @property
     def has_converged(self) -> bool:
         """Whether the sweeps came to their end."""
-        return self.change <= _TOLERANCE
+        return self.change <= _SMALL
 
 
 def solve_string(string: RodString, period: float, motion: Floats, start: Floats | None = None) -> Solved:
