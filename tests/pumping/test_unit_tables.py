@@ -44,10 +44,10 @@ def test_a_table_of_a_maker_gives_the_unit_with_its_crank_hole(tmp_path):
     assert lw.pumping_unit(lw.read(path)).stroke / INCH == pytest.approx(120.14, abs=0.005)
     path.write_text(text + "hole = 2\n", encoding="utf-8")
     read = lw.read(path).pumping_unit
-    assert read.R == pytest.approx(44 * INCH)
+    assert pytest.approx(44 * INCH) == read.R
     assert read.structural_unbalance == pytest.approx(1200 * 4.4482216152605)
     path.write_text(text + 'R = "40 in"\n', encoding="utf-8")
-    assert lw.read(path).pumping_unit.R == pytest.approx(40 * INCH)
+    assert pytest.approx(40 * INCH) == lw.read(path).pumping_unit.R
     path.write_text(text + "hole = 4\n", encoding="utf-8")
     with pytest.raises(lw.MachineFileError, match="a crank hole from 1, the outermost, to 3"):
         lw.read(path)

@@ -129,10 +129,9 @@ def test_a_card_without_a_period_is_refused():
 def test_a_card_is_read_with_its_units_and_its_time(tmp_path):
     """position [in], load [lbf], time [s]: the period is the number of samples times their step."""
     _, position, load = card_of(well())
-    rows = zip(3.75 * np.arange(200) / 200, position / 0.0254, load / POUND, strict=True)
-    text = "time [s], position [in], load [lbf]\n" + "\n".join(
-        f"{a!r}, {b!r}, {c!r}" for a, b, c in map(lambda r: map(float, r), rows)
-    )
+    columns = np.stack([3.75 * np.arange(200) / 200, position / 0.0254, load / POUND], axis=1)
+    rows = [", ".join(map(repr, row)) for row in columns.tolist()]
+    text = "\n".join(["time [s], position [in], load [lbf]", *rows])
     path = tmp_path / "card.csv"
     path.write_text(text, encoding="utf-8")
     card = lw.read_card(path)

@@ -118,9 +118,7 @@ def test_a_march_in_time_agrees_with_the_harmonics():
 
 
 def pump_position(string, period, damping, rod, pump, samples):
-    """Position of the plunger by the cards of the package: the load at the polished rod is found so that the pump
-    has its own.
-    """
+    """Position of the plunger by the cards of the package, with the load of the pump that is wanted."""
     n = 64
     t = np.arange(n) / n
 
@@ -170,7 +168,7 @@ def spectral_elements(columns, order):
 
 
 def characteristics(string, period, motion, periods):
-    """Wave equation without damping by characteristics at Courant number 1, with a full pump that slips: exact.
+    """The undamped wave equation by characteristics at Courant number 1, with a full pump that slips: exact.
 
     ``motion``: samples (n,) of the polished rod; sections must take whole numbers of steps. Returns
     position and
@@ -217,7 +215,7 @@ def characteristics(string, period, motion, periods):
 
 @pytest.mark.parametrize("cells", [(60,), (40, 75)])
 def test_characteristics_at_courant_number_1_agree_with_the_harmonic_solution(cells):
-    """Without damping of the rods, valves and all: the same load of pump and polished rod to 1e-8 of the fluid load.
+    """Without damping of the rods, valves and all: the same wave at the pump to 1e-8 of the fluid load.
 
     What the pump lets slip damps instead: without either, vibrations would not die out.
     """

@@ -157,7 +157,7 @@ class UnitRod:
         angles = self._table_angles()
         turn, size = self.stroke_load(angles, load)
         torque = TorqueAngle.model_construct(
-            kind="torque_angle", angle=tuple(angles.tolist()), torque=tuple((-turn.net(size)).tolist())
+            kind="torque_angle", angle=tuple(angles.tolist()), torque=tuple(turn.net(size).tolist())
         )
         machine = self.machine.with_entries(
             {
