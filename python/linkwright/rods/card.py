@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.files.points import columns_of, read_columns
+from linkwright.kernel.public import public, public_type
 from linkwright.kernel.units.kinds import FORCE, LENGTH, TIME
 from linkwright.rods.model.rod_string import GRAVITY, RodString
 
@@ -38,19 +39,47 @@ _FORCES = {
 _LENGTHS = {"in": 0.0254, "ft": 0.3048, "cm": 0.01, "mm": 1e-3}
 
 
+@public_type
 @dataclass(frozen=True)
 class SurfaceCard:
-    """One stroke at equal steps of time, the last sample a step before the first one comes again."""
+    """One stroke at equal steps of time, the last sample a step before the first one comes again.
 
-    position: Floats  # (n,) upward [m]
-    load: Floats  # (n,) [N]
-    period: float | None = None  # [s], where the record says it
+    Attributes
+    ----------
+    position : ndarray, shape (n,)
+        Of the polished rod, upward [m].
+    load : ndarray, shape (n,)
+        Of the polished rod [N].
+    period : float or None
+        Of the stroke [s], where the record says it.
+    """
+
+    position: Floats
+    load: Floats
+    period: float | None = None
 
 
+@public
 def read_card(path: str | os.PathLike[str]) -> SurfaceCard:
-    """A card from a CSV file with the columns ``position [m], load [N]``, and ``time [s]`` if there is one.
+    """Read a measured surface card from a CSV file.
 
-    Raises `MachineFileError` for what cannot be read, `InputError` for times that are not equally spaced.
+    Parameters
+    ----------
+    path : path
+        File with the columns ``position [m]`` and ``load [N]``, in other units if the header says so, and
+        ``time [s]`` if there is one; a row a sample of one stroke.
+
+    Returns
+    -------
+    SurfaceCard
+        In SI, with the period if times are given.
+
+    Raises
+    ------
+    MachineFileError
+        The file cannot be read, or lacks a column.
+    InputError
+        Times are not equally spaced.
     """
     has_time = "time" in columns_of(Path(path), "", numbers=())[0]
     kinds = {"position": LENGTH, "load": FORCE, **({"time": TIME} if has_time else {})}

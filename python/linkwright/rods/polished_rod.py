@@ -28,6 +28,9 @@ _ANGLES = 360
 # Intervals of the revolution over which the crank angle is a function of time.
 _INTERVALS = 1440
 
+# Steps of Newton's method for the time at the bottom of the stroke.
+_NEWTON = 5
+
 # Name of the load of the crankshaft.
 _LOAD = "rod_string"
 
@@ -101,8 +104,8 @@ class UnitRod:
         steady = self.steady
         angle_of = CubicHermiteSpline(steady.time, steady.crank_angle, steady.speed)
         at_start = float(np.interp(start, steady.crank_angle, steady.time))
-        while abs(late := angle_of(at_start) - start) > 1e-13:
-            at_start -= late / angle_of(at_start, 1)
+        for _ in range(_NEWTON):
+            at_start -= float((angle_of(at_start) - start) / angle_of(at_start, 1))
         return np.asarray(angle_of((at_start + times * self.period) % self.period))
 
     @property

@@ -215,7 +215,7 @@ def _periodic(
 ) -> tuple[RodMotion, Solved]:
     """The string under a motion of the polished rod.
 
-    Where a jump of the load falls on a sample, sweeps may move it to and fro: others have it between them.
+    Where a jump of the load falls on a sample, sweeps may move it: others have it between them.
     """
     for n in counts[:_TRIALS]:
         moved = rod.motion(n)

@@ -11,7 +11,7 @@ from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.prediction import RodStringMotion
 from linkwright.rods.stress import RodStress
 
-# Accuracy of a solution beyond which it is told.
+# Accuracy of a solution beyond which the user is warned.
 _INACCURATE = 2e-3
 
 # Fluid load of a card over that of the file beyond which they differ.
