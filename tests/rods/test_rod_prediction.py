@@ -228,7 +228,7 @@ def test_friction_of_the_stuffing_box_is_work_at_the_polished_rod():
         ({}, {"depth": "5500 ft"}, "short of the pump"),
         ({"fluid_level": "6000 ft"}, {}, "a level above the pump"),
         ({"intake_pressure": "2e7 Pa", "fluid_level": None}, {}, "below the discharge pressure"),
-        ({}, {"inclination": "30 deg"}, "a vertical well"),
+        ({}, {"inclination": "30 deg"}, "from 0 to 10 deg"),
         ({}, {"specific_gravity": 900}, "a liquid of 300 to 2000"),
         ({}, {"sections": []}, "one section or more"),
         ({}, {"sections": [{"rod": "3/4", "length": 0}]}, "a length greater than 0"),

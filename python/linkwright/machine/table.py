@@ -133,7 +133,8 @@ def _unit(machine: Machine) -> Iterator[Part]:
         yield _part("Rod string", machine, ("rod_string",))
         yield _part("Rod string", machine, ("rod_string", "pump"))
         for n in range(len(machine.rod_string.sections)):
-            yield _part("Rod string", machine, ("rod_string", "sections", str(n)))
+            part = _part("Rod string", machine, ("rod_string", "sections", str(n)))
+            yield part._replace(name=f"section {n + 1}")
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:

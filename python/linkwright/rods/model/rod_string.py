@@ -55,7 +55,7 @@ _DEPTH_AGREES = 0.005
 
 # The equation of motion is that of a vertical string: the friction of rods on the tubing is none.
 _VERTICAL = Bound(
-    " from 0 to 10 deg, a vertical well,",
+    " from 0 to 10 deg,",
     {"minimum": 0, "maximum": np.radians(10)},
     lambda value: 0 <= value <= np.radians(10) * (1 + 1e-12),
 )
@@ -173,7 +173,7 @@ class RodString(CheckedDescription):
         None, description='Pumping speed, such as "8 rpm" for 8 strokes per minute, without a [drive].'
     )
     inclination: Annotated[float, Quantity(ANGLE, _VERTICAL)] = Field(
-        0.0, description="Maximum inclination of the well from the vertical."
+        0.0, description="Maximum inclination of the well from the vertical: vertical wells only."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
