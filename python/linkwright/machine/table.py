@@ -134,7 +134,7 @@ def _unit(machine: Machine) -> Iterator[Part]:
         yield _part("Rod string", machine, ("rod_string", "pump"))
         for n in range(len(machine.rod_string.sections)):
             part = _part("Rod string", machine, ("rod_string", "sections", str(n)))
-            yield part._replace(name=f"section {n + 1}")
+            yield part._replace(name="section")
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:
