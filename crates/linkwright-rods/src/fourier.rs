@@ -34,8 +34,11 @@ impl Fourier {
             let (sin, cos) = (TAU * k as f64 / samples as f64).sin_cos();
             [cos, -sin]
         };
-        (left == 1 && samples.is_multiple_of(2))
-            .then(|| Fourier { samples, factors, roots: (0..samples).map(root).collect() })
+        (left == 1 && samples.is_multiple_of(2)).then(|| Fourier {
+            samples,
+            factors,
+            roots: (0..samples).map(root).collect(),
+        })
     }
 
     /// How many harmonics samples hold, with the mean and the one at half the rate of sampling.

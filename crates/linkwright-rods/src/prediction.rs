@@ -75,7 +75,7 @@ pub fn predict<R: Real>(
     let mut wave = start.map_or_else(|| vec![pump.load * 0.5; n], <[R]>::to_vec);
     let (mut change, mut sweeps) = (f64::INFINITY, 0);
     let mut next = wave.clone();
-    while sweeps < request.sweeps && !(change <= request.tolerance) {
+    while sweeps < request.sweeps && change > request.tolerance {
         sweep.run(&string, &wave, &mut next);
         let largest = wave.iter().zip(&next).fold(R::splat(0.0), |most, (&a, &b)| most.max((a - b).abs()));
         change = (largest / pump.load).max_lane();

@@ -116,11 +116,8 @@ impl<R: Real> Pump<R> {
         let compliance = self.compliance + self.compressibility * before.liquid;
         let give = compliance + soft * self.softness * self.relative(under) / under;
         let z = (step / (self.impedance * give.max(step * 1e-4 / self.impedance))).max(R::splat(1e-6));
-        let weight = z.select_lt(
-            R::splat(1e-2),
-            z * (1.0 / 12.0) + 0.5,
-            (one - (-z).exp()).recip() - z.recip(),
-        );
+        let weight =
+            z.select_lt(R::splat(1e-2), z * (1.0 / 12.0) + 0.5, (one - (-z).exp()).recip() - z.recip());
         let weight = z.select_lt(R::splat(9.9e3), weight, one);
         // What moved while a valve was open is not held.
         let held = zero.select_lt(before.load, before.velocity, before.velocity.max(zero));

@@ -108,8 +108,7 @@ impl<R: Real> Section<R> {
     pub fn loss(&self, omega: R, top: State<R>) -> R {
         let k = self.wave_number(omega);
         let slope = (top.load * k.times(self.rigidity).recip()) * -1.0;
-        let [alpha, beta] =
-            [(top.position - slope.turned()) * 0.5, (top.position + slope.turned()) * 0.5];
+        let [alpha, beta] = [(top.position - slope.turned()) * 0.5, (top.position + slope.turned()) * 0.5];
         let (decay, phase) = (k.1 * self.length * 2.0, k.0 * self.length);
         let falling = mean_of_exponential(-decay);
         let rising = mean_of_exponential(decay);
