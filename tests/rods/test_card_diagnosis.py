@@ -23,19 +23,19 @@ TUBING = {"tubing_diameter": "2.375 in", "tubing_bore": "1.995 in"}
     ("pump", "fillage", "damping_factor"),
     [
         ({}, 1.0, 0.1),
-        (TUBING, None, 0.1),
+        (TUBING, 1.0, 0.1),
         ({"fillage": 0.6}, 0.6, 0.15),
         ({**TUBING, "fillage": 0.7, "gas_exponent": 1.2}, None, 0.2),
     ],
 )
 def test_the_card_of_a_predicted_motion_leads_back_to_its_pump(pump, fillage, damping_factor):
-    """Plunger travel to 1 %, fluid load to 4.5 % where gas rounds the card, damping and fillage, with the
+    """Plunger stroke to 1 %, fluid load to 4.5 % where gas rounds the card, damping and fillage, with the
     damping fitted.
     """
     machine = well(pump, damping_factor=damping_factor)
     motion, position, load = card_of(machine)
     found = lw.diagnose_card(machine, position, load)
-    assert found.plunger_stroke == pytest.approx(motion.plunger_travel, rel=0.01)
+    assert found.plunger_stroke == pytest.approx(motion.plunger_stroke, rel=0.01)
     assert found.fluid_load == pytest.approx(motion.fluid_load, rel=0.045)
     assert found.damping == pytest.approx(machine.rod_string.damping_rate, rel=0.12)
     assert abs(found.balance) < 1e-10
@@ -48,7 +48,7 @@ def test_with_the_damping_known_the_pump_card_is_the_predicted_one():
     machine = well(TUBING)
     motion, position, load = card_of(machine)
     found = lw.diagnose_card(machine, position, load, damping=float(machine.rod_string.damping_rate))
-    assert found.plunger_stroke == pytest.approx(motion.plunger_travel, rel=0.003)
+    assert found.plunger_stroke == pytest.approx(motion.plunger_stroke, rel=0.003)
     at, own = found.time, motion.time
     expected = np.interp(at, own, motion.load[-1], period=motion.period)
     assert np.sqrt(np.mean((found.load[-1] - expected) ** 2)) < 0.015 * np.ptp(expected)

@@ -17,7 +17,7 @@ Pumps,
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -69,7 +69,9 @@ class CardDiagnosis(Result):
     load_min: Annotated[
         float, Label("minimum polished-rod load", "MPRL", "N", "Measured.", table="diagnosis")
     ]
-    plunger_stroke: Annotated[float, Label("plunger stroke", "S_p", "m", table="diagnosis")]
+    plunger_stroke: Annotated[
+        float, Label("plunger stroke", "S_p", "m", "Against the barrel.", table="diagnosis")
+    ]
     fillage: Annotated[
         float,
         Label(
@@ -193,7 +195,7 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
 
     def unevenness(factor: float) -> float:
         cards = cards_of(string, period, moved.samples, own.samples, factor * unit)
-        found = plunger_load(cards.position[-1], cards.load[-1])
+        found = plunger_load(_against_barrel(string, cards), cards.load[-1])
         return np.inf if found is None else found.unevenness
 
     factors = np.linspace(0.0, _DAMPED, _TRIED)
@@ -204,6 +206,11 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
     around = factors[max(best - 1, 0)], factors[min(best + 1, _TRIED - 1)]
     refined = minimize_scalar(unevenness, bounds=around, method="bounded", options={"xatol": 1e-4})
     return float(refined.x if refined.fun <= values[best] else factors[best]) * unit
+
+
+def _against_barrel(string: RodString, cards: Any) -> Floats:
+    """Position of the plunger against the barrel, which moves with tubing that is not anchored."""
+    return np.asarray(cards.position[-1] - string.pump.tubing_compliance(string.length) * cards.load[-1])
 
 
 def _no_pump_card() -> FindingError:
@@ -224,7 +231,7 @@ def _diagnosis(
 ) -> CardDiagnosis:
     moved, own = records
     cards = cards_of(string, period, moved.samples, own.samples, damping)
-    pump: PlungerLoad | None = plunger_load(cards.position[-1], cards.load[-1])
+    pump: PlungerLoad | None = plunger_load(_against_barrel(string, cards), cards.load[-1])
     if pump is None:
         raise _no_pump_card()
     area, stroke = float(string.pump.area), float(np.ptp(card.position))
