@@ -103,6 +103,9 @@ from linkwright.papers.published_lengths import length_verdict as length_verdict
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
 from linkwright.pumping.unit import pumping_unit as pumping_unit
+from linkwright.rods.card import read_card as read_card
+from linkwright.rods.diagnosis import diagnose_card as diagnose_card
+from linkwright.rods.prediction import rod_string as rod_string
 from linkwright.sensitivity.gradient import gradient as gradient
 from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel
 from linkwright.sizing.motor import choose_motor as choose_motor

@@ -1605,6 +1605,49 @@ class TopperKnife:
     ) -> TopperCover:
         """Many heads: columns of one entry or one a head; `fine` stations per revolution of the law."""
 
+@final
+class RodCards:
+    """Cards along a rod string: rows of position [m] and load [N], work [J] a station, heat [J] a section."""
+
+    position: Final[_Floats]
+    load: Final[_Floats]
+    work: Final[_Floats]
+    loss: Final[_Floats]
+
+@final
+class RodMotion:
+    """Periodic motion of a rod string with its pump, the wave [N] to start from, sweeps, the last change."""
+
+    cards: Final[RodCards]
+    wave: Final[_Floats]
+    sweeps: Final[int]
+    change: Final[float]
+
+@final
+class RodString:
+    """Sections of sucker rods from the polished rod to the pump: EA [N], μ [kg/m], c [1/s], L [m]."""
+
+    def __new__(cls, *, rigidity: _Floats, mass: _Floats, damping: _Floats, length: _Floats) -> RodString: ...
+    def cards(self, *, period: float, position: _Floats, load: _Floats, harmonics: int) -> RodCards:
+        """The cards by samples of position and load at the polished rod, of which `harmonics` count."""
+    def predict(
+        self,
+        *,
+        period: float,
+        motion: _Floats,
+        load: float,
+        compliance: float,
+        compressibility: float,
+        slip: float,
+        fillage: float,
+        discharge: float,
+        softness: float,
+        start: _Floats | None,
+        tolerance: float,
+        sweeps: int,
+    ) -> RodMotion:
+        """The periodic motion under samples of the polished rod's position."""
+
 def torsion_forced(
     *,
     parent: _Ints,

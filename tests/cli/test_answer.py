@@ -256,6 +256,11 @@ CASES = {
         "{wheel.toml} --vary loads.oil.nothing --record {coast.csv}",
     ),
     "sweep show": Case("{swept}", "{unswept}", "{phases.toml}"),
+    "rods": Case(
+        "{rod_string}",
+        "{rod_string} --set rod_string.service_factor=0.5",
+        "{rod_string} --set rod_string.nothing=1",
+    ),
     "topper": Case("{topper}", "{topper} --set topper.edge_angle=89.9deg", "{topper} --set topper.nothing=1"),
     "topper field": Case(
         "{field.toml} --set topper.limits.complete_min=0.5",

@@ -37,6 +37,7 @@ CASES = {
     "elastic_motion": ("elastic_coupling_of_carts", "drive.crankshaft.stiffness", "period"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
+    "rod_string": ("rod_string", "rod_string.specific_gravity", "load_max"),
     "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),
     "topper": ("topper", "topper.edge_length", "length_exact"),
     "topper_field": ("topper", "topper.edge_length", "share_complete"),

@@ -43,7 +43,7 @@ def test_controls_are_translated(path: Path) -> None:
 
 # What has a name in the rules, and formulas and laws that are named after their authors.
 NAMED = re.compile(
-    r"PC\d|IA super|iacs m68|kr crankshaft|mark ii|carter|ker wilson|woschni|wiebe|zimanenko|.{1,2}"
+    r"PC\d|IA super|iacs m68|kr crankshaft|mark ii|carter|ker wilson|woschni|wiebe|zimanenko|[\d /]+|.{1,2}"
 )
 
 

@@ -27,6 +27,7 @@ STANDS_ON: dict[str, set[str]] = {
     "cam": {"kernel"},
     "torsion": {"kernel"},
     "topper": {"kernel"},
+    "rods": {"kernel"},
     "plan": {"kernel", "linkage", "drive"},
     "derivatives": {"kernel", "linkage", "drive"},
     "driveline": {"kernel", "linkage", "drive"},

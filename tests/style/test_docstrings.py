@@ -25,6 +25,7 @@ PUBLIC_PACKAGES = (
     "cam",
     "torsion",
     "pumping",
+    "rods",
     "topping",
     "synthesis",
     "sizing",

@@ -60,6 +60,7 @@ SUBJECTS = (
     "cam",
     "torsion",
     "pumping",
+    "rods",
     "topping",
     "turning",
     "axes",
@@ -145,6 +146,13 @@ EDGES = {
     ("topping", "kinetostatics"),
     ("topping", "linkages"),
     ("topping.model", "linkages.model"),
+    # A rod string hangs on the polished rod of a unit, at the speed that the drive has under its load.
+    ("rods", "drive"),
+    ("rods", "kinetostatics.model"),
+    ("rods", "pumping"),
+    ("rods", "pumping.model"),
+    ("rods.model", "pumping.model"),
+    ("rods.tables", "pumping"),
     # What is found is verified by analysis.
     ("synthesis", "linkages"),
     # A path of a task and of a study is described alike.
@@ -179,7 +187,7 @@ TRAINS = (
 )
 
 # The modules that may import the compiled core.
-CORE = ("machine.program", "cam.core", "torsion.core", "topping.core")
+CORE = ("machine.program", "cam.core", "torsion.core", "topping.core", "rods.core")
 
 
 @cache

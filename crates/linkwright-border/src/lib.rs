@@ -12,6 +12,7 @@ mod equations;
 mod errors;
 mod guard;
 mod linkage;
+mod rods;
 mod status;
 mod topper;
 mod torsion;
@@ -85,6 +86,8 @@ pub mod _core {
         Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, motions_along,
         third,
     };
+    #[pymodule_export]
+    use super::rods::{RodCards, RodMotion, RodString};
     #[pymodule_export]
     use super::status::Status;
     #[pymodule_export]

@@ -9,6 +9,7 @@ from linkwright.driveline import analyses as driveline
 from linkwright.kinetostatics import analyses as kinetostatics
 from linkwright.linkages import analyses as linkages
 from linkwright.pumping import analyses as pumping
+from linkwright.rods import analyses as rods
 from linkwright.topping import analyses as topping
 from linkwright.torsion import analyses as torsion
 from linkwright.turning import analyses as turning
@@ -19,6 +20,7 @@ ANALYSES = (
     *(pumping.UNIT, pumping.GEARBOX, pumping.ROTATOR),
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
     *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC),
+    rods.STRING,
     *(kinetostatics.FORCES, kinetostatics.CYLINDER),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
     *(axes.AXIS, axes.BUS, axes.TIMING),

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from linkwright.linkages.model.drawing import DrawingPoints
     from linkwright.pumping.model.rod_rotator import RodRotator
     from linkwright.pumping.model.unit import PumpingUnit
+    from linkwright.rods.model.rod_string import RodString
     from linkwright.studies.model import StudyFile
     from linkwright.topping.model.topper import Topper
     from linkwright.torsion.model.train import Train
@@ -40,6 +41,7 @@ else:
     DrawingPoints = deferred_model("linkages.model.drawing", "DrawingPoints")
     PumpingUnit = deferred_model("pumping.model.unit", "PumpingUnit")
     RodRotator = deferred_model("pumping.model.rod_rotator", "RodRotator")
+    RodString = deferred_model("rods.model.rod_string", "RodString")
     Topper = deferred_model("topping.model.topper", "Topper")
     Train = deferred_model("torsion.model.train", "Train")
     TurningMoment = deferred_model("turning.model", "TurningMoment")
@@ -95,6 +97,9 @@ class Machine(WholeDescription):
         None, description="Beam pumping unit, which is a mechanism by itself."
     )
     rod_rotator: RodRotator | None = Field(None, description="Rotator of the rod string on the pumping unit.")
+    rod_string: RodString | None = Field(
+        None, description="String of sucker rods below the polished rod, with its pump."
+    )
     topper: Topper | None = Field(None, description="Knife that slices the heads of roots in a row.")
     train: Train | None = Field(None, description="Torsional system: discs, shafts and gears.")
     turning_moment: TurningMoment | None = Field(
@@ -204,9 +209,16 @@ class Machine(WholeDescription):
         return self.turning_moment is not None and not any(beside) and _is_left_out(self)
 
     @property
+    def is_rod_string_alone(self) -> bool:
+        """Whether it is a rod string without a unit, and nothing else."""
+        beside = (self.topper, self.train, self.pumping_unit, self.turning_moment)
+        return self.rod_string is not None and not any(beside) and _is_left_out(self)
+
+    @property
     def has_crank(self) -> bool:
-        """Whether a crank moves a mechanism: not so in a train, a topper or a diagram that stands alone."""
-        return not (self.is_train_alone or self.is_topper_alone or self.is_diagram_alone)
+        """Whether a crank moves a mechanism: not so in a train, topper, diagram or rod string alone."""
+        alone = (self.is_train_alone, self.is_topper_alone, self.is_diagram_alone, self.is_rod_string_alone)
+        return not any(alone)
 
     @classmethod
     def _checked(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
@@ -230,10 +242,15 @@ def _reference_faults(machine: object) -> list[InitErrorDetails]:
     train, topper = look(machine, "train"), look(machine, "topper")
     faults = list(_faults_of_train(machine, train))
     diagram = look(machine, "turning_moment")
-    stands_alone = any(part is not None for part in (unit, train, topper, diagram))
+    string = look(machine, "rod_string")
+    stands_alone = any(part is not None for part in (unit, train, topper, diagram, string))
     if not stands_alone and (mechanism is None or _is_left_out(machine)):
         return [fault("mechanism", expected="a table")]
     faults += _faults_of_unit(machine)
+    if string is not None or unit is not None:
+        from linkwright.rods.model.string_faults import string_faults
+
+        faults += string_faults(machine)
     if not stands_alone and not isinstance(mechanism, BaseModel | Mapping):
         # There is nothing to refer to.
         return faults

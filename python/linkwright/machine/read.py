@@ -156,6 +156,10 @@ def loads_as(
         if model is Machine:
             behind = with_tolerances(tables)
         with_motor_of_file(tables, Path(path).parent, allow_outside=allow_outside)
+        if "pumping_unit" in tables:
+            from linkwright.pumping.model.unit_file import with_unit_of_file
+
+            with_unit_of_file(tables, Path(path).parent, allow_outside=allow_outside)
         if "axes" in tables:
             from linkwright.axes.model.axis_catalogue import with_servo_motors_of_files
 

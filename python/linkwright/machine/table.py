@@ -129,6 +129,12 @@ def _unit(machine: Machine) -> Iterator[Part]:
             yield _part("Pumping unit", machine, (name,))
     if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
         yield _part("Pumping unit", machine, ("pumping_unit", "load"))
+    if machine.rod_string is not None:
+        yield _part("Rod string", machine, ("rod_string",))
+        yield _part("Rod string", machine, ("rod_string", "pump"))
+        for n in range(len(machine.rod_string.sections)):
+            part = _part("Rod string", machine, ("rod_string", "sections", str(n)))
+            yield part._replace(name="section")
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:

@@ -264,7 +264,7 @@ class Strokes:
         fine: Floats = np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
         turn = stroke_load(self.unit, self.load, self.motion(fine), fine)
         is_up = (fine - self.ends[0]) % (2 * np.pi) <= (self.ends[1] - self.ends[0]) % (2 * np.pi)
-        guess = _equal_peaks(turn, is_up)
+        guess = equal_peaks(turn, is_up)
 
         def excess(size: Floats) -> Floats:
             up, down = self.curves(float(size[0]))
@@ -296,7 +296,8 @@ def _force(load: PolishedRodLoad, angles: Floats, position: Floats, factor: Floa
     return by_place
 
 
-def _equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:
+def equal_peaks(turn: StrokeLoad, is_up: Bools) -> float:
+    """The counterbalance of equal peaks by samples of both strokes; `is_up`: those of the upstroke."""
 
     def excess(size: float) -> float:
         net = turn.net(size)

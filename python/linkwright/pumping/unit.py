@@ -160,7 +160,7 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
     speed = machine.drive.speed if machine.drive else None
     high, high_at = turn_extreme(lambda at: rod.motion(at)[1], +1)
     low, low_at = turn_extreme(lambda at: rod.motion(at)[1], -1)
-    up = (rod.top - rod.bottom) % (2 * np.pi)
+    up, ends = (rod.top - rod.bottom) % (2 * np.pi), (rod.bottom, rod.top)
     return PumpingUnitMotion(
         crank_angle=phi,
         rod_position=travel / rod.stroke,
@@ -186,7 +186,7 @@ def pumping_unit(machine: Machine, *, n: int = 360) -> PumpingUnitMotion:
         rod_velocity_min=None if speed is None else low * speed,
         rod_acceleration_max=_acceleration(rod, speed, +1),
         rod_acceleration_min=_acceleration(rod, speed, -1),
-        gear=gear_torque(unit, rod.motion, (rod.bottom, rod.top), phi) if unit.load else None,
+        gear=gear_torque(unit, rod.motion, ends, phi) if unit.load and unit.load.is_given else None,
     )
 
 

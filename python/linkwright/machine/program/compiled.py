@@ -351,6 +351,11 @@ def _require_mechanism(machine: Machine) -> None:
             f"{machine.name} is a turning-moment diagram without a [mechanism]: `linkwright run` has what "
             "follows from it"
         )
+    if machine.is_rod_string_alone:
+        raise InputError(
+            f"{machine.name} is a rod string without a [pumping_unit]: no crank moves it; "
+            "`linkwright rods` has its cards"
+        )
     if machine.is_topper_alone:
         raise InputError(
             f"{machine.name} is a topper without a [mechanism]: no crank moves its knife; `linkwright run` "

@@ -8,4 +8,5 @@
 | `rotator_lengths` | Link and lever of a rotator, given or made for the unit and the regime |
 | `unit` | Beam pumping units, described by the letters of API Spec 11E |
 | `unit_catalogue` | Published pumping units |
+| `unit_file` | Pumping units of a maker from a file of comma-separated values |
 """

@@ -69,12 +69,19 @@ class PolishedRodLoad(Description):
         1.0, description="Efficiency of the structure between polished rod and crankshaft."
     )
 
+    @property
+    def is_given(self) -> bool:
+        """Whether the load is given: that of a rod string is computed."""
+        return any(getattr(self, key) is not None for key in ("angle", "force", "position", "up", "down"))
+
     @model_validator(mode="after")
     def _entries_fit(self) -> Self:
         raise_faults("PolishedRodLoad", self._faults())
         return self
 
     def _faults(self) -> Iterator[InitErrorDetails]:
+        if not self.is_given:
+            return
         by_angle = self.angle is not None or self.force is not None
         by_position = any(values is not None for values in (self.position, self.up, self.down))
         if by_angle == by_position:

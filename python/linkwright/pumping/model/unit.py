@@ -8,7 +8,7 @@ r"""Beam pumping units, described by the letters of API Spec 11E, and the mechan
 | `H`, `G` | heights of the saddle bearing and of the crankshaft above the base |
 | `P` | pitman: equalizer bearing to crank pin |
 | `R` | crank: crankshaft to crank pin |
-| K | crankshaft to saddle bearing, :math:`K^2 = I^2 + (H - G)^2` |
+| `K` | crankshaft to saddle bearing, :math:`K^2 = I^2 + (H - G)^2` (in place of H and G) |
 
 A conventional unit is a lever of class I: the pitman pulls behind the saddle bearing, and the shaft lies
 behind it. Mark II and air-balanced units are levers of class III: the pitman pushes between saddle and
@@ -39,7 +39,8 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import Description, fault, raise_faults
+from linkwright.kernel.description.base import Description, Whole, fault, raise_faults
+from linkwright.kernel.description.curve import unread_file
 from linkwright.kernel.units.kinds import LENGTH
 from linkwright.kernel.units.marks import Force, Length, not_negative
 from linkwright.linkages.model.element import PositiveLength
@@ -69,14 +70,26 @@ class PumpingUnit(Description):
         description="API designation, such as C-114D-133-54: gearbox rating in 1000 lbf in, structure "
         "rating in 100 lbf, stroke in inches.",
     )
+    file: str | None = Field(
+        None,
+        description='CSV file of units beside the machine file, with units in the header: "type, A [in], '
+        'C [in], I [in], K [in], P [in], R [in]".',
+    )
+    catalogue: str | None = Field(None, description="Type of the unit in the file.")
+    hole: Annotated[Whole, Field(ge=1)] | None = Field(
+        None, description="Crank hole of the type, 1 the outermost."
+    )
     A: PositiveLength = Field(description="Saddle bearing to polished rod.")
     C: PositiveLength = Field(description="Saddle bearing to equalizer bearing.")
     I: Length = Field(  # noqa: E741
         description="Horizontal distance from saddle bearing to crankshaft."
     )
     P: PositiveLength = Field(description="Pitman.")
-    H: Length = Field(description="Saddle bearing above the base.")
-    G: Length = Field(description="Crankshaft above the base.")
+    H: Length | None = Field(None, description="Saddle bearing above the base.")
+    G: Length | None = Field(None, description="Crankshaft above the base.")
+    K: PositiveLength | None = Field(
+        None, description="Crankshaft to saddle bearing, in place of H and G; the saddle bearing is above."
+    )
     R: PositiveLength = Field(description="Crank.")
     rotation: Rotation | None = Field(
         None,
@@ -100,8 +113,12 @@ class PumpingUnit(Description):
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         load, is_air = self.load, self.geometry == "air_balanced"
-        if self.H == self.G and self.I == 0:
-            yield fault("H", found=self.H, expected="a saddle bearing away from the crankshaft")
+        if self.file is not None:
+            yield unread_file(self.file)
+        for key in ("catalogue", "hole"):
+            if getattr(self, key) is not None:
+                yield fault(key, found=getattr(self, key), expected="nothing without file")
+        yield from self._place_faults()
         if load is None:
             return
         if is_air and isinstance(load.counterbalance, float):
@@ -114,6 +131,21 @@ class PumpingUnit(Description):
             found = load.counterbalance_effect
             yield fault("load", "counterbalance_effect", found=found, expected="nothing", remedy=remedy)
 
+    def _place_faults(self) -> Iterator[InitErrorDetails]:
+        """The saddle bearing is placed by H and G, or by K."""
+        if self.K is not None:
+            for key in ("H", "G"):
+                if getattr(self, key) is not None:
+                    yield fault(key, found=getattr(self, key), expected="nothing beside K")
+            if abs(self.I) > self.K:
+                yield fault("K", found=self.K, expected=f"at least I, {abs(self.I):.6g} m")
+            return
+        missing = [key for key in ("H", "G") if getattr(self, key) is None]
+        for key in missing:
+            yield fault(key, expected="a length; H and G are given together, or K in their place")
+        if not missing and self.H == self.G and self.I == 0:
+            yield fault("H", found=self.H, expected="a saddle bearing away from the crankshaft")
+
     @property
     def is_class_3(self) -> bool:
         """Whether the pitman pushes between saddle and horsehead."""
@@ -125,15 +157,24 @@ class PumpingUnit(Description):
         return (self.rotation or _USUAL[self.geometry]) == "clockwise"
 
     @property
-    def K(self) -> Any:
+    def rise(self) -> Any:
+        """Saddle bearing above the crankshaft [m]."""
+        if self.K is not None:
+            return np.sqrt((self.K - self.I) * (self.K + self.I))
+        assert self.H is not None
+        assert self.G is not None
+        return self.H - self.G
+
+    @property
+    def distance(self) -> Any:
         """Crankshaft to saddle bearing [m]."""
-        return np.hypot(self.I, self.H - self.G)
+        return np.hypot(self.I, self.rise) if self.K is None else self.K
 
     @property
     def saddle(self) -> tuple[Any, Any]:
         """Place of the saddle bearing from the crankshaft, as drawn [m]."""
         toward_well = -self.I if self.is_class_3 else self.I
-        return (-toward_well if self.is_mirrored else toward_well), self.H - self.G
+        return (-toward_well if self.is_mirrored else toward_well), self.rise
 
     @property
     def crank_phase(self) -> float:
@@ -152,7 +193,7 @@ class PumpingUnit(Description):
 
     def _cosine(self, reach: Any) -> Any:
         """Cosine of ψ by the sides of its triangle, beyond ±1 where they do not meet."""
-        return (self.C**2 + self.K**2 - reach**2) / (2 * self.C * self.K)
+        return (self.C**2 + self.distance**2 - reach**2) / (2 * self.C * self.distance)
 
     @property
     def psi_bottom(self) -> Any:
@@ -186,14 +227,14 @@ class PumpingUnit(Description):
 
     def arm_angle(self, psi: Any) -> Any:
         """Direction of the arm C as drawn, from −π to π [rad], for an angle ψ [rad]."""
-        toward_shaft = np.arctan2(self.G - self.H, self.I if self.is_class_3 else -self.I)
+        toward_shaft = np.arctan2(-self.rise, self.I if self.is_class_3 else -self.I)
         angle = toward_shaft + (psi if self.is_class_3 else -psi)
         angle = np.pi - angle if self.is_mirrored else angle
         return np.arctan2(np.sin(angle), np.cos(angle))
 
     def front_angle(self, psi: Any) -> Any:
         """Angle of the front arm above the horizontal, up positive [rad], for an angle ψ [rad]."""
-        toward_shaft = np.arctan2(self.G - self.H, self.I if self.is_class_3 else -self.I)
+        toward_shaft = np.arctan2(-self.rise, self.I if self.is_class_3 else -self.I)
         angle = toward_shaft + (psi if self.is_class_3 else np.pi - psi)
         return np.arctan2(np.sin(angle), np.cos(angle))
 

@@ -1,0 +1,17 @@
+//! A string of sucker rods between the polished rod and the pump.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`complex`] | complex numbers of any kind of number |
+//! | [`fourier`] | harmonics of real samples of a period, and back |
+//! | [`string`] | the string at a frequency: transfer matrices, and the heat of its damping |
+//! | [`pump`] | load of the plunger by its valves |
+//! | [`prediction`] | the periodic load of the pump under a given motion of the polished rod |
+//! | [`cards`] | position and load at every taper, by the harmonics at the polished rod |
+
+pub mod cards;
+pub mod complex;
+pub mod fourier;
+pub mod prediction;
+pub mod pump;
+pub mod string;

@@ -1,0 +1,269 @@
+"""Diagnosis of a measured surface card: the cards of every taper and of the pump.
+
+Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever
+it sinks through it.
+
+References
+----------
+.. [1] Gibbs, Neely, Computer Diagnosis of Down-Hole Conditions in Sucker Rod Pumping Wells, J. Pet. Tech. 18
+(1966) 91.
+.. [2] Everitt, Jennings, An Improved Finite-Difference Calculation of Downhole Dynamometer Cards for
+Sucker-Rod
+Pumps,
+   SPE Production Engineering 7 (1992) 121: fillage and net stroke.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.rods.card import SurfaceCard, checked_card
+from linkwright.rods.core import cards_of, sample_counts
+from linkwright.rods.model.rod_string import RodString
+from linkwright.rods.plunger_load import PlungerLoad, plunger_load
+from linkwright.rods.prediction import station_names, string_of
+from linkwright.rods.spectrum import Filtered, filtered
+from linkwright.rods.stress import RodStress, rod_stress
+
+# Samples of the cards at least, and for each of the measured ones.
+_LEAST, _FOR_EACH = 512, 4
+
+# Largest damping factor that is sought, and how many are tried before the best is refined.
+_DAMPED, _TRIED = 1.0, 26
+
+
+@dataclass(frozen=True)
+class CardDiagnosis(Result):
+    """A measured card along the rod string down to the pump."""
+
+    time: Annotated[Floats, Label("time", "t", "s", "From the first sample.")]
+    stations: Annotated[tuple[str, ...], About("The polished rod, the tapers, the pump.")]
+    position: Annotated[Floats, Label("position", "u", "m", "Upward.", "(stations, n)")]
+    load: Annotated[
+        Floats,
+        Label(
+            "dynamic load",
+            "F",
+            "N",
+            "Tension beyond the weight of the rods in the fluid below.",
+            "(stations, n)",
+        ),
+    ]
+    rod_position: Annotated[
+        Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
+    ]
+    rod_load: Annotated[Floats, Label("load of the polished rod", "W", "N", "By its harmonics.")]
+    period: Annotated[float, Label("period of a stroke", "T", "s", table="diagnosis")]
+    stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", table="diagnosis")]
+    load_max: Annotated[float, Label("peak polished-rod load", "PPRL", "N", "Measured.", table="diagnosis")]
+    load_min: Annotated[
+        float, Label("minimum polished-rod load", "MPRL", "N", "Measured.", table="diagnosis")
+    ]
+    plunger_stroke: Annotated[
+        float, Label("plunger stroke", "S_p", "m", "Against the barrel.", table="diagnosis")
+    ]
+    fillage: Annotated[
+        float,
+        Label(
+            "fillage",
+            "f",
+            "",
+            "Share of the plunger stroke left when half the fluid load has fallen.",
+            table="diagnosis",
+        ),
+    ]
+    fluid_load: Annotated[
+        float, Label("fluid load on the plunger", "F_o", "N", "By the pump card.", table="diagnosis")
+    ]
+    fluid_load_file: Annotated[float, Label("fluid load by the machine file", "", "N", table="diagnosis")]
+    intake_pressure: Annotated[
+        float, Label("intake pressure by the pump card", "p_i", "Pa", table="diagnosis")
+    ]
+    production: Annotated[
+        float, Label("production", "Q", "m³/s", "Fillage times plunger displacement.", table="diagnosis")
+    ]
+    power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="diagnosis")]
+    power_pump: Annotated[
+        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="diagnosis")
+    ]
+    power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="diagnosis")]
+    damping: Annotated[float, Label("damping", "c", "1/s", table="diagnosis")]
+    damping_factor: Annotated[float, Label("damping factor", "ν", "", "2cL/(πa).", table="diagnosis")]
+    is_fitted: Annotated[bool, About("Whether the damping was fitted to the card.")]
+    harmonics: Annotated[int, Label("harmonics of the load", "", "", "Above its noise.", table="diagnosis")]
+    harmonics_position: Annotated[
+        int, Label("harmonics of the position", "", "", "Above its noise.", table="diagnosis")
+    ]
+    noise: Annotated[
+        float, Label("noise of the load", "", "N", "Standard deviation of a sample.", table="diagnosis")
+    ]
+    noise_position: Annotated[
+        float, Label("noise of the position", "", "m", "Standard deviation of a sample.", table="diagnosis")
+    ]
+    balance: Annotated[
+        float,
+        Label("residual of the work balance", "", "", "Of the string, over the work of the polished rod."),
+    ]
+    stress: Annotated[RodStress, About("Loads and stresses of the sections.")]
+
+
+@public
+def diagnose_card(
+    machine: Machine,
+    position: Floats,
+    load: Floats,
+    *,
+    period: float | None = None,
+    damping: float | None = None,
+    harmonics: int | None = None,
+) -> CardDiagnosis:
+    """Cards of every taper and of the pump by a measured surface card.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with a rod string.
+    position, load : ndarray, shape (n,)
+        One stroke at equal steps of time: position of the polished rod, upward [m], and its load [N].
+    period : float, optional
+        Period of the stroke [s]. Default: that of the machine's speed.
+    damping : float, optional
+        Damping c of the string [1/s]. Default: fitted to the card.
+    harmonics : int, optional
+        Harmonics of position and load that count. Default: those above the noise of each.
+
+    Returns
+    -------
+    CardDiagnosis
+        Cards along the string, plunger stroke, fillage, fluid load, powers.
+
+    Raises
+    ------
+    InputError
+        The card does not close, runs backwards, has too few samples, or loads that rods and fluid cannot
+        cause.
+    FindingError
+        The pump card has no upstroke with a load above that of the downstroke.
+    """
+    string = string_of(machine)
+    unit = machine.pumping_unit
+    stroke = string.stroke if unit is None else float(unit.stroke)
+    card = checked_card(SurfaceCard(position, load, period), string, stroke)
+    period = _period(machine, string, card.period)
+    n = len(card.load)
+    if harmonics is not None and not 1 <= harmonics <= (n - 1) // 2:
+        raise InputError(
+            f"harmonics: found {harmonics}, expected 1 to {(n - 1) // 2}: {n} samples hold no more"
+        )
+    m = sample_counts(string, period, max(_LEAST, _FOR_EACH * n))[0]
+    friction = string.stuffing_box * np.sign(np.roll(card.position, -1) - np.roll(card.position, 1))
+    own = filtered(card.load - float(string.weight_fluid) - friction, m, harmonics)
+    moved = filtered(card.position, m, harmonics)
+    fitted = _fitted(string, period, moved, own) if damping is None else damping
+    return _diagnosis(string, card, period, (moved, own), fitted, is_fitted=damping is None)
+
+
+def _period(machine: Machine, string: RodString, given: float | None) -> float:
+    if given is not None:
+        if not (np.isfinite(given) and given > 0):
+            raise InputError(f"period: found {given}, expected a time greater than 0")
+        return float(given)
+    speed = string.speed if machine.drive is None else machine.drive.speed
+    if speed is None:
+        raise InputError(
+            f"{machine.name}: the period of the card is unknown; expected a column time, drive.speed or "
+            "rod_string.speed"
+        )
+    return float(2 * np.pi / speed)
+
+
+def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) -> float:
+    """Damping at which the pump load is even while the plunger lifts, and none while it sinks."""
+    from scipy.optimize import minimize_scalar
+
+    unit = np.pi * float(string.sound) / (2 * float(string.length))
+
+    def unevenness(factor: float) -> float:
+        cards = cards_of(string, period, moved.samples, own.samples, factor * unit)
+        found = plunger_load(_against_barrel(string, cards), cards.load[-1])
+        return np.inf if found is None else found.unevenness
+
+    factors = np.linspace(0.0, _DAMPED, _TRIED)
+    values = [unevenness(float(factor)) for factor in factors]
+    best = int(np.argmin(values))
+    if not np.isfinite(values[best]):
+        raise _no_pump_card()
+    around = factors[max(best - 1, 0)], factors[min(best + 1, _TRIED - 1)]
+    refined = minimize_scalar(unevenness, bounds=around, method="bounded", options={"xatol": 1e-4})
+    return float(refined.x if refined.fun <= values[best] else factors[best]) * unit
+
+
+def _against_barrel(string: RodString, cards: Any) -> Floats:
+    """Position of the plunger against the barrel, which moves with tubing that is not anchored."""
+    return np.asarray(cards.position[-1] - string.pump.tubing_compliance(string.length) * cards.load[-1])
+
+
+def _no_pump_card() -> FindingError:
+    return FindingError(
+        "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, "
+        "or sections and card are of different wells"
+    )
+
+
+def _diagnosis(
+    string: RodString,
+    card: SurfaceCard,
+    period: float,
+    records: tuple[Filtered, Filtered],
+    damping: float,
+    *,
+    is_fitted: bool,
+) -> CardDiagnosis:
+    moved, own = records
+    cards = cards_of(string, period, moved.samples, own.samples, damping)
+    pump: PlungerLoad | None = plunger_load(_against_barrel(string, cards), cards.load[-1])
+    if pump is None:
+        raise _no_pump_card()
+    area, stroke = float(string.pump.area), float(np.ptp(card.position))
+    lost = float(cards.loss.sum())
+    friction = 2 * string.stuffing_box * stroke
+    return CardDiagnosis(
+        time=period * np.arange(len(own.samples)) / len(own.samples),
+        stations=station_names(string),
+        position=cards.position,
+        load=cards.load,
+        rod_position=moved.samples - moved.samples.min(),
+        rod_load=own.samples + float(string.weight_fluid),
+        period=period,
+        stroke=stroke,
+        load_max=float(card.load.max()),
+        load_min=float(card.load.min()),
+        plunger_stroke=pump.stroke,
+        fillage=pump.fillage,
+        fluid_load=pump.fluid_load,
+        fluid_load_file=float(string.fluid_load),
+        intake_pressure=float(string.discharge) - pump.fluid_load / area,
+        production=area * pump.fillage * pump.stroke / period,
+        power_rod=(float(cards.work[0]) + friction) / period,
+        power_pump=float(cards.work[-1]) / period,
+        power_damping=lost / period,
+        damping=damping,
+        damping_factor=2 * damping * float(string.length) / (np.pi * float(string.sound)),
+        is_fitted=is_fitted,
+        harmonics=own.harmonics,
+        harmonics_position=moved.harmonics,
+        noise=own.noise,
+        noise_position=moved.noise,
+        balance=float((cards.work[0] - cards.work[-1] - lost) / cards.work[0]),
+        stress=rod_stress(string, cards.load),
+    )

@@ -1,0 +1,128 @@
+r"""Terms of API RP 11L beside the computed motion.
+
+.. math::
+
+    N_o = \frac{60\,a}{4L}\;\text{per min}, \qquad F_c = \frac{N_o'}{N_o},
+
+with N_o′ the lowest natural frequency of the tapered string, fixed at the polished rod and free at the pump.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.zeros import zero
+from linkwright.kernel.quantities import Label
+from linkwright.kernel.result import Result
+from linkwright.rods.model.rod_string import RodString
+
+
+@dataclass(frozen=True)
+class ApiNumbers(Result):
+    """Dimensionless terms of a pumping installation by API RP 11L."""
+
+    speed: Annotated[float, Label("pumping speed", "N", "Hz", "Strokes per time.", table="rod_numbers")]
+    natural_frequency: Annotated[
+        float,
+        Label("natural frequency of a uniform string", "N_o", "Hz", "a/(4L).", table="rod_numbers"),
+    ]
+    natural_frequency_tapered: Annotated[
+        float, Label("natural frequency of the tapered string", "N_o′", "Hz", table="rod_numbers")
+    ]
+    frequency_factor: Annotated[float, Label("frequency factor", "F_c", "", "N_o′/N_o.", table="rod_numbers")]
+    spring_rate: Annotated[float, Label("spring rate of the string", "k_r", "N/m", table="rod_numbers")]
+    stroke_force: Annotated[
+        float,
+        Label(
+            "force that stretches the rods by the stroke",
+            "S k_r",
+            "N",
+            "Stroke times spring rate.",
+            table="rod_numbers",
+        ),
+    ]
+    load_ratio: Annotated[float, Label("fluid load", "F_o/Sk_r", "", "Over S k_r.", table="rod_numbers")]
+    speed_ratio: Annotated[float, Label("speed", "N/N_o", "", table="rod_numbers")]
+    speed_ratio_tapered: Annotated[
+        float, Label("speed by the tapered string", "N/N_o′", "", table="rod_numbers")
+    ]
+    stroke_ratio: Annotated[float, Label("plunger stroke", "S_p/S", "", table="rod_numbers")]
+    peak_ratio: Annotated[
+        float, Label("peak load", "F_1/Sk_r", "", "PPRL − W_rf over S k_r.", table="rod_numbers")
+    ]
+    minimum_ratio: Annotated[
+        float, Label("minimum load", "F_2/Sk_r", "", "W_rf − MPRL over S k_r.", table="rod_numbers")
+    ]
+    torque_ratio: Annotated[
+        float | None,
+        Label(
+            "peak torque of the gearbox",
+            "2T/S²k_r",
+            "",
+            "With the best counterbalance; None without a pumping unit.",
+            table="rod_numbers",
+        ),
+    ]
+    counterbalance_effect: Annotated[
+        float,
+        Label(
+            "counterbalance effect by API RP 11L",
+            "CBE",
+            "N",
+            "1.06 (W_rf + F_o/2).",
+            table="rod_numbers",
+        ),
+    ]
+
+
+def api_numbers(
+    string: RodString, stroke: float, period: float, plunger_stroke: float, load: Floats, torque: float | None
+) -> ApiNumbers:
+    """The terms of a motion: load (n,) of the polished rod [N], peak torque of the gearbox [N m]."""
+    uniform = float(string.sound / (4 * string.length))
+    tapered = natural_frequency(string)
+    force = float(stroke * string.stiffness)
+    weight = float(string.weight_fluid)
+    return ApiNumbers(
+        speed=1 / period,
+        natural_frequency=uniform,
+        natural_frequency_tapered=tapered,
+        frequency_factor=tapered / uniform,
+        spring_rate=float(string.stiffness),
+        stroke_force=force,
+        load_ratio=float(string.fluid_load) / force,
+        speed_ratio=1 / (period * uniform),
+        speed_ratio_tapered=1 / (period * tapered),
+        stroke_ratio=plunger_stroke / stroke,
+        peak_ratio=float(load.max() - weight) / force,
+        minimum_ratio=float(weight - load.min()) / force,
+        torque_ratio=None if torque is None else 2 * torque / (stroke * force),
+        counterbalance_effect=1.06 * (weight + 0.5 * float(string.fluid_load)),
+    )
+
+
+def natural_frequency(string: RodString) -> float:
+    """Lowest natural frequency without damping, fixed at the top and free at the pump [Hz]."""
+    columns = string.columns
+
+    def free_load(omega: float) -> float:
+        """Load at the pump for a load of one at the polished rod, which stands still."""
+        position, load = 0.0, 1.0
+        for length, rigidity, mass in zip(columns.length, columns.rigidity, columns.mass, strict=True):
+            k = omega * np.sqrt(mass / rigidity)
+            cos, sin = np.cos(k * length), np.sin(k * length)
+            position, load = (
+                position * cos - load * sin / (rigidity * k),
+                position * rigidity * k * sin + load * cos,
+            )
+        return float(load)
+
+    # That of any taper lies between none and the second one of the uniform string.
+    omega = np.linspace(1e-3, 3.0, 301) * 2 * np.pi * float(string.sound / (4 * string.length))
+    values = [free_load(float(each)) for each in omega]
+    first = next(n for n, value in enumerate(values) if value <= 0)
+    return zero(free_load, float(omega[first - 1]), float(omega[first])) / (2 * np.pi)

@@ -1,0 +1,192 @@
+"""Motion of the polished rod in time: harmonic, by a pumping unit at constant speed, or at that of its motor.
+
+With a motor the load of the string and the motion of the drive decide each other: the gearbox's torque under
+that load is a load of the crankshaft, the steady motion under it gives the crank angle over time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from linkwright.drive.steady_state import SteadyState, steady_state
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import InputError
+from linkwright.kinetostatics.model.loads import TorqueAngle
+from linkwright.machine.machine import Machine
+from linkwright.pumping.gear_torque import StrokeLoad, equal_peaks
+from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
+from linkwright.pumping.unit import PolishedRod
+from linkwright.rods.model.rod_string import RodString
+
+# Crank angles of the table by which the drive knows the torque of the gearbox.
+_ANGLES = 360
+
+# Intervals of the revolution over which the crank angle is a function of time.
+_INTERVALS = 1440
+
+# Steps of Newton's method for the time at the bottom of the stroke.
+_NEWTON = 5
+
+# Name of the load of the crankshaft.
+_LOAD = "rod_string"
+
+
+@dataclass(frozen=True)
+class RodMotion:
+    """The polished rod over a period, from the bottom of its stroke."""
+
+    period: float  # [s]
+    stroke: float  # [m]
+    position: Floats  # (n,) upward from the middle of the stroke or above its bottom [m]
+    crank_angle: Floats | None  # (n,) [rad]; None without a unit
+
+
+class HarmonicRod:
+    """A polished rod that moves harmonically."""
+
+    def __init__(self, stroke: float, speed: float) -> None:
+        self.stroke, self.period = stroke, 2 * np.pi / speed
+
+    def motion(self, n: int) -> RodMotion:
+        """Its position at n samples."""
+        position = 0.5 * self.stroke * (1 - np.cos(2 * np.pi * np.arange(n) / n))
+        return RodMotion(self.period, self.stroke, position, None)
+
+    def take(self, load: Floats) -> float:
+        """No load changes the motion."""
+        return 0.0
+
+
+class UnitRod:
+    """A polished rod on a pumping unit, at constant speed or at that of its motor."""
+
+    def __init__(self, machine: Machine, string: RodString) -> None:
+        unit = machine.pumping_unit
+        assert unit is not None
+        self.machine, self.unit = machine, unit
+        self.rod = PolishedRod.of(machine, unit)
+        self.ends = self.rod.bottom, self.rod.top
+        self.has_motor = machine.drive is not None and machine.drive.motor is not None
+        self.steady: SteadyState | None = None
+        speed = string.speed if machine.drive is None else machine.drive.speed
+        if self.has_motor:
+            angles = self._table_angles()
+            rises = self.rod.motion(angles)[1] > 0
+            self._drive(np.where(rises, string.weight_fluid + string.fluid_load, string.weight_fluid))
+        elif speed is None:
+            raise InputError(
+                f"{machine.name}: the rod string has no pumping speed; expected drive.speed, a motor or "
+                "rod_string.speed"
+            )
+        else:
+            self.period = 2 * np.pi / speed
+
+    @staticmethod
+    def _table_angles() -> Floats:
+        return np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
+
+    def motion(self, n: int) -> RodMotion:
+        """Its position at n samples."""
+        angles = self._angles(np.arange(n) / n)
+        return RodMotion(self.period, self.rod.stroke, self.rod.motion(angles)[0], angles)
+
+    def _angles(self, times: Floats) -> Floats:
+        """Crank angles at times over the period."""
+        start = self.ends[0]
+        if self.steady is None:
+            return np.asarray((start + 2 * np.pi * times) % (2 * np.pi))
+        from scipy.interpolate import CubicHermiteSpline
+
+        steady = self.steady
+        angle_of = CubicHermiteSpline(steady.time, steady.crank_angle, steady.speed)
+        at_start = float(np.interp(start, steady.crank_angle, steady.time))
+        for _ in range(_NEWTON):
+            at_start -= float((angle_of(at_start) - start) / angle_of(at_start, 1))
+        return np.asarray(angle_of((at_start + times * self.period) % self.period))
+
+    @property
+    def load_entries(self) -> PolishedRodLoad:
+        """Counterbalance and efficiency of the unit."""
+        return PolishedRodLoad() if self.unit.load is None else self.unit.load
+
+    @property
+    def has_given_counterbalance(self) -> bool:
+        """Whether the counterbalance is given in place of the best one."""
+        entries = self.load_entries
+        return isinstance(entries.counterbalance, float) or entries.counterbalance_effect is not None
+
+    def with_load(self, angles: Floats, load: Floats, *, is_best: bool) -> Any:
+        """The unit with a load of the polished rod over crank angles; `is_best`: with the best
+        counterbalance.
+        """
+        order = np.argsort(angles)
+        entries: Mapping[str, Any] = {
+            "angle": tuple(angles[order].tolist()),
+            "force": tuple(load[order].tolist()),
+            **({"counterbalance": "optimal", "counterbalance_effect": None} if is_best else {}),
+        }
+        return self.unit.with_entries({"load": self.load_entries.with_entries(entries)})
+
+    def stroke_load(self, angles: Floats, load: Floats) -> tuple[StrokeLoad, float]:
+        """Torques at crank angles under loads there, and the size of the counterbalance."""
+        entries, factor = self.load_entries, self.rod.motion(angles)[1]
+        unit = self.unit.with_entries({"load": entries})
+        turn = StrokeLoad(unit, load, factor, np.sin(angles + entries.phase))
+        is_air = self.unit.geometry == "air_balanced"
+        given = entries.counterbalance_effect if is_air else entries.counterbalance
+        return turn, float(given) if isinstance(given, int | float) else equal_peaks(turn, factor >= 0)
+
+    def take(self, load: Floats) -> float:
+        """The motion of the drive under samples (n,) of the load over the period.
+
+        Returns by how much that moves the rod at most, over its stroke.
+        """
+        if not self.has_motor:
+            return 0.0
+        before = self.motion(len(load))
+        assert before.crank_angle is not None
+        angles = self._table_angles()
+        self._drive(np.interp(angles, *_by_angle(before.crank_angle, load), period=2 * np.pi))
+        after = self.motion(len(load))
+        moved = float(np.abs(after.position - before.position).max()) / before.stroke
+        return max(moved, abs(after.period / before.period - 1))
+
+    def _drive(self, load: Floats) -> None:
+        """The steady motion of the drive under loads at the angles of the table."""
+        angles = self._table_angles()
+        turn, size = self.stroke_load(angles, load)
+        torque = TorqueAngle.model_construct(
+            kind="torque_angle", angle=tuple(angles.tolist()), torque=tuple(turn.net(size).tolist())
+        )
+        machine = self.machine.with_entries(
+            {
+                "loads": {**self.machine.loads, _LOAD: torque},
+                "rod_string": None,
+                "pumping_unit": self.unit.with_entries({"load": None}),
+            }
+        )
+        self.steady = steady_state(machine, n=_INTERVALS)
+        self.period = self.steady.period
+
+
+def _by_angle(angles: Floats, load: Floats) -> tuple[Floats, Floats]:
+    order = np.argsort(angles)
+    return angles[order], load[order]
+
+
+def polished_rod_of(machine: Machine, string: RodString) -> HarmonicRod | UnitRod:
+    """What moves the polished rod of a string."""
+    if machine.pumping_unit is not None:
+        return UnitRod(machine, string)
+    lacking = next((key for key in ("stroke", "speed") if getattr(string, key) is None), None)
+    speed = string.speed if machine.drive is None else machine.drive.speed
+    if string.stroke is None or speed is None:
+        raise InputError(
+            f"{machine.name}: found no rod_string.{lacking}, expected it, or a [pumping_unit] that moves the "
+            "polished rod"
+        )
+    return HarmonicRod(string.stroke, speed)

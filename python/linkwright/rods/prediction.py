@@ -1,0 +1,312 @@
+r"""Predicted motion of a rod string: cards from the polished rod to the pump.
+
+The displacement of a section is :math:`u_{tt} = a^2 u_{xx} - c\,u_t`, exact per harmonic through any
+number of
+sections; valves of the pump make its load of the wave that comes down the rods, instant by instant
+(`crates/linkwright-rods`). The polished rod moves as its unit does at the speed that its drive has under this
+load.
+
+References
+----------
+.. [1] Gibbs, Predicting the Behavior of Sucker-Rod Pumping Systems, J. Pet. Tech. 15 (1963) 769.
+.. [2] API RP 11L, 4th ed. 1988, 2 and 3: terms F_o/Sk_r, N/N_o, N/N_o′, S_p/S, F_1/Sk_r, F_2/Sk_r.
+.. [3] Takács, Sucker-Rod Pumping Handbook, 2015, 4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+import numpy as np
+
+from linkwright.drive.steady_state import SteadyState
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import ConvergenceError, InputError
+from linkwright.kernel.public import public
+from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.result import Result
+from linkwright.machine.machine import Machine
+from linkwright.pumping.gear_torque import GearTorque, gear_torque
+from linkwright.rods.core import Solved, sample_counts, solve_string
+from linkwright.rods.model.rod_string import RodString
+from linkwright.rods.numbers import ApiNumbers, api_numbers
+from linkwright.rods.polished_rod import HarmonicRod, RodMotion, UnitRod, polished_rod_of
+from linkwright.rods.stress import RodStress, rod_stress
+
+# Samples of the first solution, and of the finest.
+_FIRST, _MOST = 512, 20_000
+
+# Rounds between string and drive at most, and the change of the motion at which they end, over the accuracy.
+_ROUNDS, _ALIKE = 40, 1e-3
+
+# Numbers of samples that are tried.
+_TRIALS = 4
+
+# Corners of the load by which the torque of the gearbox is examined.
+_CORNERS = 360
+
+
+@dataclass(frozen=True)
+class RodStringMotion(Result):
+    """A rod string with its pump over one stroke."""
+
+    time: Annotated[Floats, Label("time", "t", "s", "From the bottom of the stroke.")]
+    stations: Annotated[tuple[str, ...], About("The polished rod, the tapers, the pump.")]
+    position: Annotated[
+        Floats,
+        Label("position", "u", "m", "Upward, from the string at rest without pump load.", "(stations, n)"),
+    ]
+    load: Annotated[
+        Floats,
+        Label(
+            "dynamic load",
+            "F",
+            "N",
+            "Tension beyond the weight of the rods in the fluid below.",
+            "(stations, n)",
+        ),
+    ]
+    rod_position: Annotated[
+        Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
+    ]
+    rod_load: Annotated[
+        Floats,
+        Label("load of the polished rod", "W", "N", "With the weight of rods and the stuffing-box friction."),
+    ]
+    crank_angle: Annotated[Floats | None, Label("crank angle", "φ", "rad", "None without a pumping unit.")]
+    period: Annotated[float, Label("period of a stroke", "T", "s", table="rod_string")]
+    stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", table="rod_string")]
+    plunger_stroke: Annotated[
+        float,
+        Label(
+            "effective plunger stroke",
+            "S_p",
+            "m",
+            "Against the barrel, which moves with tubing that is not anchored.",
+            table="rod_string",
+        ),
+    ]
+    plunger_travel: Annotated[float, Label("travel of the plunger", "", "m", "Against the casing.")]
+    load_max: Annotated[float, Label("peak polished-rod load", "PPRL", "N", table="rod_string")]
+    load_min: Annotated[float, Label("minimum polished-rod load", "MPRL", "N", table="rod_string")]
+    weight_air: Annotated[float, Label("weight of the rods in air", "W_r", "N", table="rod_string")]
+    weight_fluid: Annotated[float, Label("weight of the rods in the fluid", "W_rf", "N", table="rod_string")]
+    fluid_load: Annotated[float, Label("fluid load on the plunger", "F_o", "N", table="rod_string")]
+    stretch: Annotated[
+        float, Label("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.", table="rod_string")
+    ]
+    production: Annotated[
+        float, Label("production", "Q", "m³/s", "Liquid, at discharge pressure.", table="rod_string")
+    ]
+    power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="rod_string")]
+    power_pump: Annotated[
+        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")
+    ]
+    power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="rod_string")]
+    power_hydraulic: Annotated[
+        float, Label("hydraulic power", "P_h", "W", "Production times pressure rise.", table="rod_string")
+    ]
+    numbers: Annotated[ApiNumbers, About("Terms of API RP 11L.")]
+    stress: Annotated[RodStress, About("Loads and stresses of the sections, with the Goodman diagram.")]
+    gear: Annotated[GearTorque | None, About("Torque of the gearbox; None without a pumping unit.")]
+    gear_best: Annotated[
+        GearTorque | None, About("The same with the best counterbalance; None without a pumping unit.")
+    ]
+    drive: Annotated[SteadyState | None, About("Steady motion of the drive; None without a motor.")]
+    balance: Annotated[
+        float,
+        Label("residual of the work balance", "", "", "Of the string, over the work of the polished rod."),
+    ]
+    harmonics: Annotated[
+        int, Label("harmonics", "", "", "Of the stroke, the finest solution.", table="rod_string")
+    ]
+    accuracy: Annotated[
+        float,
+        Label(
+            "accuracy reached",
+            "",
+            "",
+            "Difference from the solution with half the harmonics: of peak and minimum load over their "
+            "range, of "
+            "the plunger stroke over the stroke.",
+            table="rod_string",
+        ),
+    ]
+    sweeps: Annotated[int, Label("sweeps between string and pump", "", "", "Of the finest solution.")]
+
+    @property
+    def efficiency(self) -> Annotated[float, Label("efficiency of the rod string", "η", "")]:
+        """Hydraulic power over the power of the polished rod."""
+        return self.power_hydraulic / self.power_rod
+
+
+@public
+def rod_string(machine: Machine, *, accuracy: float = 1e-3) -> RodStringMotion:
+    """Motion of a rod string under its pumping unit: cards, loads, stresses, production.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with a rod string.
+    accuracy : float
+        Accuracy of peak and minimum load and of the plunger stroke, by which the number of harmonics is
+        chosen.
+
+    Returns
+    -------
+    RodStringMotion
+        Cards of the polished rod, of every taper and of the pump, with what follows from them.
+
+    Raises
+    ------
+    InputError
+        The machine has no rod string, or nothing moves its polished rod.
+    ConvergenceError
+        No periodic motion was found: without damping vibrations of the string may not die out.
+
+    Notes
+    -----
+    Dynamic loads are tensions beyond the weight of the rods in the fluid; stresses and the tendency to buckle
+    are those of the effective tension, which buoyancy at the lower end does not compress.
+    """
+    string = string_of(machine)
+    if not 1e-6 <= accuracy <= 0.1:
+        raise InputError(f"accuracy: found {accuracy}, expected a number from 1e-6 to 0.1")
+    rod = polished_rod_of(machine, string)
+    least, before, start, last = _FIRST, None, None, np.inf
+    while True:
+        moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
+        result = _result(string, rod, moved, solved)
+        change = np.inf if before is None else _difference(result, before)
+        # Corners leave an error of first order, which falls now more, now less than by half.
+        reached = max(change, min(last, change * 4) / 2)
+        if reached <= accuracy or 2 * least > _MOST:
+            return replace(result, accuracy=float(reached))
+        last = change
+        least, before, start = 2 * least, result, np.asarray(solved.wave)
+
+
+def string_of(machine: Machine) -> RodString:
+    """The rod string of a machine; an `InputError` without one."""
+    string: RodString | None = machine.rod_string
+    if string is None:
+        raise InputError(f"{machine.name} has no [rod_string]: expected the description of one")
+    return string
+
+
+def _settled(
+    string: RodString, rod: HarmonicRod | UnitRod, least: int, start: Floats | None, alike: float
+) -> tuple[RodMotion, Solved]:
+    """String and drive at their common motion."""
+    counts = sample_counts(string, rod.period, least)
+    for _ in range(_ROUNDS):
+        moved, solved = _periodic(string, rod, counts, start)
+        start = np.asarray(solved.wave)
+        if rod.take(polished_rod_load(string, moved, solved.cards.load[0])) <= alike:
+            return moved, solved
+    raise ConvergenceError(
+        "string and drive have not come to a common steady motion: the drive is close to its limit"
+    )
+
+
+def _periodic(
+    string: RodString, rod: HarmonicRod | UnitRod, counts: list[int], start: Floats | None
+) -> tuple[RodMotion, Solved]:
+    """The string under a motion of the polished rod.
+
+    Where a jump of the load falls on a sample, sweeps may move it: others have it between them.
+    """
+    for n in counts[:_TRIALS]:
+        moved = rod.motion(n)
+        solved = solve_string(string, moved.period, moved.position, start)
+        if solved.has_converged:
+            return moved, solved
+    raise ConvergenceError(
+        f"no periodic motion of the rod string was found: waves between string and pump still change by "
+        f"{solved.change:.2g} of the fluid load; expected damping by which they die out, see "
+        "rod_string.damping"
+    )
+
+
+def polished_rod_load(string: RodString, moved: RodMotion, dynamic: Floats) -> Floats:
+    """Load of the polished rod: dynamic load, weight of the rods in the fluid, friction of the stuffing
+    box [N].
+    """
+    direction = np.sign(np.roll(moved.position, -1) - np.roll(moved.position, 1))
+    return np.asarray(dynamic + string.weight_fluid + string.stuffing_box * direction)
+
+
+def _difference(fine: RodStringMotion, coarse: RodStringMotion) -> float:
+    span = fine.load_max - fine.load_min
+    peaks = max(abs(fine.load_max - coarse.load_max), abs(fine.load_min - coarse.load_min)) / span
+    return max(peaks, abs(fine.plunger_stroke - coarse.plunger_stroke) / fine.stroke)
+
+
+def _result(
+    string: RodString, rod: HarmonicRod | UnitRod, moved: RodMotion, solved: Solved
+) -> RodStringMotion:
+    cards, period, pump = solved.cards, moved.period, string.pump
+    load = polished_rod_load(string, moved, cards.load[0])
+    plunger, pump_load = cards.position[-1], cards.load[-1]
+    stroke = float(np.ptp(plunger - pump.tubing_compliance(string.length) * pump_load))
+    leaked = pump.leak * float(pump_load.mean()) / string.fluid_load
+    # Liquid is sold at discharge pressure, to which the plunger compresses it.
+    compressed = 1 - (string.discharge - string.intake) / pump.bulk_modulus
+    production = pump.area * pump.fillage * stroke * compressed / period - leaked
+    gear = _gear(rod, moved, load, is_best=False)
+    is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
+    best = _gear(rod, moved, load, is_best=True) if is_given else gear
+    peak = None if best is None else max(best.torque_net_up, best.torque_net_down)
+    numbers = api_numbers(string, moved.stroke, period, stroke, load, peak)
+    friction = 2 * string.stuffing_box * moved.stroke
+    lost = float(cards.loss.sum())
+    return RodStringMotion(
+        time=period * np.arange(len(load)) / len(load),
+        stations=station_names(string),
+        position=cards.position,
+        load=cards.load,
+        rod_position=moved.position - moved.position.min(),
+        rod_load=load,
+        crank_angle=moved.crank_angle,
+        period=period,
+        stroke=moved.stroke,
+        plunger_stroke=stroke,
+        plunger_travel=float(np.ptp(plunger)),
+        load_max=float(load.max()),
+        load_min=float(load.min()),
+        weight_air=float(string.weight_air),
+        weight_fluid=float(string.weight_fluid),
+        fluid_load=float(string.fluid_load),
+        stretch=float(string.fluid_load / string.stiffness),
+        production=production,
+        power_rod=(float(cards.work[0]) + friction) / period,
+        power_pump=float(cards.work[-1]) / period,
+        power_damping=lost / period,
+        power_hydraulic=production * (string.discharge - string.intake),
+        numbers=numbers,
+        stress=rod_stress(string, cards.load),
+        gear=gear,
+        gear_best=best,
+        drive=rod.steady if isinstance(rod, UnitRod) else None,
+        balance=float((cards.work[0] - cards.work[-1] - lost) / cards.work[0]),
+        harmonics=len(load) // 2 - 1,
+        accuracy=np.inf,
+        sweeps=solved.sweeps,
+    )
+
+
+def station_names(string: RodString) -> tuple[str, ...]:
+    """Names of the polished rod, the tapers and the pump."""
+    tapers = (f"taper {n}" for n in range(1, len(string.sections)))
+    return ("polished rod", *tapers, "pump")
+
+
+def _gear(rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats, *, is_best: bool) -> GearTorque | None:
+    if not isinstance(rod, UnitRod) or moved.crank_angle is None:
+        return None
+    order = np.argsort(moved.crank_angle)
+    angles = np.linspace(0.0, 2 * np.pi, _CORNERS, endpoint=False)
+    at = np.interp(angles, moved.crank_angle[order], load[order], period=2 * np.pi)
+    shown = np.linspace(0.0, 2 * np.pi, _CORNERS + 1)
+    return gear_torque(rod.with_load(angles, at, is_best=is_best), rod.rod.motion, rod.ends, shown)

@@ -1,0 +1,44 @@
+"""Harmonics of a measured card that stand above its noise."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+
+# Share of the harmonics, the highest, that are taken for noise, and by how much others must stand above it.
+_NOISE, _ABOVE = 1 / 3, 4.0
+
+# Harmonics of a card at least: below, no shape of a pump card is left.
+_LEAST = 6
+
+# Relative size of a coefficient that is rounding.
+_ROUNDING = 1e-12
+
+
+class Filtered(NamedTuple):
+    """A measured quantity by its harmonics above the noise."""
+
+    samples: Floats  # (m,) of a period
+    harmonics: int
+    noise: float  # standard deviation of the noise of a sample
+
+
+def filtered(values: Floats, m: int, harmonics: int | None) -> Filtered:
+    """A quantity of n samples by its harmonics above the noise, or by as many as given, at m samples."""
+    n = len(values)
+    coefficients = np.fft.rfft(values) / n
+    highest = (n - 1) // 2
+    sizes = np.abs(coefficients[1 : highest + 1])
+    # Half of Rayleigh-distributed amplitudes lie below 1.18 of their parameter.
+    tail = sizes[int((1 - _NOISE) * highest) :]
+    floor = float(np.median(tail)) / 1.1774
+    level = max(_ABOVE * floor, _ROUNDING * float(np.abs(coefficients).max()))
+    above = np.flatnonzero(sizes > level) + 1
+    chosen = max(int(above[-1]) if len(above) else 0, min(_LEAST, highest))
+    count = min(chosen if harmonics is None else harmonics, highest, (m - 1) // 2)
+    kept = np.zeros(m // 2 + 1, dtype=complex)
+    kept[: count + 1] = coefficients[: count + 1]
+    return Filtered(np.fft.irfft(kept * m, m), count, floor * np.sqrt(2 * n))

@@ -1,0 +1,98 @@
+"""Results of rod strings as tables of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.page.table import Row, Table, columns_csv, known_rows, part_table, parts_of, rows_in
+from linkwright.kernel.quantities import in_table
+from linkwright.kernel.reader.numbers import measured, number
+from linkwright.pumping.gear_torque import GearTorque
+from linkwright.rods.diagnosis import CardDiagnosis
+from linkwright.rods.prediction import RodStringMotion
+from linkwright.rods.stress import RodStress
+
+_HEADS = ("quantity", "", "value", "")
+
+# Seconds of a day; a barrel [m³].
+_DAY, _BARREL = 86_400.0, 0.158987294928
+
+
+def string_tables(motion: RodStringMotion) -> Iterator[Table]:
+    """Loads, strokes and powers; stresses of the sections; the gearbox; terms of API RP 11L."""
+    beside = {"production": daily(motion.production), "period": f"{number(60 / motion.period)} strokes/min"}
+    yield Table("rod_string", "Rod string", _HEADS, known_rows(motion, "rod_string", beside))
+    yield sections_table(motion.stress)
+    if motion.gear is not None and motion.gear_best is not None:
+        yield _gear(motion.gear, motion.gear_best)
+    yield Table("rod_numbers", "Terms of API RP 11L", _HEADS, known_rows(motion.numbers, "rod_numbers"))
+
+
+def diagnosis_tables(found: CardDiagnosis) -> Iterator[Table]:
+    """What the card tells of the pump; stresses of the sections."""
+    beside = {"production": daily(found.production), "damping": "fitted" if found.is_fitted else ""}
+    yield Table("diagnosis", "Diagnosis of the card", _HEADS, known_rows(found, "diagnosis", beside))
+    yield sections_table(found.stress)
+
+
+def daily(flow: float) -> str:
+    """A flow by the day: cubic metres, and barrels of 42 US gallons."""
+    return f"{number(flow * _DAY)} m³/d, {number(flow * _DAY / _BARREL)} bbl/d"
+
+
+def sections_table(stress: RodStress) -> Table:
+    """A row a section: loads, stresses, Goodman loading."""
+    return part_table(
+        "rod_sections",
+        "Sections of the rod string",
+        parts_of(stress, "sections"),
+        (
+            "section",
+            "length",
+            "maximum load",
+            "minimum load",
+            "maximum stress",
+            "minimum stress",
+            "Goodman loading",
+        ),
+        _name,
+        "length",
+        "load_max",
+        "load_min",
+        "stress_max",
+        "stress_min",
+        _loading,
+    )
+
+
+def _name(section: Any) -> str:
+    return str(section.name)
+
+
+def _loading(section: Any) -> str:
+    loading = section.loading
+    return "–" if np.isnan(loading) else f"{number(100 * loading)} %"
+
+
+def _gear(gear: GearTorque, best: GearTorque) -> Table:
+    rated = {"torque_net_up": f"rated {measured(gear.torque_rated, 'N m')}"} if gear.torque_rated else {}
+    without = [name for name in in_table(GearTorque, "gear_torque") if getattr(gear, name) is None]
+    of_given, of_best = (rows_in(each, "gear_torque", rated, without=without) for each in (gear, best))
+    rows: list[Row] = [
+        (given[0], given[1], given[2], other[2], given[3])
+        for given, other in zip(of_given, of_best, strict=True)
+    ]
+    heads = ("quantity", "", "value", "best counterbalance", "rating")
+    return Table("rod_gear", "Torque of the gearbox under the rod string", heads, rows)
+
+
+def cards_csv(result: RodStringMotion | CardDiagnosis) -> str:
+    """Position and load at every station over time."""
+    columns = {"time [s]": result.time}
+    for station, position, load in zip(result.stations, result.position, result.load, strict=True):
+        name = station.replace(" ", "_")
+        columns |= {f"{name}_position [m]": position, f"{name}_load [N]": load}
+    return columns_csv(columns | {"rod_load [N]": result.rod_load})

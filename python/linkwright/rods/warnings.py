@@ -1,0 +1,102 @@
+"""What a rod string cannot bear, and what its user should know besides: sentences with numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.rods.diagnosis import CardDiagnosis
+from linkwright.rods.model.rod_string import RodString
+from linkwright.rods.prediction import RodStringMotion
+from linkwright.rods.stress import RodStress
+
+# Accuracy of a solution beyond which the user is warned.
+_INACCURATE = 2e-3
+
+# Fluid load of a card over that of the file beyond which they differ.
+_DIFFERS = 0.25
+
+# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence.
+_SMALL = 0.01
+
+
+def string_findings(motion: RodStringMotion) -> Iterator[str]:
+    """Sections beyond the Goodman diagram, gearbox and structure beyond their ratings."""
+    yield from _goodman(motion.stress)
+    gear = motion.gear
+    if gear is None:
+        return
+    peak = max(gear.torque_net_up, gear.torque_net_down)
+    if gear.torque_rated is not None and peak > gear.torque_rated:
+        yield (
+            f"The gearbox is overloaded by the rod string: its torque reaches {peak:.4g} N m, "
+            f"{100 * peak / gear.torque_rated:.0f} % of its rating of {gear.torque_rated:.4g} N m."
+        )
+    if gear.load_rated is not None and motion.load_max > gear.load_rated:
+        yield (
+            "The structure is overloaded by the rod string: the polished rod carries "
+            f"{motion.load_max:.4g} N, "
+            f"{100 * motion.load_max / gear.load_rated:.0f} % of its rating of {gear.load_rated:.4g} N."
+        )
+
+
+def _goodman(stress: RodStress) -> Iterator[str]:
+    for n, name in enumerate(stress.sections):
+        if stress.loading[n] > 1:
+            yield (
+                f"Section {n + 1} ({name}) is overloaded: its stress reaches "
+                f"{stress.stress_max[n] / 1e6:.4g} MPa, "
+                f"the modified Goodman diagram permits {stress.stress_permissible[n] / 1e6:.4g} MPa."
+            )
+
+
+def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]:
+    """What should be known of a predicted motion."""
+    yield from _buckling(motion.stress, motion.fluid_load)
+    if motion.load_min < 0:
+        yield (
+            f"The load of the polished rod falls to {motion.load_min:.4g} N: the rods fall more slowly "
+            "than the carrier bar; reduce the speed."
+        )
+    if motion.accuracy > _INACCURATE:
+        yield (
+            f"Peak loads of the rod string are accurate to {100 * motion.accuracy:.2g} % of their range "
+            f"only, with {motion.harmonics} harmonics: the load of the pump falls too suddenly."
+        )
+    if string.damping is None and "damping_factor" not in string.model_fields_set:
+        yield (
+            f"The damping of the rod string is assumed: a damping factor of {string.damping_factor:.3g}. A "
+            "measured card tells it: `linkwright rods FILE --card`."
+        )
+
+
+def _buckling(stress: RodStress, fluid_load: float) -> Iterator[str]:
+    for n, name in enumerate(stress.sections):
+        low = float(stress.load_bottom_min[n])
+        if low < -_SMALL * fluid_load:
+            yield (
+                f"Section {n + 1} ({name}) tends to buckle at its lower end: the effective tension falls to "
+                f"{low:.4g} N; add sinker bars."
+            )
+
+
+def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]:
+    """What should be known of a diagnosed card."""
+    yield from _buckling(found.stress, found.fluid_load)
+    ratio = found.fluid_load / found.fluid_load_file
+    if abs(ratio - 1) > _DIFFERS:
+        yield (
+            f"The pump card shows a fluid load of {found.fluid_load:.4g} N, the machine file "
+            f"{found.fluid_load_file:.4g} N: compare fluid level, plunger and calibration of the load cell."
+        )
+    if found.is_fitted and (found.damping == 0 or found.damping_factor > 0.9):
+        yield (
+            f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "
+            "of its range: give rod_string.damping with --damping."
+        )
+    if np.isfinite(string.inclination) and string.inclination > np.radians(3):
+        yield (
+            "The well is inclined: friction of the rods on the tubing, which is left out, counts as load of "
+            "the pump."
+        )
