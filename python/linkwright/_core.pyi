@@ -33,6 +33,8 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
+    "DrivelineInTime",
+    "DrivelineInTimeCurves",
     "DrivelineMotion",
     "Element",
     "Extremes",
@@ -79,6 +81,7 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_in_time",
     "driveline_motion",
     "follow_group",
     "gaps",
@@ -1184,6 +1187,55 @@ class DrivelineMotion:
         """Curves at crank angles of the cycle."""
 
 @final
+class DrivelineInTimeCurves:
+    """Curves of a driveline over time, (parts, n) each, all referred to the crank.
+
+    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads, and
+    the heat of the links; `impulse` is the integral of the motor's torque.
+    """
+
+    angle: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    twist: Final[_Floats]
+    torque: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+    energy_kinetic: Final[_Floats]
+    energy_elastic: Final[_Floats]
+    work_shaft: Final[_Floats]
+    impulse: Final[_Floats]
+    work_drive: Final[_Floats]
+    work_load: Final[_Floats]
+    heat: Final[_Floats]
+
+@final
+class DrivelineInTime:
+    """Motion in time of a driveline, with extremes over its masses or links; all referred to the crank.
+
+    `time`, `crank_angle`: at the ends of the steps; `state`: at the end; `end`: ``"time"``, ``"turns"``,
+    ``"rest"``, ``"does not close"`` or ``"inaccurate"``; `events`: number of the end of a step, what
+    happened there, and the mass of it; `energy_error`: largest gain of energy less works, over the largest.
+    """
+
+    time: Final[_Floats]
+    crank_angle: Final[_Floats]
+    state: Final[_Floats]
+    end: Final[str]
+    torque_drive_end: Final[float]
+    torque_load_end: Final[float]
+    speed: Final[Extremes]
+    acceleration: Final[Extremes]
+    twist: Final[Extremes]
+    torque: Final[Extremes]
+    energy_error: Final[float]
+    evaluations: Final[int]
+    events: Final[list[tuple[int, str, int | None]]]
+
+    def curves(self, time: _Floats) -> DrivelineInTimeCurves:
+        """Curves at times of the motion."""
+
+@final
 class NoDrivelineMotion:
     """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``."""
 
@@ -1191,6 +1243,33 @@ class NoDrivelineMotion:
     crank_angle: Final[float]
     speed: Final[float]
     accuracy: Final[float]
+
+def driveline_in_time(
+    plan: Plan,
+    q: _Floats,
+    *,
+    inertia: _Floats,
+    apart: float,
+    first: _Ints,
+    second: _Ints,
+    stiffness: _Floats,
+    damping: _Floats,
+    driven: int,
+    held: float | None,
+    state: _Floats,
+    time: float,
+    motor: float,
+    speed: float,
+    until: float,
+    turns: float,
+    accuracy: float,
+) -> DrivelineInTime:
+    """Motion in time of masses with links as in `driveline_motion`.
+
+    `state`: twists and speeds of all masses against the crank, its speed and its angle, at `time`; `motor`:
+    +1 or −1, the direction in which it drives; `speed`: about which the machine works; `until`, `turns`: time
+    and revolutions at the end at the latest.
+    """
 
 def driveline_motion(
     plan: Plan,

@@ -14,8 +14,8 @@ use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
 use crate::{Floats, Ints};
 
-type Array = Py<PyArray1<f64>>;
-type Table = Py<PyArray2<f64>>;
+pub(crate) type Array = Py<PyArray1<f64>>;
+pub(crate) type Table = Py<PyArray2<f64>>;
 
 const ANALYSIS: &str = "steady motion of the driveline";
 
@@ -84,14 +84,14 @@ pub(crate) enum DrivelineOutcome {
     None(NoDrivelineMotion),
 }
 
-fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
+pub(crate) fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
     let of = |part: fn(&CoreExtremes) -> f64| column(py, list.iter().map(part).collect()).unbind();
     let (greatest, greatest_at) = (of(|each| each.max), of(|each| each.max_at));
     let (least, least_at) = (of(|each| each.min), of(|each| each.min_at));
     Py::new(py, Extremes { greatest, greatest_at, least, least_at })
 }
 
-fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
+pub(crate) fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
     let columns = list.len() / rows.max(1);
     Ok(column(py, list).reshape([rows, columns])?.unbind())
 }
@@ -127,6 +127,23 @@ fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: u
     Ok((0..first.len()).map(link).collect())
 }
 
+/// A driveline from inertias and what is apart, ends and rates of links, what is driven and at which speed it is held.
+pub(crate) fn chain(
+    (inertia, apart): (&Floats<'_>, f64),
+    (first, second): (&Ints<'_>, &Ints<'_>),
+    rates: [&Floats<'_>; 2],
+    (driven, held): (usize, Option<f64>),
+) -> PyResult<Chain> {
+    let inertia = inertia.as_slice()?.to_vec();
+    let links = links(first, second, rates, inertia.len() + 1)?;
+    let driver = held.map_or(Driver::Motor, Driver::Held);
+    let chain = Chain { inertia, apart, links, driven, driver };
+    if !chain.fits() {
+        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
+    }
+    Ok(chain)
+}
+
 #[pyfunction]
 #[pyo3(signature = (
     plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
@@ -151,13 +168,8 @@ pub(crate) fn driveline_motion(
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
     let q = known.get().parameters(&q)?.to_vec();
-    let inertia = inertia.as_slice()?.to_vec();
-    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
-    let driver = held.map_or(Driver::Motor, Driver::Held);
-    let chain = Chain { inertia, apart, links, driven, driver };
-    if !chain.fits() {
-        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
-    }
+    let rates = [&stiffness, &damping];
+    let chain = chain((&inertia, apart), (&first, &second), rates, (driven, held))?;
     let plan = &known.get().0;
     let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
     let solved = guarded(py, ANALYSIS, || {

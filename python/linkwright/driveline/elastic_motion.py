@@ -14,7 +14,7 @@ collocation, not by waiting; the eigenvalues of the monodromy matrix are its Flo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -246,6 +246,23 @@ def elastic_motion(
     ----------
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
+    require_accuracy(accuracy)
+    solved = steady_solution(machine, accuracy)
+    phi = turn_angles(n, solved.turns) if angles is None else angles
+    return _result(machine, solved.motion, solved.chain, phi, solved.turns, solved.multipliers)
+
+
+class SteadySolution(NamedTuple):
+    """Steady motion as the core has it, of which curves are read."""
+
+    motion: DrivelineMotion
+    chain: Chain
+    turns: int  # revolutions of a cycle
+    multipliers: Complexes
+
+
+def steady_solution(machine: Machine, accuracy: float) -> SteadySolution:
+    """Steady motion of an elastic driveline; raises as `elastic_motion`."""
     drive = machine.drive
     if drive is None or not drive.twists:
         raise InputError(
@@ -253,7 +270,6 @@ def elastic_motion(
         )
     if drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
-    require_accuracy(accuracy)
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
     compiled = over_whole_cycle(compiled)
@@ -267,8 +283,7 @@ def elastic_motion(
         other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, _AWAY))
         if isinstance(other, DrivelineMotion):
             motion, multipliers = other, _multipliers(other, chain)
-    phi = turn_angles(n, compiled.turns) if angles is None else angles
-    return _result(machine, motion, chain, phi, compiled.turns, multipliers)
+    return SteadySolution(motion, chain, compiled.turns, multipliers)
 
 
 def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, Any]:

@@ -293,6 +293,11 @@ class CompiledMachine:
         require("driveline_motion")
         return _core.driveline_motion(self.plan, self.one, accuracy=accuracy, **chain)
 
+    def driveline_in_time(self, **motion: Any) -> _core.DrivelineInTime:
+        """Motion in time behind a torsionally flexible driveline; see `_core.driveline_in_time`."""
+        require("driveline_in_time")
+        return _core.driveline_in_time(self.plan, self.one, **motion)
+
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
         return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)
