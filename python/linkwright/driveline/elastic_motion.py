@@ -261,14 +261,18 @@ class SteadySolution(NamedTuple):
     multipliers: Complexes
 
 
-def steady_solution(machine: Machine, accuracy: float) -> SteadySolution:
-    """Steady motion of an elastic driveline; raises as `elastic_motion`."""
-    drive = machine.drive
-    if drive is None or not drive.twists:
+def require_flexible(machine: Machine) -> None:
+    """Raise if nothing of the driveline twists."""
+    if machine.drive is None or not machine.drive.twists:
         raise InputError(
             f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}"
         )
-    if drive.motor is None:
+
+
+def steady_solution(machine: Machine, accuracy: float) -> SteadySolution:
+    """Steady motion of an elastic driveline; raises as `elastic_motion`."""
+    require_flexible(machine)
+    if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)

@@ -21,7 +21,7 @@ from linkwright.drive.load_checks import require_half_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.driveline.chain import Chain, chain_of
-from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.driveline.elastic_motion import ElasticMotion, require_flexible
 from linkwright.driveline.permitted import TorqueJudgement, in_motion
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
@@ -32,16 +32,18 @@ from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
-from linkwright.machine.address import replace
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import DrivelineInTime
-from linkwright.torsion.model.drive_train import STIFFNESS_KEYS
 
 _OWN = "At its own speed."
 
 # Extremes of a motion: attribute of the core's result, parts that it is over, factor from the crank to their own
 # speed. Torques go the other way.
 _EXTREMES = ("speed", "acceleration", "torque", "twist")
+
+
+# Share of the duration by which a time may be beyond the end of the motion.
+_ROUNDING = 1e-12
 
 
 class DriveSwitch(NamedTuple):
@@ -53,14 +55,14 @@ class DriveSwitch(NamedTuple):
         [s].
     motor, brake : bool or None
         Whether the motor is on and the brake applied from then on; None as before.
-    entries : mapping
-        Entries of the machine by address, such as ``{"loads.cut.force": 2000.0}``.
+    machine : Machine or None
+        The machine from then on, such as one with other loads by `replace`; None as before.
     """
 
     time: float
     motor: bool | None = None
     brake: bool | None = None
-    entries: Mapping[str, Any] = {}
+    machine: Machine | None = None
 
 
 @dataclass(frozen=True)
@@ -291,7 +293,16 @@ def elastic_transient(
         sense=-1.0 if clockwise else 1.0,
         switches=switches,
     )
-    return moving.result(None if times is None else array("times", times))
+    return moving.result(None if times is None else _within(array("times", times), moving.ends[-1]))
+
+
+def _within(times: Floats, last: float) -> Floats:
+    """Times of the motion; those that rounding put beyond an end are at that end."""
+    inside = np.clip(times, 0.0, last)
+    beyond = np.abs(times - inside) > _ROUNDING * last
+    if times.ndim != 1 or beyond.any():
+        raise InputError(f"times: expected times from 0 s to {last:.6g} s, when the motion ends")
+    return inside
 
 
 _WORKS = ("work_shaft", "impulse", "work_drive", "work_load", "heat")
@@ -355,9 +366,12 @@ class Followed:
                 found.setdefault(name, np.empty((*values.shape[:-1], len(times))))[..., at] = values[..., :-1]
         return found
 
-    def result(self, times: Floats | None = None) -> ElasticTransient:
-        """The motion with its curves, extremes and energies."""
-        return _result(self, self.ends if times is None else times)
+    def result(
+        self, times: Floats | None = None, words: str = "in this motion in time"
+    ) -> ElasticTransient:
+        """The motion with its curves, extremes and energies; `words`: what judgements call it."""
+        found = _result(self, self.ends if times is None else times)
+        return in_motion(self.stretches[-1].machine, found, words)
 
 
 def followed(
@@ -385,10 +399,12 @@ def followed(
     if any(later <= earlier for earlier, later in zip([time, *ends], ends, strict=False)):
         raise InputError("switches: expected increasing times above 0, before the duration")
     for switch, until in zip([DriveSwitch(time), *switches], ends, strict=True):
-        machine = replace(machine, dict(switch.entries)) if switch.entries else machine
+        machine = switch.machine or machine
         motor = motor if switch.motor is None else switch.motor
         brake = brake if switch.brake is None else switch.brake
         compiled, chain = _compiled(machine, motor=motor, brake=brake), chain_of(machine)
+        if moving.stretches:
+            _require_same_driveline(moving.stretches[0].chain, chain)
         left = turns - abs(float(state[-1]) - first) / (2 * np.pi)
         motion = compiled.driveline_in_time(
             **chain.links,
@@ -412,11 +428,9 @@ def followed(
 
 
 def _compiled(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine:
+    require_flexible(machine)
     drive = machine.drive
-    if drive is None or not drive.twists:
-        raise InputError(
-            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}"
-        )
+    assert drive is not None
     if isinstance(drive.motor, ConstantSpeedMotor):
         raise InputError("a constant-speed motor has no run-up: it keeps its speed under any load")
     if drive.gearbox.locks:
@@ -428,6 +442,15 @@ def _compiled(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine:
     require_half_turns(compiled, machine)
     require_finite_accelerations(machine)
     return compiled
+
+
+def _require_same_driveline(chain: Chain, other: Chain) -> None:
+    """Raise if a switch changes what the driveline consists of."""
+    if (chain.stations, chain.shafts) != (other.stations, other.shafts):
+        raise InputError(
+            f"switches: found a machine with the shafts {', '.join(other.shafts)}, expected "
+            f"{', '.join(chain.shafts)} as at the start"
+        )
 
 
 def _require_end(
@@ -453,9 +476,7 @@ def _state(
     """Twists and speeds of the masses against the crank, its speed and angle."""
     if isinstance(start, ElasticTransient):
         return start.state_end
-    if machine.drive is None or not machine.drive.twists:
-        # Said where the machine is compiled.
-        return np.zeros(0)
+    require_flexible(machine)
     chain = chain_of(machine)
     masses = len(chain.links["inertia"]) + 1
     angle, speed = at_rest
@@ -477,7 +498,7 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
     start = moving.stretches[0].motion.curves(moving.stretches[0].motion.time[:1])
     curves = {name: values[..., :-1] for name, values in curves.items()}
     at, ratio, lead = chain.mass, chain.ratio, chain.lead
-    found = ElasticTransient(
+    return ElasticTransient(
         time=times,
         crank_angle=curves["angle"][-1],
         stations=chain.stations,
@@ -509,7 +530,6 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
         slips=np.array(list(_slips(moving))),
         notes=chain.notes,
     )
-    return in_motion(machine, found)
 
 
 def _extremes(moving: Followed, chain: Chain) -> dict[str, Floats]:
@@ -528,7 +548,9 @@ def _extremes(moving: Followed, chain: Chain) -> dict[str, Floats]:
             if name in factors:
                 found[f"{name}_{side}"] = value * factors[name]
             else:
-                found[f"{name}_{side}"] = (value[chain.mass]) * chain.ratio
+                # What the accuracy leaves of a speed at rest is none.
+                value = np.where(np.abs(value) > moving.accuracy * np.abs([low, high]).max(), value, 0.0)
+                found[f"{name}_{side}"] = value[chain.mass] * chain.ratio
                 when = when[chain.mass]
             if name in ("speed", "torque"):
                 found[f"{name}_{side}_time"] = when

@@ -69,10 +69,10 @@ def judged(machine: Machine, motion: ElasticMotion) -> ElasticMotion:
     return replace(motion, judgements=tuple(_judgements(machine, motion)))
 
 
-def in_motion(machine: Machine, motion: ElasticTransient) -> ElasticTransient:
-    """A motion in time with its torques judged: a transient has no vibratory torque to be permitted."""
+def in_motion(machine: Machine, motion: ElasticTransient, words: str) -> ElasticTransient:
+    """A motion in time with its torques judged: it has no vibratory torque that might be permitted."""
     found = (
-        replace(each, motion="in this motion in time")
+        replace(each, motion=words)
         for each in _judgements(machine, motion)
         if each.what == "torque"
     )

@@ -13,11 +13,15 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.driveline.chain import chain_of
-from linkwright.driveline.elastic_motion import SteadySolution, steady_solution
+from linkwright.driveline.elastic_motion import (
+    SteadySolution,
+    require_flexible,
+    steady_solution,
+)
 from linkwright.driveline.in_time import ElasticTransient, Followed, followed
 from linkwright.driveline.permitted import TorqueJudgement
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import FindingError, InputError, StartError
+from linkwright.kernel.errors import InputError, StartError, SteadyStateError
 from linkwright.kernel.numerics.zeros import zeros
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
@@ -48,6 +52,9 @@ _UNTIL = (
 class ElasticRunUp(Result):
     """Run-up of a torsionally flexible driveline."""
 
+    crank_time: Annotated[Floats, Label("time", "t", "s", "Ends of the steps.")]
+    crank_angle: Annotated[Floats, Label("crank angle", "φ", "rad", "Continuous over the revolutions.")]
+    speed: Annotated[Floats, Label("speed of the crank", "ω", "rad/s")]
     time: Annotated[float, Label("time", "t", "s", _UNTIL, table="elastic_run_up")]
     turns: Annotated[float, Label("revolutions of the crank", "n", "", _UNTIL, table="elastic_run_up")]
     settled: Annotated[float, Label("share of the mean speed that counts as settled", "", "")]
@@ -82,7 +89,7 @@ class ElasticRunUp(Result):
         return factor
 
     @property
-    def energy_error(self) -> Annotated[float, Label("energy-balance residual", "", "", table="elastic_run_up")]:
+    def energy_error(self) -> Annotated[float, Label("energy-balance residual", "", "")]:
         """Of the whole motion."""
         return self.motion.energy_error
 
@@ -124,11 +131,13 @@ def elastic_run_up(machine: Machine, *, accuracy: float = _ACCURACY) -> ElasticR
     Raises
     ------
     StartError
-        It does not start, stalls, is driven backwards, or has not settled within ``run_up.turns_max``; says
-        at which angle, with the torques.
-    SteadyStateError, AssemblyError
+        It does not start, stalls, or is driven backwards; says at which angle, with the torques.
+    SteadyStateError
+        It has not settled within ``run_up.turns_max``, or has no steady motion.
+    AssemblyError
         See `elastic_motion`.
     """
+    require_flexible(machine)
     if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: a run-up needs a motor; add [drive.motor]")
     options = machine.run_up
@@ -147,17 +156,21 @@ def elastic_run_up(machine: Machine, *, accuracy: float = _ACCURACY) -> ElasticR
         if settled is not None and (settled[1] <= 0.8 * turns or turns >= options.turns_max):
             break
         if turns >= options.turns_max or moving.last.end == "time":
-            raise StartError(_too_slow(moving, known, mean, options.settled))
+            raise SteadyStateError(_too_slow(moving, known, mean, options.settled))
         more = min(2 * turns, options.turns_max - turns)
         moving, turns = _from_start(machine, more, accuracy, moving), turns + more
+    motion = moving.result(words="during the run-up")
     return ElasticRunUp(
+        crank_time=motion.time,
+        crank_angle=motion.crank_angle,
+        speed=motion.speed[-1],
         time=settled[0],
         turns=settled[1],
         settled=options.settled,
         shafts=solved.chain.shafts,
         torque_steady=np.maximum(solved.motion.torque.greatest, -solved.motion.torque.least)
         / solved.chain.lead,
-        motion=moving.result(),
+        motion=motion,
     )
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.driveline.permitted import TorqueJudgement
 from linkwright.kernel.page.table import NamedPart, Row, Table, part_table, parts_of, rows_in
 from linkwright.kernel.reader.numbers import crank_angle, cycle_of_angles, number, parted
 
@@ -28,7 +29,8 @@ def elastic_tables(motion: ElasticMotion) -> Iterator[Table]:
         "elastic_motion", "Elastic driveline: cycle and stability", heads, rows_in(motion, "elastic_motion")
     )
     if motion.judgements:
-        yield _limits(motion)
+        title = "Elastic driveline: permitted torques"
+        yield limits_table("elastic_limits", title, motion.judgements)
 
 
 def _shafts(motion: ElasticMotion) -> Table:
@@ -72,16 +74,17 @@ def _stations(motion: ElasticMotion) -> Table:
     return part_table("elastic_stations", title, parts_of(motion, "stations"), heads, *cells)
 
 
-def _limits(motion: ElasticMotion) -> Table:
+def limits_table(name: str, title: str, judgements: Sequence[TorqueJudgement]) -> Table:
+    """Torques of the shafts against what is permitted."""
     rows: list[Row] = []
-    for judgement in motion.judgements:
+    for judgement in judgements:
         found, permitted = (
             " ".join(parted(value, "N m")) for value in (judgement.found, judgement.permitted)
         )
         verdict = "within limit" if judgement.is_kept else "limit exceeded"
         rows.append((f"{judgement.part}: {judgement.what}", "", found, permitted, verdict))
     heads = ("limit", "", "found", "permitted", "verdict")
-    return Table("elastic_limits", "Elastic driveline: permitted torques", heads, rows)
+    return Table(name, title, heads, rows)
 
 
 def _at(motion: ElasticMotion, name: str) -> Callable[[NamedPart], str]:

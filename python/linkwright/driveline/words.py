@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.driveline.run_up import ElasticRunUp
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.reader.numbers import number
 
@@ -42,4 +43,13 @@ def elastic_assumptions(motion: ElasticMotion) -> Iterator[str]:
     yield (
         "The steady motion of the elastic driveline is the periodic solution, by Newton's method on the "
         f"cycle with {motion.steps} steps: relative error {number(motion.accuracy, 1)}."
+    )
+
+
+def run_up_assumptions(run_up: ElasticRunUp) -> Iterator[str]:
+    """How the run-up was integrated, and how well its energy balances."""
+    motion = run_up.motion
+    yield (
+        "The run-up of the elastic driveline is integrated in time by the explicit method of Dormand and Prince, "
+        f"order 8 (DOP853), in {motion.steps} steps; energy-balance residual {number(motion.energy_error, 1)}."
     )
