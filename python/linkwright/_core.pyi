@@ -1230,6 +1230,7 @@ class DrivelineInTime:
     torque: Final[Extremes]
     energy_error: Final[float]
     evaluations: Final[int]
+    implicit: Final[int]
     events: Final[list[tuple[int, str, int | None]]]
 
     def curves(self, time: _Floats) -> DrivelineInTimeCurves:

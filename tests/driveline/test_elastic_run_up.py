@@ -244,7 +244,7 @@ def test_the_run_up_has_settled_where_all_stations_stay_in_the_band() -> None:
     off = np.abs(referred - expected).max(axis=0) / steady.speed_mean_time
     last = fine[off > found.settled].max()
     assert found.time == pytest.approx(last, abs=2e-3)
-    assert found.torque_peak == pytest.approx(np.abs(course.torque).max(axis=1), rel=1e-5)
+    assert found.torque_peak == pytest.approx(np.abs(course.torque).max(axis=1), rel=1e-4)
     assert found.torque_peak >= np.abs(course.torque).max(axis=1) * (1 - 1e-9)
 
 

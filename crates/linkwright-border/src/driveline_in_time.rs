@@ -65,6 +65,9 @@ pub(crate) struct DrivelineInTime {
     energy_error: f64,
     #[pyo3(get)]
     evaluations: usize,
+    /// Steps by the implicit method.
+    #[pyo3(get)]
+    implicit: usize,
     /// Number of the end of a step, what happened, and the mass of it, if it is of one.
     #[pyo3(get)]
     events: Vec<(usize, &'static str, Option<usize>)>,
@@ -187,6 +190,7 @@ pub(crate) fn driveline_in_time(
         torque: extremes(py, &measures.torque)?,
         energy_error: measures.energy_error,
         evaluations: trajectory.evaluations,
+        implicit: trajectory.implicit,
         events: trajectory.events.iter().map(named).collect(),
         plan: known,
         q,

@@ -12,6 +12,7 @@ use crate::equation::Equation;
 use linkwright_core::drive::law::{LawGeometry, SpeedKink};
 use linkwright_core::drive::transient::reduced::{Reduced, ReducedCurves};
 use linkwright_core::linkage::motion::Motion;
+use linkwright_kernel::dual::Dual;
 use linkwright_kernel::plane::Angle;
 
 /// Works before those of the links: see the numbers below.
@@ -221,6 +222,63 @@ impl<'a> System<'a> {
         for (to, link) in to[layout.heat..].iter_mut().zip(&chain.links) {
             *to = heating(link, chain.twist(link, y)[1]);
         }
+    }
+
+    /// Derivatives of the rates by the state but the angle, without works, row by row: what acts over the angle changes slowly.
+    pub fn slopes(&mut self, t: f64, y: &[f64], to: &mut [f64]) {
+        self.act(t, y);
+        let (layout, Equation { chain, .. }) = (self.layout, self.equation);
+        let (others, m) = (layout.others, layout.phi + 1);
+        to.fill(0.0);
+        // First accelerations of all masses, in the rows of their speeds.
+        for link in &chain.links {
+            for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
+                for (end, side) in [(link.first, sign), (link.second, -sign)] {
+                    if end < others {
+                        to[(others + mass) * m + end] += side * link.stiffness;
+                        to[(others + mass) * m + others + end] += side * link.damping;
+                    }
+                }
+            }
+        }
+        let (driver, load) = self.speed_slopes(t, y);
+        for column in [others + chain.driven, layout.omega] {
+            to[(others + chain.driven) * m + column] += driver;
+        }
+        to[layout.omega * m + layout.omega] -= load;
+        for mass in 0..=others {
+            let inertia = chain.inertia.get(mass).copied().unwrap_or(self.crank_inertia);
+            let factor = if self.senses[mass] == 0.0 { 0.0 } else { 1.0 / inertia };
+            to[(others + mass) * m..][..m].iter_mut().for_each(|slope| *slope *= factor);
+        }
+        for mass in 0..others {
+            for column in 0..m {
+                to[(others + mass) * m + column] -= to[layout.omega * m + column];
+            }
+            to[mass * m + others + mass] = 1.0;
+        }
+        to[layout.phi * m + layout.omega] = 1.0;
+    }
+
+    /// Derivatives of the torque behind the gearbox by the speed of its mass, and of what brakes the crank by its own, where the
+    /// torques were computed last.
+    fn speed_slopes(&mut self, t: f64, y: &[f64]) -> (f64, f64) {
+        let Equation { plan, q, chain } = self.equation;
+        let direction = |sense: f64| if sense < 0.0 { -1.0 } else { 1.0 };
+        let (along, sense) = (direction(self.senses[chain.driven]), direction(self.senses[self.crank()]));
+        let speed = Dual::variable(chain.speed(chain.driven, y));
+        let motor = Dual::constant(self.motor);
+        let torque = motor * plan.drive.motor_torque::<f64, _>(&plan.tables, q, motor * speed);
+        let driver = plan.drive.geared_torque::<f64, _>(q, Dual::constant(along) * torque).d * along;
+        let (omega, phi) = (y[self.layout.omega], y[self.layout.phi]);
+        let [_, slope, _, viscous] = self.reduced(phi, sense);
+        let over_speed = plan.drive.speed_load::<f64, _>(&plan.tables, q, Dual::variable(sense * omega)).d;
+        let mut load = over_speed + viscous + slope * omega;
+        if !plan.laws.is_empty() {
+            let (omega, never) = (Dual::variable(sense * (sense * omega).max(self.slow)), Dual::constant(t));
+            load += plan.law_torque::<f64, f64, Dual<f64>>(q, &self.geometry, omega, never).d;
+        }
+        (driver, load)
     }
 
     /// Torque on a mass that would turn in a direction \[N m\].
