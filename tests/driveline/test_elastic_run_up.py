@@ -1,4 +1,4 @@
-"""Elastic drivelines in time, against SciPy on equations that are written here, energy and the rigid machine."""
+"""Elastic drivelines in time, against SciPy on equations written here, energy and the rigid machine."""
 
 from __future__ import annotations
 
@@ -70,7 +70,9 @@ def _states(motion: lw.ElasticTransient, drive: Drive) -> np.ndarray:
     """Twists of springs and speeds of masses at the crank, and its angle."""
     n = len(drive.inertia)
     referred = motion.speed / motion.ratio[:, None]
-    distinct = [0] + [k for k in range(1, len(referred)) if np.abs(referred[k] - referred[k - 1]).max() > 1e-12]
+    distinct = [0] + [
+        k for k in range(1, len(referred)) if np.abs(referred[k] - referred[k - 1]).max() > 1e-12
+    ]
     assert len(distinct) == n
     return np.concatenate([motion.twist / drive.ratio[:, None], referred[distinct], motion.crank_angle[None]])
 
@@ -84,13 +86,11 @@ def _started(rng: Generator) -> tuple[Drive, float]:
 
 
 def test_random_drives_start_as_equations_written_down_here() -> None:
-    """Stuck, torn loose and running: states at given times to 1e-7 of their scale, from one to three springs."""
+    """Stuck, torn loose and running: states at given times to 1e-7 of their scale, one to three springs."""
     for number, rng in random_cases(4811, 6, 100):
         drive, angle = _started(rng)
         times = np.linspace(0, 2.0, 41)
-        motion = lw.elastic_transient(
-            drive.machine, angle=angle, duration=2.0, times=times, accuracy=1e-10
-        )
+        motion = lw.elastic_transient(drive.machine, angle=angle, duration=2.0, times=times, accuracy=1e-10)
         found, expected = _states(motion, drive), _from_rest(drive, angle, times)
         scale = np.abs(expected).max(axis=1, keepdims=True)
         assert np.abs((found - expected) / scale).max() < 1e-7, number
@@ -99,7 +99,7 @@ def test_random_drives_start_as_equations_written_down_here() -> None:
 
 
 def test_the_crank_is_torn_loose_when_the_coupling_bears_the_friction() -> None:
-    """At that instant the torque of the coupling is F r (|sin φ| + …), by hand; before it the crank stands."""
+    """At that instant the torque of the last shaft is F |ds/dφ|; before it the crank stands."""
     rng = np.random.default_rng(7)
     drive, angle = _started(rng)
     motion = lw.elastic_transient(drive.machine, angle=angle, duration=1.0)
@@ -132,7 +132,7 @@ def test_a_steady_motion_goes_on_in_time() -> None:
 
 
 def test_a_stiff_coupling_approaches_the_rigid_motion_by_one_over_its_stiffness() -> None:
-    """From a speed of 6 rad/s, two seconds later: ten times the stiffness leaves a tenth of the difference."""
+    """Two seconds after 6 rad/s: ten times the stiffness leaves a tenth of the difference."""
     rigid = lw.transient(lw.read("roller_two_carts"), speed=6.0, duration=2.0, accuracy=1e-11)
     off = []
     for stiffness in (1e6, 1e7, 1e8):
@@ -167,7 +167,7 @@ radius = 0.1
 
 
 def test_the_rotor_of_a_motor_without_load_is_heated_by_the_kinetic_energy() -> None:
-    """∫ M (ω₀ − ω) dt = ½ J ω₀² whatever the characteristic, by d(Jω) = M dt: less what the coupling takes."""
+    """∫ M (ω₀ − ω) dt = ½ J ω₀² whatever the characteristic, less what the coupling takes."""
     motion = lw.elastic_transient(lw.loads(IDLE), duration=30.0, accuracy=1e-10)
     inertia = (0.1 + 0.02) * 5**2 + 1
     kinetic = 0.5 * inertia * 20.0**2
@@ -177,7 +177,7 @@ def test_the_rotor_of_a_motor_without_load_is_heated_by_the_kinetic_energy() -> 
 
 
 def test_what_is_switched_off_turns_its_energy_into_heat() -> None:
-    """Stop: from the switch on, loads and coupling take the kinetic and strain energy, and all comes to rest."""
+    """Stop: loads and coupling take the kinetic and strain energy, and all comes to rest."""
     machine = two_carts(2e4, 50.0)
     running = lw.elastic_transient(machine, duration=4.0)
     stopped = lw.elastic_transient(machine, start=running, duration=30.0, motor=False)
@@ -208,9 +208,10 @@ def test_switches_are_motions_one_after_another() -> None:
 
 
 def test_losses_of_the_gearbox_hold_the_motor() -> None:
-    """Switched on against a stuck crank the motor comes to rest, where its torque is between η and 1/η times."""
+    """Against a stuck crank the motor comes to rest, where the coupling has η to 1/η of its torque."""
     machine = lw.replace(
-        two_carts(2e4, 500.0), {"loads.rolling1.force": 2e4, "loads.rolling2.force": 2e4, "drive.gearbox.reverse": None}
+        two_carts(2e4, 500.0),
+        {"loads.rolling1.force": 2e4, "loads.rolling2.force": 2e4, "drive.gearbox.reverse": None},
     )
     motion = lw.elastic_transient(machine, angle=np.radians(45), duration=60.0)
     assert motion.end == "rest"
@@ -223,7 +224,9 @@ def test_losses_of_the_gearbox_hold_the_motor() -> None:
 def test_a_machine_that_cannot_start_says_at_which_angle_and_why() -> None:
     """A friction torque above that of the motor at standstill; the torques are those of statics."""
     machine = lw.replace(two_carts(2e4, 500.0), {"loads.rolling1.force": 2e4, "loads.rolling2.force": 2e4})
-    with pytest.raises(lw.StartError, match=r"(stalls|does not start).* the motor gives 1140 N m at the crank"):
+    with pytest.raises(
+        lw.StartError, match=r"(stalls|does not start).* the motor gives 1140 N m at the crank"
+    ):
         lw.elastic_run_up(machine)
 
 

@@ -3,9 +3,10 @@
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
 use linkwright_driveline::in_time::events::Event;
+use linkwright_driveline::in_time::follow;
 use linkwright_driveline::in_time::reading::Reading;
 use linkwright_driveline::in_time::system::Layout;
-use linkwright_driveline::in_time::{End, Start, Trajectory, follow};
+use linkwright_driveline::in_time::trajectory::{End, Start, Trajectory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -105,9 +106,8 @@ impl DrivelineInTime {
         let (time, n, links) = (time.as_slice()?, self.chain.masses(), self.chain.links.len());
         require_room(ANALYSIS, [8 + 3 * n + 3 * links, time.len()])?;
         let equation = Equation { plan: &self.plan.get().0, q: &self.q, chain: &self.chain };
-        let found = guarded(py, ANALYSIS, || {
-            Reading::new(equation, &self.start, &self.trajectory).curves(time)
-        })?;
+        let found =
+            guarded(py, ANALYSIS, || Reading::new(equation, &self.start, &self.trajectory).curves(time))?;
         let count = time.len();
         let work = |which: usize| column(py, found.works[which * count..][..count].to_vec()).unbind();
         let [kinetic, elastic] = found.energy;

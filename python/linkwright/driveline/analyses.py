@@ -30,8 +30,8 @@ RUN_UP = Analysis(
     applies=has_elastic_drive,
     obstacle=of("driveline.study:no_elastic_run_up"),
     make=of("driveline.study:made_elastic_run_up"),
-    tables=of("driveline.tables_in_time:run_up_tables", "elastic_run_up"),
+    tables=of("driveline.tables:run_up_tables", "elastic_run_up"),
     figures=of("driveline.figures_in_time:run_up_figures", "elastic_run_up"),
-    headline=of("driveline.tables_in_time:run_up_headline", "elastic_run_up"),
+    headline=of("driveline.tables:run_up_headline", "elastic_run_up"),
     assumptions=of("driveline.words:run_up_assumptions", "elastic_run_up"),
 )

@@ -24,8 +24,8 @@ from linkwright.drive.commands import transient as rigid_transient
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import ZeroAt
 from linkwright.kernel.command.parameter import Option
-from linkwright.kernel.errors import InputError, require_within, show
 from linkwright.kernel.command.value import option_value
+from linkwright.kernel.errors import InputError, require_within, show
 from linkwright.kernel.later import at_place, later
 from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.units.kinds import TIME
@@ -97,7 +97,7 @@ def transient(
         )
         return
     from linkwright.driveline.in_time import elastic_transient
-    from linkwright.kernel.findings import Findings
+    from linkwright.kernel.findings import sentence
     from linkwright.kernel.reader.numbers import zero_words
     from linkwright.linkages.zero import zero_of
 
@@ -120,9 +120,8 @@ def transient(
         switches=list(_switches(file, switches or ())),
         **until,
     )
-    findings = Findings()
-    motion = findings.of(follow)
-    assert motion is not None
+    motion = follow()
+    findings, warnings = motion.findings, list[str]()
 
     def even() -> ElasticTransient:
         return follow(times=np.linspace(0.0, motion.duration, steps + 1))
@@ -130,7 +129,7 @@ def transient(
     if motion.came_to_rest:
         # A machine is meant to come to rest that is switched off.
         is_meant = no_motor or brake or any("=off" in text or "brake" in text for text in switches or ())
-        (findings.warn if is_meant else findings.add)([_end_sentence(motion, counted)])
+        (warnings if is_meant else findings).append(sentence(_end_sentence(motion, counted)))
     answer = Answer(
         machine=machine,
         is_described=True,
@@ -138,14 +137,12 @@ def transient(
             "elastic_transient": (even() if curves else motion).to_dict(curves=curves)
             | {"angle_zero": counted.angle, "zero": counted.words}
         },
-        findings=list(findings.findings),
-        warnings=list(findings.warnings),
+        findings=findings,
+        warnings=warnings,
         head=lambda: zero_words(counted) if counted.words else "",
-        tables=lambda: list(at_place("driveline.tables_in_time:transient_tables")(motion)),
+        tables=lambda: list(at_place("driveline.tables:transient_tables")(motion)),
         files={"transient.csv": lambda: _csv(even(), counted)},
-        figures={
-            "transient": later("driveline.figures_in_time:elastic_transient_figure", motion)
-        },
+        figures={"transient": later("driveline.figures_in_time:elastic_transient_figure", motion)},
     )
     to.hand_over(answer)
 
@@ -180,8 +177,8 @@ def _end_sentence(motion: ElasticTransient, zero: Zero) -> str:
     from linkwright.kernel.reader.numbers import degrees, number
 
     return (
-        f"The machine comes to rest after {number(motion.duration)} s, {number(motion.turns)} revolutions: at "
-        f"φ = {degrees(float(motion.state_end[-1]) - zero.angle)} the drive gives "
+        f"The machine comes to rest after {number(motion.duration)} s, {number(motion.turns)} revolutions: "
+        f"at φ = {degrees(float(motion.state_end[-1]) - zero.angle)} the drive gives "
         f"{number(motion.torque_drive_end)} N m at the crank and the loads need "
         f"{number(motion.torque_load_end)} N m"
     )
@@ -195,7 +192,5 @@ def _csv(course: ElasticTransient, zero: Zero) -> str:
         for k, name in enumerate(names):
             for curve in curves:
                 columns[f"{name}_{curve} [{course.unit_of(curve)}]"] = getattr(course, curve)[k]
-    columns |= {
-        f"{name} [N m]": getattr(course, name) for name in ("torque_drive", "torque_load")
-    }
+    columns |= {f"{name} [N m]": getattr(course, name) for name in ("torque_drive", "torque_load")}
     return columns_csv(columns)

@@ -42,7 +42,7 @@ def run_up_figures(run_up: ElasticRunUp) -> Iterator[CaptionedFigure]:
     """The figure with its caption."""
     worst = int(np.argmax(run_up.torque_factor))
     caption = (
-        f"Run-up of the elastic driveline: steady motion, to within {100 * run_up.settled:.3g} %, is reached after "
+        f"Steady motion of the elastic driveline, to within {100 * run_up.settled:.3g} %, is reached after "
         f"{quantity(run_up.time, 's')} and {number(run_up.turns)} revolutions. The peak torque of "
         f"{run_up.shafts[worst]} is {quantity(float(run_up.torque_peak[worst]), 'N m')}, "
         f"{number(float(run_up.torque_factor[worst]))} times that of steady motion."

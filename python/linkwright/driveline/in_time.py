@@ -3,9 +3,9 @@ r"""Motion in time of a torsionally flexible driveline with its mechanism: start
 .. math:: J_i \ddot\varphi_i = M_d(\dot\varphi_i) - \sum T, \qquad
     J(\varphi)\,\ddot\varphi + \tfrac12 J'(\varphi)\,\dot\varphi^2 = T - M_r(\varphi, \dot\varphi, t)
 
-by DOP853 with exact events: kinks over the angle and over speeds, the crank coming to rest under dry loads,
-and torn loose by the torque of its shaft; so too the motor behind a gearbox whose losses hold it. The balance
-of energy measures what is returned.
+by DOP853, or Radau IIA where a shaft is nearly rigid, with exact events: kinks over the angle and over speeds,
+the crank coming to rest under dry loads, and torn loose by the torque of its shaft; so too the motor behind a
+gearbox whose losses hold it. The balance of energy measures what is returned.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ from linkwright.machine.program.core import DrivelineInTime
 
 _OWN = "At its own speed."
 
-# Extremes of a motion: attribute of the core's result, parts that it is over, factor from the crank to their own
-# speed. Torques go the other way.
+# Extremes that the core has of a motion.
 _EXTREMES = ("speed", "acceleration", "torque", "twist")
 
 
@@ -111,16 +110,10 @@ class ElasticTransient(Result):
     energy_motor: Annotated[
         float, Label("work of the motor", "A_M", "J", "At its shaft.", table="elastic_transient")
     ]
-    energy_drive: Annotated[
-        float, Label("work behind the gearbox", "A_d", "J", table="elastic_transient")
-    ]
+    energy_drive: Annotated[float, Label("work behind the gearbox", "A_d", "J", table="elastic_transient")]
     energy_load: Annotated[float, Label("work of the loads", "A_r", "J", table="elastic_transient")]
-    energy_kinetic: Annotated[
-        float, Label("gain of kinetic energy", "ΔE", "J", table="elastic_transient")
-    ]
-    energy_elastic: Annotated[
-        float, Label("gain of strain energy", "ΔU", "J", table="elastic_transient")
-    ]
+    energy_kinetic: Annotated[float, Label("gain of kinetic energy", "ΔE", "J", table="elastic_transient")]
+    energy_elastic: Annotated[float, Label("gain of strain energy", "ΔU", "J", table="elastic_transient")]
     heat_motor: Annotated[
         float | None,
         Label(
@@ -143,6 +136,9 @@ class ElasticTransient(Result):
         ),
     ]
     steps: Annotated[int, Label("steps", "", "")]
+    steps_implicit: Annotated[
+        int, Label("steps by the implicit method", "", "", "Where stability would limit the explicit ones.")
+    ]
     evaluations: Annotated[int, Label("evaluations of the machine", "", "")]
     end: Annotated[str, About("How it ended: `time`, `turns` or `rest`.")]
     torque_drive_end: Annotated[
@@ -153,10 +149,10 @@ class ElasticTransient(Result):
         float,
         Label("load torque referred to the crank at the end", "", "N m", "What the loads need at rest."),
     ]
-    state_end: Annotated[Floats, About("Twists and speeds against the crank, its speed and angle.", "(2 masses,)")]
-    slips: Annotated[
-        Floats, Label("times at which the crank leaves rest", "", "s", over="slips")
+    state_end: Annotated[
+        Floats, About("Twists and speeds against the crank, its speed and angle.", "(2 masses,)")
     ]
+    slips: Annotated[Floats, Label("times at which the crank leaves rest", "", "s", over="slips")]
     judgements: Annotated[tuple[TorqueJudgement, ...], About("Torques against what is permitted.")] = ()
     notes: Annotated[tuple[str, ...], About("What was assumed.")] = ()
 
@@ -171,7 +167,9 @@ class ElasticTransient(Result):
         return abs(float(self.state_end[-1] - self.crank_angle[0])) / (2 * np.pi)
 
     @property
-    def duration(self) -> Annotated[float, Label("duration", "", "s", table="elastic_transient", before="energy_motor")]:
+    def duration(
+        self,
+    ) -> Annotated[float, Label("duration", "", "s", table="elastic_transient", before="energy_motor")]:
         """Time at the end of the motion."""
         return float(self.time[-1])
 
@@ -187,9 +185,7 @@ class ElasticTransient(Result):
         self,
     ) -> Annotated[Floats, Label("time of the peak torque", "", "s", shape="(shafts,)")]:
         """When it is reached."""
-        return np.where(
-            self.torque_max >= -self.torque_min, self.torque_max_time, self.torque_min_time
-        )
+        return np.where(self.torque_max >= -self.torque_min, self.torque_max_time, self.torque_min_time)
 
     @property
     def heat_gearbox(
@@ -275,7 +271,8 @@ def elastic_transient(
     References
     ----------
     .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
-    .. [2] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
+    .. [2] Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5 (Radau IIA, for stiff drives).
+    .. [3] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
     if duration == turns == np.inf:
         raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
@@ -366,9 +363,7 @@ class Followed:
                 found.setdefault(name, np.empty((*values.shape[:-1], len(times))))[..., at] = values[..., :-1]
         return found
 
-    def result(
-        self, times: Floats | None = None, words: str = "in this motion in time"
-    ) -> ElasticTransient:
+    def result(self, times: Floats | None = None, words: str = "in this motion in time") -> ElasticTransient:
         """The motion with its curves, extremes and energies; `words`: what judgements call it."""
         found = _result(self, self.ends if times is None else times)
         return in_motion(self.stretches[-1].machine, found, words)
@@ -463,9 +458,9 @@ def _require_end(
     if motion.end == "inaccurate":
         raise ConvergenceError(
             f"the integration stopped at {motion.time[-1]:.6g} s: steps became too small or too many for an "
-            f"accuracy of {accuracy:g}; leave out a stiffness that is rigid at this speed, reduce the damping of "
-            "a shaft that is nearly rigid, smooth jumps of loads, or reduce the accuracy",
-            method="DOP853",
+            f"accuracy of {accuracy:g}; leave out a stiffness that is rigid at this speed, give its shaft "
+            "damping, smooth jumps of loads, or reduce the accuracy",
+            method="DOP853 and Radau IIA",
             iterations=len(motion.time),
         )
 
@@ -522,6 +517,7 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
         accuracy=moving.accuracy,
         energy_error=max(each.motion.energy_error for each in moving.stretches),
         steps=sum(len(each.motion.time) - 1 for each in moving.stretches),
+        steps_implicit=sum(each.motion.implicit for each in moving.stretches),
         evaluations=sum(each.motion.evaluations for each in moving.stretches),
         end=last.end,
         torque_drive_end=last.torque_drive_end,

@@ -71,11 +71,7 @@ def judged(machine: Machine, motion: ElasticMotion) -> ElasticMotion:
 
 def in_motion(machine: Machine, motion: ElasticTransient, words: str) -> ElasticTransient:
     """A motion in time with its torques judged: it has no vibratory torque that might be permitted."""
-    found = (
-        replace(each, motion=words)
-        for each in _judgements(machine, motion)
-        if each.what == "torque"
-    )
+    found = (replace(each, motion=words) for each in _judgements(machine, motion) if each.what == "torque")
     return replace(motion, judgements=tuple(found))
 
 

@@ -94,7 +94,9 @@ class ElasticRunUp(Result):
         return self.motion.energy_error
 
     @property
-    def judgements(self) -> Annotated[tuple[TorqueJudgement, ...], About("Torques against what is permitted.")]:
+    def judgements(
+        self,
+    ) -> Annotated[tuple[TorqueJudgement, ...], About("Torques against what is permitted.")]:
         """Of the whole motion."""
         return self.motion.judgements
 
@@ -199,7 +201,9 @@ def _require_forward(moving: Followed, machine: Machine) -> None:
     after = f"after {abs(turned):.2f} revolutions and {last.time[-1]:.2f} s"
     if last.end == "rest":
         moved = np.ptp(last.crank_angle) > 0
-        raise StartError(f"stalls {after}: {balance}; {remedy}" if moved else f"does not start: {balance}; {remedy}")
+        raise StartError(
+            f"stalls {after}: {balance}; {remedy}" if moved else f"does not start: {balance}; {remedy}"
+        )
     if last.end == "turns" and turned < 0:
         raise StartError(f"does not start: the load drives the crank backwards; {balance}; {remedy}")
 
@@ -215,19 +219,19 @@ def _steady_speeds(solved: SteadySolution) -> Callable[[Floats], Floats]:
     return speeds
 
 
-def _settled(
-    moving: Followed, known: Callable[[Floats], Floats], limit: float
-) -> tuple[float, float] | None:
+def _settled(moving: Followed, known: Callable[[Floats], Floats], limit: float) -> tuple[float, float] | None:
     """Time and turns at which the motion last enters the band about steady motion; None if never."""
     first, ends = moving.stretches[0].motion.crank_angle[0], moving.ends
-    looks = np.append((ends[:-1, None] + np.diff(ends)[:, None] * np.arange(_LOOKS) / _LOOKS).ravel(), ends[-1])
+    looks = np.append(
+        (ends[:-1, None] + np.diff(ends)[:, None] * np.arange(_LOOKS) / _LOOKS).ravel(), ends[-1]
+    )
 
     def off(time: Floats) -> tuple[Floats, Floats]:
         curves = moving.curves(time, ("angle", "speed"))
         away = np.abs(curves["speed"] - known(curves["angle"][-1])).max(axis=0)
         return away - limit, curves["angle"][-1]
 
-    excess, angle = off(looks)
+    excess = off(looks)[0]
     outside = np.flatnonzero(excess > 0)
     if not len(outside):
         return 0.0, 0.0
@@ -239,9 +243,7 @@ def _settled(
     return float(settled[0]), turned
 
 
-def _too_slow(
-    moving: Followed, known: Callable[[Floats], Floats], mean: float, band: float
-) -> str:
+def _too_slow(moving: Followed, known: Callable[[Floats], Floats], mean: float, band: float) -> str:
     ends = moving.ends[-1:]
     curves = moving.curves(ends)
     angle = curves["angle"][-1]

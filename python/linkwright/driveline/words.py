@@ -49,7 +49,8 @@ def elastic_assumptions(motion: ElasticMotion) -> Iterator[str]:
 def run_up_assumptions(run_up: ElasticRunUp) -> Iterator[str]:
     """How the run-up was integrated, and how well its energy balances."""
     motion = run_up.motion
+    explicit = motion.steps - motion.steps_implicit
     yield (
-        "The run-up of the elastic driveline is integrated in time by the explicit method of Dormand and Prince, "
-        f"order 8 (DOP853), in {motion.steps} steps; energy-balance residual {number(motion.energy_error, 1)}."
+        f"The run-up of the elastic driveline is integrated in time, {explicit} steps by DOP853 and "
+        f"{motion.steps_implicit} by Radau IIA: energy-balance residual {number(motion.energy_error, 1)}."
     )

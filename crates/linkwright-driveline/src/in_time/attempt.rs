@@ -81,9 +81,8 @@ impl Attempt {
         let row = |r: usize, columns: std::ops::Range<usize>| -> f64 {
             self.slopes[r * m..][columns].iter().map(|slope| slope.abs()).sum()
         };
-        let [by_twist, by_speed] = [0..others, others..m].map(|columns| {
-            (others..=2 * others).map(|r| row(r, columns.clone())).fold(0.0, f64::max)
-        });
+        let [by_twist, by_speed] = [0..others, others..m]
+            .map(|columns| (others..=2 * others).map(|r| row(r, columns.clone())).fold(0.0, f64::max));
         let fastest = by_twist.sqrt() + by_speed;
         self.is_stiff = h * fastest > if self.is_stiff { STIFF } else { STABLE };
     }

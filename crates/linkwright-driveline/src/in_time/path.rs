@@ -3,7 +3,9 @@
 use super::attempt::Attempt;
 use super::events::{Event, Events};
 use super::system::System;
-use super::{End, Start, Trajectory};
+use super::trajectory::{End, Start, Trajectory};
+use crate::equation::Equation;
+use linkwright_core::drive::kinks::{kinks, landings};
 use linkwright_core::drive::mesh::crossing;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::rk::next_factor_of;
@@ -50,10 +52,34 @@ const LEAST_PASSING: f64 = 1e-14;
 /// Share of the time by which the last step may fall short of it.
 const ROUNDING_OF_TIME: f64 = 4.0 * f64::EPSILON;
 
+/// Follows the motion until the time, the revolutions or rest end it.
+pub fn follow(equation: Equation<'_>, start: &Start) -> Trajectory {
+    let Equation { plan, q, .. } = equation;
+    let kinks = landings(plan, q, kinks(plan, q));
+    let mut system = System::new(equation, &kinks, start.speed, start.motor, start.accuracy);
+    let mut y = vec![0.0; system.layout.size];
+    y[..start.state.len()].copy_from_slice(&start.state);
+    set_senses(&mut system, start.time, &y);
+    let events = Events::new(&mut system, kinks, start.time, &y, start.turns);
+    let mut path = Path::new(start, &system, y, events);
+    path.trajectory.end = path.run(&mut system);
+    path.finish(&mut system)
+}
+
+/// Directions of a state: those of speeds, and at rest what the torques do.
+fn set_senses(system: &mut System<'_>, t: f64, y: &[f64]) {
+    for mass in system.holding() {
+        let speed = system.speed(mass, y);
+        let is_moving = speed.abs() > system.slow;
+        let sense = if is_moving { speed.signum() } else { system.way_from_rest(t, y, mass) };
+        system.senses[mass] = sense;
+    }
+}
+
 /// A motion as far as it has been followed.
-pub(super) struct Path<'s> {
+struct Path<'s> {
     start: &'s Start,
-    pub(super) trajectory: Trajectory,
+    trajectory: Trajectory,
     events: Events,
     y: Vec<f64>,
     t: f64,
@@ -77,7 +103,7 @@ enum Tried {
 
 impl<'s> Path<'s> {
     /// At its start.
-    pub(super) fn new(start: &'s Start, system: &System<'_>, y: Vec<f64>, events: Events) -> Self {
+    fn new(start: &'s Start, system: &System<'_>, y: Vec<f64>, events: Events) -> Self {
         let trajectory = Trajectory {
             t: vec![start.time],
             states: y.clone(),
@@ -95,7 +121,7 @@ impl<'s> Path<'s> {
     }
 
     /// Follows the motion to its end.
-    pub(super) fn run(&mut self, system: &mut System<'_>) -> End {
+    fn run(&mut self, system: &mut System<'_>) -> End {
         let mut h = 0.01 / self.start.speed;
         let mut at_once = 0;
         let mut attempt = Attempt::new(system, &self.y);
@@ -221,7 +247,9 @@ impl<'s> Path<'s> {
             if error.is_nan() || error > 1.0 {
                 (limit, growth_max) = (h * next_factor_of(error, order).min(0.9), 1.0);
                 // What lies behind a kink is as another machine: that may be all that is wrong with the step.
-                if let Some(at) = self.kink_within(system, (t, &y), h, &end).filter(|_| wanted.is_none() && !cut) {
+                if let Some(at) =
+                    self.kink_within(system, (t, &y), h, &end).filter(|_| wanted.is_none() && !cut)
+                {
                     (limit, cut) = (limit.max(PAST * at), true);
                 }
                 wanted = None;
@@ -236,7 +264,9 @@ impl<'s> Path<'s> {
             let next = if h < limit { grown.max(limit) } else { grown };
             match self.first_event(system, attempt, (t, &y), h) {
                 None => return Tried::Accepted { h, end, next, event: None },
-                Some((nth, share)) if share * h <= f64::EPSILON * t.abs().max(h) => return Tried::AtOnce(nth),
+                Some((nth, share)) if share * h <= f64::EPSILON * t.abs().max(h) => {
+                    return Tried::AtOnce(nth);
+                }
                 Some((nth, share)) => {
                     let at = share * h;
                     limit = next.min(longest.max(h));
@@ -385,7 +415,7 @@ impl<'s> Path<'s> {
     }
 
     /// The motion, with what acts at its end.
-    pub(super) fn finish(mut self, system: &mut System<'_>) -> Trajectory {
+    fn finish(mut self, system: &mut System<'_>) -> Trajectory {
         system.senses.fill(self.start.motor);
         system.act(self.t, &self.y);
         self.trajectory.torques = [system.drive, system.load];

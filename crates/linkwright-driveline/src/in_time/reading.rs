@@ -1,7 +1,7 @@
 //! Curves and extremes of a motion in time, and its balance of energy.
 
 use super::system::System;
-use super::{Start, Trajectory};
+use super::trajectory::{Start, Trajectory};
 use crate::equation::Equation;
 use crate::reading::{Extremes, LOWER, peak};
 use linkwright_core::drive::kinks::kinks;
@@ -202,7 +202,8 @@ impl<'a> Reading<'a> {
                     continue;
                 }
                 let (k, look) = (i / looks, i % looks);
-                let bracket = [look.saturating_sub(1), (look + 1).min(LOOKS)].map(|l| l as f64 / LOOKS as f64);
+                let bracket =
+                    [look.saturating_sub(1), (look + 1).min(LOOKS)].map(|l| l as f64 / LOOKS as f64);
                 let (share, value) =
                     peak(bracket, &mut |share| sign * self.value(k, share, &mut y, quantity));
                 if value > best.0 {
