@@ -174,13 +174,13 @@ def _switches(file: MachineFile, texts: Sequence[str]) -> Iterator[DriveSwitch]:
 
 
 def _end_sentence(motion: ElasticTransient, zero: Zero) -> str:
-    from linkwright.kernel.reader.numbers import degrees, number
+    from linkwright.kernel.reader.numbers import degrees, number, quantity
 
+    angle = degrees(float(motion.state_end[-1]) - zero.angle)
     return (
-        f"The machine comes to rest after {number(motion.duration)} s, {number(motion.turns)} revolutions: "
-        f"at φ = {degrees(float(motion.state_end[-1]) - zero.angle)} the drive gives "
-        f"{number(motion.torque_drive_end)} N m at the crank and the loads need "
-        f"{number(motion.torque_load_end)} N m"
+        f"The machine comes to rest after {quantity(motion.duration, 's')} and {number(motion.turns)} "
+        f"revolutions: at φ = {angle} the drive gives {quantity(motion.torque_drive_end, 'N m')} at the crank "
+        f"and the loads need {quantity(motion.torque_load_end, 'N m')}"
     )
 
 

@@ -3,9 +3,9 @@ r"""Motion in time of a torsionally flexible driveline with its mechanism: start
 .. math:: J_i \ddot\varphi_i = M_d(\dot\varphi_i) - \sum T, \qquad
     J(\varphi)\,\ddot\varphi + \tfrac12 J'(\varphi)\,\dot\varphi^2 = T - M_r(\varphi, \dot\varphi, t)
 
-by DOP853, or Radau IIA where a shaft is nearly rigid, with exact events: kinks over the angle and over speeds,
-the crank coming to rest under dry loads, and torn loose by the torque of its shaft; so too the motor behind a
-gearbox whose losses hold it. The balance of energy measures what is returned.
+by DOP853, or Radau IIA where a shaft is nearly rigid, with exact events: kinks over the angle and over
+speeds, the crank coming to rest under dry loads, and torn loose by the torque of its shaft; so too the motor
+behind a gearbox whose losses hold it. The balance of energy measures what is returned.
 """
 
 from __future__ import annotations
