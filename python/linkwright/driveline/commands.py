@@ -33,7 +33,7 @@ from linkwright.machine.file_argument import File, MachineFile
 
 if TYPE_CHECKING:
     from linkwright.driveline.in_time import DriveSwitch, ElasticTransient
-    from linkwright.linkages.zero import Zero
+    from linkwright.kernel.reader.angle_zero import Zero
 
 Rigid = Annotated[bool, Option("--rigid", help="Take an elastic driveline as rigid.")]
 Switches = Annotated[
@@ -105,9 +105,8 @@ def transient(
     if turns is not None and not turns > 0:
         raise InputError(f"--revolutions: found {turns:g}, expected more than 0")
     counted = zero_of(machine, zero)
-    until: dict[str, float] = {} if duration is None else {"duration": duration}
-    if turns is not None or not until:
-        until["turns"] = turns or _REVOLUTIONS
+    if turns is None and duration is None:
+        turns = _REVOLUTIONS
     follow = partial(
         elastic_transient,
         machine,
@@ -118,7 +117,8 @@ def transient(
         brake=brake,
         clockwise=clockwise,
         switches=list(_switches(file, switches or ())),
-        **until,
+        duration=np.inf if duration is None else duration,
+        turns=np.inf if turns is None else turns,
     )
     motion = follow()
     findings, warnings = motion.findings, list[str]()
@@ -179,8 +179,8 @@ def _end_sentence(motion: ElasticTransient, zero: Zero) -> str:
     angle = degrees(float(motion.state_end[-1]) - zero.angle)
     return (
         f"The machine comes to rest after {quantity(motion.duration, 's')} and {number(motion.turns)} "
-        f"revolutions: at φ = {angle} the drive gives {quantity(motion.torque_drive_end, 'N m')} at the crank "
-        f"and the loads need {quantity(motion.torque_load_end, 'N m')}"
+        f"revolutions: at φ = {angle} the drive gives {quantity(motion.torque_drive_end, 'N m')} at the "
+        f"crank and the loads need {quantity(motion.torque_load_end, 'N m')}"
     )
 
 

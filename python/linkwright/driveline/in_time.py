@@ -481,9 +481,10 @@ def _state(
         joins = np.zeros((len(chain.shafts), masses))
         rows = np.arange(len(joins))
         joins[rows, chain.links["first"]], joins[rows, chain.links["second"]] = 1.0, -1.0
-        twists = np.linalg.lstsq(joins[:, :-1], start.twist[:, 0] / chain.lead, rcond=None)[0]
+        twists[:] = np.linalg.lstsq(joins[:, :-1], start.twist[:, 0] / chain.lead, rcond=None)[0]
         speeds[chain.mass] = start.speed[:, 0] / chain.ratio
-    return np.concatenate([twists, speeds[:-1] - speeds[-1], [speeds[-1], angle]])
+    state: Floats = np.concatenate([twists, speeds[:-1] - speeds[-1], [speeds[-1], angle]])
+    return state
 
 
 def _result(moving: Followed, times: Floats) -> ElasticTransient:
@@ -528,7 +529,7 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
     )
 
 
-def _extremes(moving: Followed, chain: Chain) -> dict[str, Floats]:
+def _extremes(moving: Followed, chain: Chain) -> dict[str, Any]:
     """Extremes over all stretches, with times, at the own speed of each part."""
     factors = {"torque": 1 / chain.lead, "twist": chain.lead}
     found: dict[str, Floats] = {}
