@@ -1190,8 +1190,8 @@ class DrivelineMotion:
 class DrivelineInTimeCurves:
     """Curves of a driveline over time, (parts, n) each, all referred to the crank.
 
-    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads, and
-    the heat of the links; `impulse` is the integral of the motor's torque.
+    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads and
+    brakes, and the heat of the links; `impulse` is the integral of the motor's torque.
     """
 
     angle: Final[_Floats]
@@ -1207,6 +1207,7 @@ class DrivelineInTimeCurves:
     impulse: Final[_Floats]
     work_drive: Final[_Floats]
     work_load: Final[_Floats]
+    work_brake: Final[_Floats]
     heat: Final[_Floats]
 
 @final
@@ -1258,6 +1259,7 @@ def driveline_in_time(
     driven: int,
     held: float | None,
     state: _Floats,
+    brakes: _Floats,
     time: float,
     motor: float,
     speed: float,
@@ -1267,9 +1269,9 @@ def driveline_in_time(
 ) -> DrivelineInTime:
     """Motion in time of masses with links as in `driveline_motion`.
 
-    `state`: twists and speeds of all masses against the crank, its speed and its angle, at `time`; `motor`:
-    +1 or −1, the direction in which it drives; `speed`: about which the machine works; `until`, `turns`: time
-    and revolutions at the end at the latest.
+    `state`: twists and speeds of all masses against the crank, its speed and its angle, at `time`; `brakes`:
+    torque on every mass; `motor`: +1 or −1, the direction in which it drives; `speed`: about which the
+    machine works; `until`, `turns`: time and revolutions at the end at the latest.
     """
 
 def driveline_motion(

@@ -7,6 +7,7 @@ import pytest
 from elastic_drives import Drive, accelerations, random_drive
 from numpy.random import Generator
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from sizes import random_cases
 
 import linkwright as lw
@@ -262,3 +263,58 @@ def test_wrong_arguments_are_refused() -> None:
         lw.elastic_transient(machine, duration=1.0, switches=[lw.DriveSwitch(2.0, motor=False)])
     with pytest.raises(lw.InputError, match="expected times from 0 s"):
         lw.elastic_transient(machine, duration=1.0, times=[2.0])
+
+
+PENDULUM = """
+format = 1
+name = "pendulum behind an elastic drive, with its brake at the motor"
+[drive]
+speed = "10 rad/s"
+[drive.motor]
+kind = "dc"
+speed_no_load = 100
+torque_stall = 50
+inertia = 0.1
+[drive.gearbox]
+ratio = 5
+inertia = 0.02
+[drive.flywheel]
+inertia = 1
+[drive.brake]
+torque = 0.5
+[drive.crankshaft]
+stiffness = 1e9
+damping = 1e4
+[mechanism.cranks.A]
+radius = 0.5
+[mechanism.sliders.S]
+crank = "A"
+rod = 2
+[bodies]
+S = { mass = 1e-6 }
+A = { mass = 10, along = 0.5 }
+[loads]
+gravity = { kind = "gravity", acceleration = 9.81 }
+"""
+
+
+def test_a_pendulum_swings_out_against_the_brake() -> None:
+    """It turns back: from turn to turn m g r (cos θ₁ − cos θ₀) = M_B |θ₁ − θ₀|, for a stiff shaft."""
+    motion = lw.elastic_transient(
+        lw.loads(PENDULUM), angle=1 - np.pi / 2, duration=60, motor=False, brake=True, accuracy=1e-10
+    )
+    weight, held = 10 * 9.81 * 0.5, 0.5 * 5
+    swing, ends = 1.0, [1.0]
+    while weight * abs(np.sin(swing)) > held:
+        start = swing
+        swing = brentq(
+            lambda end, start=start: weight * (np.cos(end) - np.cos(start)) - held * abs(end - start),
+            -start,
+            start * (1 - 1e-6),
+        )
+        ends.append(swing)
+    assert len(ends) > 5
+    assert motion.end == "rest"
+    assert motion.crank_angle[-1] + np.pi / 2 == pytest.approx(ends[-1], abs=1e-6)
+    assert motion.energy_brake == pytest.approx(held * np.abs(np.diff(ends)).sum(), rel=1e-6)
+    assert motion.energy_error <= 1e-9

@@ -35,6 +35,7 @@ pub(crate) struct DrivelineInTimeCurves {
     impulse: Array,
     work_drive: Array,
     work_load: Array,
+    work_brake: Array,
     heat: Table,
 }
 
@@ -104,19 +105,20 @@ fn named(&(at, event): &(usize, Event)) -> (usize, &'static str, Option<usize>) 
 impl DrivelineInTime {
     fn curves(&self, py: Python<'_>, time: Floats<'_>) -> PyResult<DrivelineInTimeCurves> {
         let (time, n, links) = (time.as_slice()?, self.chain.masses(), self.chain.links.len());
-        require_room(ANALYSIS, [8 + 3 * n + 3 * links, time.len()])?;
+        require_room(ANALYSIS, [9 + 3 * n + 3 * links, time.len()])?;
         let equation = Equation { plan: &self.plan.get().0, q: &self.q, chain: &self.chain };
         let found =
             guarded(py, ANALYSIS, || Reading::new(equation, &self.start, &self.trajectory).curves(time))?;
         let count = time.len();
         let work = |which: usize| column(py, found.works[which * count..][..count].to_vec()).unbind();
         let [kinetic, elastic] = found.energy;
-        let heat = found.works[4 * count..].to_vec();
+        let heat = found.works[5 * count..].to_vec();
         Ok(DrivelineInTimeCurves {
             work_shaft: work(0),
             impulse: work(1),
             work_drive: work(2),
             work_load: work(3),
+            work_brake: work(4),
             heat: rows(py, heat, links)?,
             angle: rows(py, found.angle, n)?,
             speed: rows(py, found.speed, n)?,
@@ -133,7 +135,7 @@ impl DrivelineInTime {
 
 #[pyfunction]
 #[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, state, time, motor, speed, until, turns, accuracy
+    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, state, brakes, time, motor, speed, until, turns, accuracy
 ))]
 pub(crate) fn driveline_in_time(
     py: Python<'_>,
@@ -148,6 +150,7 @@ pub(crate) fn driveline_in_time(
     driven: usize,
     held: Option<f64>,
     state: Floats<'_>,
+    brakes: Floats<'_>,
     time: f64,
     motor: f64,
     speed: f64,
@@ -164,10 +167,11 @@ pub(crate) fn driveline_in_time(
     }
     let state = state.as_slice()?.to_vec();
     let layout = Layout::of(&chain);
-    if state.len() != layout.phi + 1 {
-        return Err(PyValueError::new_err("driveline: the state has another number of masses"));
+    let brakes = brakes.as_slice()?.to_vec();
+    if state.len() != layout.phi + 1 || brakes.len() != chain.masses() {
+        return Err(PyValueError::new_err("driveline: state or brakes have another number of masses"));
     }
-    let start = Start { state, time, motor, speed, until, turns, accuracy };
+    let start = Start { state, brakes, time, motor, speed, until, turns, accuracy };
     let (trajectory, measures) = guarded(py, ANALYSIS, || {
         let equation = Equation { plan: &known.get().0, q: &q, chain: &chain };
         let trajectory = follow(equation, &start);

@@ -34,6 +34,7 @@ from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 from linkwright.machine.program.core import DrivelineInTime
+from linkwright.torsion.model.drive_train import MOTOR, brake_disc
 
 _OWN = "At its own speed."
 
@@ -112,6 +113,7 @@ class ElasticTransient(Result):
     ]
     energy_drive: Annotated[float, Label("work behind the gearbox", "A_d", "J", table="elastic_transient")]
     energy_load: Annotated[float, Label("work of the loads", "A_r", "J", table="elastic_transient")]
+    energy_brake: Annotated[float, Label("work of the brake", "A_b", "J", table="elastic_transient")]
     energy_kinetic: Annotated[float, Label("gain of kinetic energy", "ΔE", "J", table="elastic_transient")]
     energy_elastic: Annotated[float, Label("gain of strain energy", "ΔU", "J", table="elastic_transient")]
     heat_motor: Annotated[
@@ -302,7 +304,7 @@ def _within(times: Floats, last: float) -> Floats:
     return inside
 
 
-_WORKS = ("work_shaft", "impulse", "work_drive", "work_load", "heat")
+_WORKS = ("work_shaft", "impulse", "work_drive", "work_load", "work_brake", "heat")
 _CURVES = (
     "angle",
     "speed",
@@ -397,13 +399,14 @@ def followed(
         machine = switch.machine or machine
         motor = motor if switch.motor is None else switch.motor
         brake = brake if switch.brake is None else switch.brake
-        compiled, chain = _compiled(machine, motor=motor, brake=brake), chain_of(machine)
+        compiled, chain = _compiled(machine, motor=motor), chain_of(machine)
         if moving.stretches:
             _require_same_driveline(moving.stretches[0].chain, chain)
         left = turns - abs(float(state[-1]) - first) / (2 * np.pi)
         motion = compiled.driveline_in_time(
             **chain.links,
             state=np.ascontiguousarray(state),
+            brakes=_brakes(machine, chain) if brake else np.zeros(len(chain.links["inertia"]) + 1),
             time=time,
             motor=sense,
             speed=compiled.speed_guess,
@@ -422,7 +425,7 @@ def followed(
     return moving
 
 
-def _compiled(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine:
+def _compiled(machine: Machine, *, motor: bool) -> CompiledMachine:
     require_flexible(machine)
     drive = machine.drive
     assert drive is not None
@@ -433,7 +436,7 @@ def _compiled(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine:
             "drive.gearbox.reverse: found 0, a self-locking gearbox, which has no motion in time behind "
             "a flexible shaft; give it the factor of a gearbox that is not self-locking"
         )
-    compiled = compile_machine(machine, motor=motor, brake=brake)
+    compiled = compile_machine(machine, motor=motor)
     require_half_turns(compiled, machine)
     require_finite_accelerations(machine)
     return compiled
@@ -446,6 +449,16 @@ def _require_same_driveline(chain: Chain, other: Chain) -> None:
             f"switches: found a machine with the shafts {', '.join(other.shafts)}, expected "
             f"{', '.join(chain.shafts)} as at the start"
         )
+
+
+def _brakes(machine: Machine, chain: Chain) -> Floats:
+    """Torque of the brake on every mass, at the speed of the crank: it acts where it stands."""
+    torques = np.zeros(len(chain.links["inertia"]) + 1)
+    drive = machine.drive
+    if drive is not None and drive.brake is not None:
+        mass = chain.mass[chain.stations.index(brake_disc(drive))]
+        torques[mass] = drive.brake.torque * (drive.gearbox.ratio if drive.brake.on == MOTOR else 1.0)
+    return torques
 
 
 def _require_end(
@@ -512,6 +525,7 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
         energy_motor=float(ends["work_shaft"]),
         energy_drive=float(ends["work_drive"]),
         energy_load=float(ends["work_load"]),
+        energy_brake=float(ends["work_brake"]),
         energy_kinetic=float(ends["energy_kinetic"] - start.energy_kinetic[0]),
         energy_elastic=float(ends["energy_elastic"] - start.energy_elastic[0]),
         heat_motor=_heat(machine, ends, moving.sense),

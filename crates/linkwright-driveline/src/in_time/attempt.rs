@@ -151,7 +151,7 @@ impl Attempt {
         scale: &impl Fn(usize, f64) -> f64,
         (t, y): (f64, &Vec<f64>),
         h: f64,
-        end: &mut Vec<f64>,
+        end: &mut [f64],
     ) -> f64 {
         self.find_slopes(system, t, y);
         let Some(rises) = self.solved(system, scale, (t, y), h) else { return f64::INFINITY };

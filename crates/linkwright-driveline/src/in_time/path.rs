@@ -56,7 +56,7 @@ const ROUNDING_OF_TIME: f64 = 4.0 * f64::EPSILON;
 pub fn follow(equation: Equation<'_>, start: &Start) -> Trajectory {
     let Equation { plan, q, .. } = equation;
     let kinks = landings(plan, q, kinks(plan, q));
-    let mut system = System::new(equation, &kinks, start.speed, start.motor, start.accuracy);
+    let mut system = System::new(equation, &kinks, start);
     let mut y = vec![0.0; system.layout.size];
     y[..start.state.len()].copy_from_slice(&start.state);
     set_senses(&mut system, start.time, &y);
@@ -206,7 +206,7 @@ impl<'s> Path<'s> {
             let is_slow = system.speed(mass, &self.y).abs() <= AT_REST * self.start.speed;
             system.senses[mass] == 0.0 || (is_slow && system.net[mass].abs() <= AT_REST * self.torque)
         };
-        system.senses[system.crank()] == 0.0 && (0..system.crank()).all(rests)
+        (0..=system.crank()).all(rests)
     }
 
     /// Error that each number of the state may have: one part for all its sizes, and one in proportion to its size.

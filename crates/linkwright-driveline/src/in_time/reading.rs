@@ -64,7 +64,7 @@ impl<'a> Reading<'a> {
     /// Of a motion that was followed.
     pub fn new(equation: Equation<'a>, start: &Start, trajectory: &'a Trajectory) -> Self {
         let kinks = kinks(equation.plan, equation.q);
-        let system = System::new(equation, &kinks, start.speed, start.motor, start.accuracy);
+        let system = System::new(equation, &kinks, start);
         Reading { system, trajectory }
     }
 
@@ -151,10 +151,11 @@ impl<'a> Reading<'a> {
             let energy: f64 = self.system.energy(self.trajectory.t[k], y).iter().sum();
             let heat: f64 = y[layout.heat..].iter().sum();
             if k == 0 {
-                first = energy - (y[layout.drive] - y[layout.load] - heat);
+                first = energy;
             }
-            worst = worst.max((energy - first - (y[layout.drive] - y[layout.load] - heat)).abs());
-            let sizes = [energy, y[layout.drive], y[layout.load], heat];
+            let gained = y[layout.drive] - y[layout.load] - y[layout.brake] - heat;
+            worst = worst.max((energy - first - gained).abs());
+            let sizes = [energy, y[layout.drive], y[layout.load], y[layout.brake], heat];
             largest = sizes.into_iter().fold(largest, |most, size| most.max(size.abs()));
         }
         if largest > 0.0 { worst / largest } else { 0.0 }

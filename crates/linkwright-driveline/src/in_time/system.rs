@@ -7,6 +7,7 @@
 //! The torque on a mass may jump where its speed changes its sign: on the crank by dry loads, on the mass of the motor by the
 //! losses of the gearbox. A step takes the torque of one direction, or holds the mass at rest.
 
+use super::trajectory::Start;
 use crate::chain::{Chain, Link};
 use crate::equation::Equation;
 use linkwright_core::drive::law::{LawGeometry, SpeedKink};
@@ -16,7 +17,7 @@ use linkwright_kernel::dual::Dual;
 use linkwright_kernel::plane::Angle;
 
 /// Works before those of the links: see the numbers below.
-const WORKS: usize = 4;
+const WORKS: usize = 5;
 
 /// Share of the working speed at which laws are taken at rest.
 const SLOW: f64 = 1e-11;
@@ -48,6 +49,8 @@ pub struct Layout {
     pub drive: usize,
     /// Work that the loads take.
     pub load: usize,
+    /// Work that brakes take.
+    pub brake: usize,
     /// First of what links turn into heat.
     pub heat: usize,
     /// Numbers of a state.
@@ -67,6 +70,7 @@ impl Layout {
             impulse: works + 1,
             drive: works + 2,
             load: works + 3,
+            brake: works + 4,
             heat: works + WORKS,
             size: works + WORKS + chain.links.len(),
         }
@@ -81,6 +85,8 @@ pub struct System<'a> {
     pub layout: Layout,
     /// Direction in which the motor drives, +1 or −1.
     pub motor: f64,
+    /// Torque of the brake on every mass \[N m\].
+    pub brakes: Vec<f64>,
     /// Direction of every mass whose torque jumps at rest: +1, −1, or 0 where it is held.
     pub senses: Vec<f64>,
     /// Crank angles between two kinks, in which the step is.
@@ -107,13 +113,15 @@ pub struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// Of a machine with kinks at crank angles of its cycle; `speed` is about that at which it works.
-    pub fn new(equation: Equation<'a>, kinks: &[f64], speed: f64, motor: f64, accuracy: f64) -> Self {
+    /// Of a machine with kinks at crank angles of its cycle.
+    pub fn new(equation: Equation<'a>, kinks: &[f64], start: &Start) -> Self {
         let Equation { plan, q, chain } = equation;
+        let Start { speed, motor, accuracy, .. } = *start;
         System {
             equation,
             layout: Layout::of(chain),
             motor,
+            brakes: start.brakes.clone(),
             senses: vec![1.0; chain.masses()],
             between: [f64::NEG_INFINITY, f64::INFINITY],
             slow: SLOW * speed,
@@ -136,10 +144,13 @@ impl<'a> System<'a> {
     }
 
     /// Masses whose torque may jump at rest.
-    pub fn holding(&self) -> impl Iterator<Item = usize> + use<'a> {
+    pub fn holding(&self) -> Vec<usize> {
         let Equation { plan, q, chain } = self.equation;
-        let driven = (q[plan.drive.forward] != q[plan.drive.reverse]).then_some(chain.driven);
-        driven.into_iter().filter(move |&mass| mass != chain.masses() - 1).chain([chain.masses() - 1])
+        let has_losses = q[plan.drive.forward] != q[plan.drive.reverse];
+        let holds = |&mass: &usize| {
+            mass == self.crank() || self.brakes[mass] > 0.0 || (has_losses && mass == chain.driven)
+        };
+        (0..chain.masses()).filter(holds).collect()
     }
 
     /// Speed of a mass.
@@ -182,6 +193,9 @@ impl<'a> System<'a> {
             self.net[link.second] += torque;
         }
         let direction = |sense: f64| if sense < 0.0 { -1.0 } else { 1.0 };
+        for ((net, brake), &sense) in self.net.iter_mut().zip(&self.brakes).zip(&self.senses) {
+            *net -= direction(sense) * brake;
+        }
         let speed = chain.speed(chain.driven, y);
         let along = direction(self.senses[chain.driven]);
         let torque = self.motor * plan.drive.motor_torque::<f64, f64>(&plan.tables, q, self.motor * speed);
@@ -219,6 +233,8 @@ impl<'a> System<'a> {
         to[layout.impulse] = self.shaft;
         to[layout.drive] = self.drive * speed;
         to[layout.load] = self.load * omega;
+        to[layout.brake] =
+            (0..=layout.others).map(|mass| self.brakes[mass] * self.speed(mass, y).abs()).sum();
         for (to, link) in to[layout.heat..].iter_mut().zip(&chain.links) {
             *to = heating(link, chain.twist(link, y)[1]);
         }

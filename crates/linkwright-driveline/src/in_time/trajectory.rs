@@ -11,6 +11,8 @@ pub struct Start {
     pub time: f64,
     /// Direction in which the motor drives, +1 or −1.
     pub motor: f64,
+    /// Torque of the brake on every mass, at the speed of the crank \[N m\].
+    pub brakes: Vec<f64>,
     /// Speed of the crank about which the machine works \[rad/s\].
     pub speed: f64,
     /// Time at which the motion ends at the latest \[s\].
