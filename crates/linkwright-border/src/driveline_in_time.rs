@@ -5,8 +5,9 @@ use linkwright_driveline::equation::Equation;
 use linkwright_driveline::in_time::events::Event;
 use linkwright_driveline::in_time::follow;
 use linkwright_driveline::in_time::reading::Reading;
+use linkwright_driveline::in_time::start::Start;
 use linkwright_driveline::in_time::system::Layout;
-use linkwright_driveline::in_time::trajectory::{End, Start, Trajectory};
+use linkwright_driveline::in_time::trajectory::{End, Trajectory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

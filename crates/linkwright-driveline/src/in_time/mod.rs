@@ -14,13 +14,15 @@
 //! | [`events`] | what ends a step |
 //! | `attempt` | steps of any length from one instant, by either method |
 //! | `path` | accepted steps and their events |
-//! | [`trajectory`] | what is to be followed, and the motion that was |
+//! | [`start`] | what is to be followed |
+//! | [`trajectory`] | a motion that was followed |
 //! | [`reading`] | curves and extremes, balance of energy |
 
 mod attempt;
 pub mod events;
 mod path;
 pub mod reading;
+pub mod start;
 pub mod system;
 pub mod trajectory;
 

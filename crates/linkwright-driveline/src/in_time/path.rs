@@ -2,8 +2,9 @@
 
 use super::attempt::Attempt;
 use super::events::{Event, Events};
+use super::start::Start;
 use super::system::System;
-use super::trajectory::{End, Start, Trajectory};
+use super::trajectory::{End, Trajectory};
 use crate::equation::Equation;
 use linkwright_core::drive::kinks::{kinks, landings};
 use linkwright_core::drive::mesh::crossing;

@@ -1,7 +1,8 @@
 //! Curves and extremes of a motion in time, and its balance of energy.
 
+use super::start::Start;
 use super::system::System;
-use super::trajectory::{Start, Trajectory};
+use super::trajectory::Trajectory;
 use crate::equation::Equation;
 use crate::reading::{Extremes, LOWER, peak};
 use linkwright_core::drive::kinks::kinks;

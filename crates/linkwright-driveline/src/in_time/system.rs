@@ -7,7 +7,7 @@
 //! The torque on a mass may jump where its speed changes its sign: on the crank by dry loads, on the mass of the motor by the
 //! losses of the gearbox. A step takes the torque of one direction, or holds the mass at rest.
 
-use super::trajectory::Start;
+use super::start::Start;
 use crate::chain::{Chain, Link};
 use crate::equation::Equation;
 use linkwright_core::drive::law::{LawGeometry, SpeedKink};
