@@ -4,8 +4,8 @@ Fields of elements, loads and the drive that are integers are indices of points,
 slots: places of numbers in the list of parameters. A compiled module has one stub, however long.
 """
 
-from collections.abc import Sequence
-from typing import Final, final
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,8 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
+    "DrivelineInTime",
+    "DrivelineInTimeCurves",
     "DrivelineMotion",
     "DrivelineStation",
     "DrivelineTorque",
@@ -81,6 +83,7 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_in_time",
     "driveline_motion",
     "follow_group",
     "gaps",
@@ -1216,6 +1219,57 @@ class DrivelineMotion:
         """Curves at crank angles of the cycle."""
 
 @final
+class DrivelineInTimeCurves:
+    """Curves of a driveline over time, (parts, n) each, all referred to the crank.
+
+    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads and
+    brakes, and the heat of the links; `impulse` is the integral of the motor's torque.
+    """
+
+    angle: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    twist: Final[_Floats]
+    torque: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+    energy_kinetic: Final[_Floats]
+    energy_elastic: Final[_Floats]
+    work_shaft: Final[_Floats]
+    impulse: Final[_Floats]
+    work_drive: Final[_Floats]
+    work_load: Final[_Floats]
+    work_brake: Final[_Floats]
+    heat: Final[_Floats]
+
+@final
+class DrivelineInTime:
+    """Motion in time of a driveline, with extremes over its masses or links; all referred to the crank.
+
+    `time`, `crank_angle`: at the ends of the steps; `state`: at the end; `end`: ``"time"``, ``"turns"``,
+    ``"rest"``, ``"does not close"`` or ``"inaccurate"``; `events`: number of the end of a step, what
+    happened there, and the mass of it; `energy_error`: largest gain of energy less works, over the largest.
+    """
+
+    time: Final[_Floats]
+    crank_angle: Final[_Floats]
+    state: Final[_Floats]
+    end: Final[str]
+    torque_drive_end: Final[float]
+    torque_load_end: Final[float]
+    speed: Final[Extremes]
+    acceleration: Final[Extremes]
+    twist: Final[Extremes]
+    torque: Final[Extremes]
+    energy_error: Final[float]
+    evaluations: Final[int]
+    implicit: Final[int]
+    events: Final[list[tuple[int, str, int | None]]]
+
+    def curves(self, time: _Floats) -> DrivelineInTimeCurves:
+        """Curves at times of the motion."""
+
+@final
 class NoDrivelineMotion:
     """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``."""
 
@@ -1224,20 +1278,32 @@ class NoDrivelineMotion:
     speed: Final[float]
     accuracy: Final[float]
 
+def driveline_in_time(
+    plan: Plan,
+    q: _Floats,
+    chain: Mapping[str, Any],
+    *,
+    state: _Floats,
+    brakes: _Floats,
+    time: float,
+    motor: float,
+    speed: float,
+    until: float,
+    turns: float,
+    accuracy: float,
+) -> DrivelineInTime:
+    """Motion in time of masses with links as in `driveline_motion`.
+
+    `state`: twists and speeds of all masses against the crank, its speed and its angle, at `time`; `brakes`:
+    torque on every mass; `motor`: +1 or −1, the direction in which it drives; `speed`: about which the
+    machine works; `until`, `turns`: time and revolutions at the end at the latest.
+    """
+
 def driveline_motion(
     plan: Plan,
     q: _Floats,
+    chain: Mapping[str, Any],
     *,
-    inertia: _Floats,
-    apart: float,
-    first: _Ints,
-    second: _Ints,
-    stiffness: _Floats,
-    damping: _Floats,
-    drivers: Sequence[DrivelineTorque],
-    loads: Sequence[DrivelineTorque],
-    stations: Sequence[DrivelineStation],
-    swing: tuple[_Floats, _Floats] | None,
     accuracy: float,
     speed: float,
     fastest: float,
@@ -1246,9 +1312,11 @@ def driveline_motion(
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
-    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `swing`: damping
-    of every mass against the rotation of all, and its share in that; `fastest`: size of the fastest
-    eigenvalue that lasts; followed for `cycles_first` cycles at first, for `cycles_max` at most.
+    `chain`: `inertia` of all masses but the crank; `apart`, what of the plan's inertia is not at the crank;
+    `first`, `second`, `stiffness` and `damping` of links; lists `drivers` and `loads` of `DrivelineTorque`,
+    `stations` of `DrivelineStation`; `swing`, damping of every mass against the rotation of all with its
+    share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for `cycles_first`
+    cycles at first, for `cycles_max` at most.
     """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:

@@ -35,6 +35,7 @@ CASES = {
     "axis": ("servo_carriage", "bodies.carriage.mass", "torque_max"),
     "dc_bus": ("servo_carriage", "bodies.carriage.mass", "power_max"),
     "elastic_motion": ("elastic_coupling_of_carts", "drive.crankshaft.stiffness", "period"),
+    "elastic_run_up": ("elastic_coupling_of_carts", "drive.crankshaft.stiffness", "time"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
     "turning_moment": ("flywheel_four_stroke", "turning_moment.speed", "flywheel_inertia"),

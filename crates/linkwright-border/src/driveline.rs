@@ -1,22 +1,21 @@
 //! Steady motion of torsionally flexible drivelines at the border.
 
-use linkwright_driveline::chain::{Chain, Link, Swing};
+use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
 use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
 use linkwright_driveline::steady::{Failure, Request, Steady, steady};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{as_indices, column};
+use crate::arrays::column;
 use crate::builder::Plan;
-use crate::builder::driveline::{DrivelineStation, DrivelineTorque};
+use crate::driveline_chain::Driveline;
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
-use crate::{Floats, Ints};
+use crate::Floats;
 
-type Array = Py<PyArray1<f64>>;
-type Table = Py<PyArray2<f64>>;
+pub(crate) type Array = Py<PyArray1<f64>>;
+pub(crate) type Table = Py<PyArray2<f64>>;
 
 const ANALYSIS: &str = "steady motion of the driveline";
 
@@ -89,14 +88,14 @@ pub(crate) enum DrivelineOutcome {
     None(NoDrivelineMotion),
 }
 
-fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
+pub(crate) fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
     let of = |part: fn(&CoreExtremes) -> f64| column(py, list.iter().map(part).collect()).unbind();
     let (greatest, greatest_at) = (of(|each| each.max), of(|each| each.max_at));
     let (least, least_at) = (of(|each| each.min), of(|each| each.min_at));
     Py::new(py, Extremes { greatest, greatest_at, least, least_at })
 }
 
-fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
+pub(crate) fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
     let columns = list.len() / rows.max(1);
     Ok(column(py, list).reshape([rows, columns])?.unbind())
 }
@@ -121,37 +120,13 @@ impl DrivelineMotion {
     }
 }
 
-/// Links of a driveline from arrays over them.
-fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: usize) -> PyResult<Vec<Link>> {
-    let [first, second] = [as_indices(first.as_slice()?, masses)?, as_indices(second.as_slice()?, masses)?];
-    let [stiffness, damping] = [rates[0].as_slice()?, rates[1].as_slice()?];
-    if [first.len(), second.len(), stiffness.len()] != [damping.len(); 3] {
-        return Err(PyValueError::new_err("links: arrays of one length are needed"));
-    }
-    let link =
-        |i: usize| Link { first: first[i], second: second[i], stiffness: stiffness[i], damping: damping[i] };
-    Ok((0..first.len()).map(link).collect())
-}
-
 #[pyfunction]
-#[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, drivers, loads, stations, swing, accuracy, speed, fastest,
-    cycles_first, cycles_max
-))]
+#[pyo3(signature = (plan, q, chain, *, accuracy, speed, fastest, cycles_first, cycles_max))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
     plan: Bound<'_, Plan>,
     q: Floats<'_>,
-    inertia: Floats<'_>,
-    apart: f64,
-    first: Ints<'_>,
-    second: Ints<'_>,
-    stiffness: Floats<'_>,
-    damping: Floats<'_>,
-    drivers: Vec<PyRef<'_, DrivelineTorque>>,
-    loads: Vec<PyRef<'_, DrivelineTorque>>,
-    stations: Vec<PyRef<'_, DrivelineStation>>,
-    swing: Option<(Floats<'_>, Floats<'_>)>,
+    chain: Driveline<'_>,
     accuracy: f64,
     speed: f64,
     fastest: f64,
@@ -159,21 +134,7 @@ pub(crate) fn driveline_motion(
     cycles_max: usize,
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
-    let q = known.get().parameters(&q)?.to_vec();
-    let inertia = inertia.as_slice()?.to_vec();
-    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
-    let [drivers, loads] = [drivers, loads].map(|list| list.iter().map(|each| each.core()).collect());
-    let stations = stations.iter().map(|each| each.core()).collect();
-    let swing = match &swing {
-        None => None,
-        Some((damping, share)) => {
-            Some(Swing { damping: damping.as_slice()?.to_vec(), share: share.as_slice()?.to_vec() })
-        }
-    };
-    let chain = Chain { inertia, apart, links, drivers, loads, stations, swing };
-    if !chain.fits() {
-        return Err(PyIndexError::new_err("driveline: a link, a torque or a mechanism is at no mass"));
-    }
+    let (q, chain) = (known.get().parameters(&q)?.to_vec(), chain.chain()?);
     let plan = &known.get().0;
     let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
     let solved = guarded(py, ANALYSIS, || {

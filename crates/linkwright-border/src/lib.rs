@@ -8,6 +8,8 @@ mod builder;
 mod cam;
 mod drive;
 mod driveline;
+mod driveline_chain;
+mod driveline_in_time;
 mod equations;
 mod errors;
 mod guard;
@@ -78,6 +80,8 @@ pub mod _core {
     };
     #[pymodule_export]
     use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
+    #[pymodule_export]
+    use super::driveline_in_time::{DrivelineInTime, DrivelineInTimeCurves, driveline_in_time};
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

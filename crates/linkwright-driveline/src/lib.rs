@@ -1,4 +1,4 @@
-//! Steady motion of a torsionally flexible driveline that drives a mechanism with its true inertia J(φ) and loads M(φ, ω).
+//! Motion of a torsionally flexible driveline that drives a mechanism with its true inertia J(φ) and loads M(φ, ω).
 //!
 //! | module | answers |
 //! | --- | --- |
@@ -12,12 +12,14 @@
 //! | [`error`] | error of a solution in every step |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
 //! | [`reading`] | curves, extremes, and power of every part |
+//! | [`in_time`] | motion in time from rest or any state |
 
 pub mod chain;
 pub mod cycle;
 mod elimination;
 pub mod equation;
 pub mod error;
+pub mod in_time;
 pub mod mesh;
 pub mod reading;
 pub mod station;

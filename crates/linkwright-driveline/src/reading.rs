@@ -15,7 +15,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const NARROWINGS: usize = 36;
 
 /// Share of the range of a quantity by which a peak of its samples may lie below the highest and still be the highest.
-const LOWER: f64 = 0.05;
+pub(crate) const LOWER: f64 = 0.05;
 
 /// How far inside a step its ends are read, as a share of it: kinks lie on them.
 const INSIDE: f64 = 1e-9;
@@ -275,7 +275,7 @@ impl<'a> Reading<'a> {
 }
 
 /// Place and value of a peak between two shares, by golden section; the ends count too.
-fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+pub(crate) fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
     let mut best = [low, high].map(|share| (share, at(share)));
     let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
     let mut values = inner.map(&mut *at);

@@ -2,14 +2,18 @@
 
 | module | |
 | --- | --- |
-| `analyses` | Its analysis, as study, report, studio and studies read it |
+| `analyses` | Its analyses, as study, report, studio and studies read it |
 | `carried` | What of a train its steady motion does not carry, and the analysis that does |
 | `chain` | The driveline as masses and links, referred to the crank |
+| `commands` | `linkwright transient` |
 | `elastic_motion` | Steady motion: torques of shafts, motion of every station, Floquet multipliers |
+| `figures_in_time` | Torques and speeds over time |
 | `figures` | Torques of the shafts and speeds of the stations over the crank angle |
+| `in_time` | Motion in time: start, stop, load steps |
 | `permitted` | Torques of shafts against what is permitted |
+| `run_up` | Run-up: time, peak torques, losses |
 | `study` | The analysis in the study of a machine, its check and its warnings |
-| `tables` | A row a shaft, a row a station, energy and stability |
+| `tables` | A row a shaft, a row a station, energy and stability; time and energy of a motion in time |
 | `train_chain` | A train with motors and mechanisms as masses and links |
 | `words` | Formulas, sources and assumptions |
 """

@@ -16,7 +16,7 @@ multipliers.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -275,29 +275,48 @@ def elastic_motion(
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
     require_accuracy(accuracy)
+    solved = steady_solution(machine, accuracy)
+    phi = turn_angles(n, solved.turns) if angles is None else angles
+    return _result(machine, solved.motion, solved.chain, phi, solved.turns, solved.multipliers)
+
+
+class SteadySolution(NamedTuple):
+    """Steady motion as the core has it, of which curves are read."""
+
+    motion: DrivelineMotion
+    chain: Chain
+    turns: int  # revolutions of a cycle
+    multipliers: Complexes
+
+
+def require_flexible(machine: Machine) -> None:
+    """Raise if nothing of the driveline twists."""
+    if not machine.has_mounted_mechanisms and (machine.drive is None or not machine.drive.twists):
+        raise InputError(
+            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}, or "
+            "[train.mechanisms] and [train.motors]"
+        )
+
+
+def steady_solution(machine: Machine, accuracy: float) -> SteadySolution:
+    """Steady motion of an elastic driveline; raises as `elastic_motion`."""
     compiled, chain, speed = driven_chain(machine)
     motion = _solved(compiled, chain, accuracy, speed)
     multipliers = _multipliers(motion, chain)
     if abs(multipliers[0]) >= 1:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, _AWAY))
+        other = compiled.driveline(chain.links, accuracy=accuracy, **_search(compiled, chain, speed, _AWAY))
         if isinstance(other, DrivelineMotion):
             motion, multipliers = other, _multipliers(other, chain)
-    phi = turn_angles(n, compiled.turns) if angles is None else angles
-    return _result(machine, motion, chain, phi, compiled.turns, multipliers)
+    return SteadySolution(motion, chain, compiled.turns, multipliers)
 
 
 def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
     """The mechanism at the crank over a cycle, the driveline, and the speed with which the search begins."""
     if machine.has_mounted_mechanisms:
         return driven_train(machine)
-    drive = machine.drive
-    if drive is None or not drive.twists:
-        raise InputError(
-            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}, or "
-            "[train.mechanisms] and [train.motors]"
-        )
-    if drive.motor is None:
+    require_flexible(machine)
+    if machine.drive is None or machine.drive.motor is None:
         raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
     compiled = compile_machine(machine)
     require_full_turn(compiled, machine)
@@ -320,7 +339,7 @@ def _search(compiled: CompiledMachine, chain: Chain, speed: float, cycles: int) 
 
 
 def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float) -> DrivelineMotion:
-    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, 0))
+    motion = compiled.driveline(chain.links, accuracy=accuracy, **_search(compiled, chain, speed, 0))
     if isinstance(motion, NoDrivelineMotion):
         raise _failure(motion, compiled, chain, accuracy, speed)
     return motion

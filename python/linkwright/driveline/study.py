@@ -6,11 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.drive.obstacles import no_shaft
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.obstacles import no_run_up, no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
 from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
 from linkwright.driveline.train_chain import train_chain
+from linkwright.driveline.run_up import ElasticRunUp, elastic_run_up, require_elastic_start
+from linkwright.kernel.errors import FindingError, StartError
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.machine.analysis import Obstacle, Results
@@ -57,6 +60,37 @@ def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | N
     if not is_driven:
         return None
     return findings.of(elastic_motion, known.machine, n=INTERVALS)
+
+
+def no_elastic_run_up(machine: Machine) -> Obstacle | None:
+    """A machine whose driveline is rigid, or whose motor does not run up."""
+    return no_shaft(machine) or no_run_up(machine)
+
+
+def made_elastic_run_up(known: Results, findings: Findings) -> ElasticRunUp | None:
+    """Run-up of an elastic driveline; that it settles late says nothing against the machine."""
+    machine = known.machine
+    if known.reduction is None or not has_motor(machine) or _never_runs_up(machine):
+        return None
+    if known.elastic_motion is None:
+        # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
+        findings.of(require_elastic_start, machine)
+        return None
+    try:
+        found = elastic_run_up(machine)
+    except StartError as error:
+        findings.add([str(error)])
+        return None
+    except FindingError as error:
+        findings.warn([f"run-up of the elastic driveline: {error}"])
+        return None
+    findings.add(found.findings)
+    return found
+
+
+def _never_runs_up(machine: Machine) -> bool:
+    drive = machine.drive
+    return drive is None or isinstance(drive.motor, ConstantSpeedMotor) or drive.gearbox.locks
 
 
 def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:

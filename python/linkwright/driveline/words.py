@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.driveline.run_up import ElasticRunUp
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.reader.numbers import number
 from linkwright.machine.machine import Machine
@@ -58,3 +59,13 @@ def _of_drive() -> Iterator[str]:
         "crank angle and speed."
     )
     yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."
+
+
+def run_up_assumptions(run_up: ElasticRunUp) -> Iterator[str]:
+    """How the run-up was integrated, and how well its energy balances."""
+    motion = run_up.motion
+    explicit = motion.steps - motion.steps_implicit
+    yield (
+        f"The run-up of the elastic driveline is integrated in time, {explicit} steps by DOP853 and "
+        f"{motion.steps_implicit} by Radau IIA: energy-balance residual {number(motion.energy_error, 1)}."
+    )

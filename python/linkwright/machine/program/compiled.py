@@ -288,10 +288,17 @@ class CompiledMachine:
         """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 
-    def driveline(self, accuracy: float, **chain: Any) -> _core.DrivelineMotion | _core.NoDrivelineMotion:
+    def driveline(
+        self, chain: Mapping[str, Any], **search: Any
+    ) -> _core.DrivelineMotion | _core.NoDrivelineMotion:
         """Steady motion behind a torsionally flexible driveline; see `_core.driveline_motion`."""
         require("driveline_motion")
-        return _core.driveline_motion(self.plan, self.one, accuracy=accuracy, **chain)
+        return _core.driveline_motion(self.plan, self.one, chain, **search)
+
+    def driveline_in_time(self, chain: Mapping[str, Any], **motion: Any) -> _core.DrivelineInTime:
+        """Motion in time behind a torsionally flexible driveline; see `_core.driveline_in_time`."""
+        require("driveline_in_time")
+        return _core.driveline_in_time(self.plan, self.one, chain, **motion)
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""

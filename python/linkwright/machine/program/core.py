@@ -50,6 +50,7 @@ SteadyCurves = _core.SteadyCurves
 SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
 DrivelineMotion = _core.DrivelineMotion
+DrivelineInTime = _core.DrivelineInTime
 NoDrivelineMotion = _core.NoDrivelineMotion
 DrivelineTorque = _core.DrivelineTorque
 DrivelineStation = _core.DrivelineStation

@@ -82,6 +82,15 @@ def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
     return J
 
 
+def brake_disc(drive: Drive) -> str:
+    """Disc on which the brake acts."""
+    assert drive.brake is not None
+    on = drive.brake.on
+    return _places(drive)[
+        WHEEL if on == CRANK and drive.brake.beside == GEARBOX else drive.brake.beside or on
+    ]
+
+
 def two_trains(machine: object) -> Iterator[InitErrorDetails]:
     """The fault of a file that describes a train beside a torsionally flexible driveline."""
     drive = look(machine, "drive")
