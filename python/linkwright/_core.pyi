@@ -33,6 +33,7 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
+    "DrivelineGradient",
     "DrivelineMotion",
     "Element",
     "Extremes",
@@ -1182,6 +1183,35 @@ class DrivelineMotion:
 
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
+
+    def gradient(self, directions: _Floats) -> DrivelineGradient:
+        """Derivatives along directions of all numbers, those of the plan and then of the driveline, (numbers, n).
+
+        The driveline's are inertias, what is apart, stiffness and damping of each link, and a speed held.
+        """
+
+    def curves_along(self, directions: _Floats, phi: _Floats) -> _Floats:
+        """Derivatives of speeds, accelerations, twists and torques, (parts · angles, n)."""
+
+@final
+class DrivelineGradient:
+    """Derivatives of a driveline along n directions, (n,), or (masses or links, n), referred to the crank."""
+
+    period: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    speed_min: Final[_Floats]
+    speed_max: Final[_Floats]
+    acceleration_min: Final[_Floats]
+    acceleration_max: Final[_Floats]
+    twist_min: Final[_Floats]
+    twist_max: Final[_Floats]
+    torque_min: Final[_Floats]
+    torque_max: Final[_Floats]
+    monodromy: Final[_Floats]
 
 @final
 class NoDrivelineMotion:

@@ -8,6 +8,7 @@ mod builder;
 mod cam;
 mod drive;
 mod driveline;
+mod driveline_gradient;
 mod equations;
 mod errors;
 mod guard;
@@ -75,6 +76,8 @@ pub mod _core {
     };
     #[pymodule_export]
     use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
+    #[pymodule_export]
+    use super::driveline_gradient::DrivelineGradient;
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

@@ -16,92 +16,97 @@ use linkwright_core::drive::law::LawGeometry;
 use linkwright_core::drive::reduce::Reduction;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::dual::Dual;
+use linkwright_kernel::out_of_line;
+use linkwright_kernel::real::Real;
 
 /// A driver that keeps its speed corrects it within this share of a radian of the crank; the periodic motion has none to correct.
 const CORRECTION: f64 = 0.01;
 
 /// The mechanism at one crank angle.
 #[derive(Clone, Copy)]
-pub struct Row<'a> {
+pub struct Row<'a, N = f64> {
     /// Inertia and loads.
-    pub reduced: Reduction<f64>,
+    pub reduced: Reduction<N>,
     /// What laws need to know there.
-    pub geometry: &'a [LawGeometry<f64>],
+    pub geometry: &'a [LawGeometry<N>],
 }
 
 /// A machine with its driveline.
 #[derive(Clone, Copy)]
-pub struct Equation<'a> {
+pub struct Equation<'a, N = f64> {
     /// Its structure.
     pub plan: &'a Plan,
     /// Its numbers.
-    pub q: &'a [f64],
+    pub q: &'a [N],
     /// Its driveline.
-    pub chain: &'a Chain,
+    pub chain: &'a Chain<N>,
 }
 
 /// Rates of a state by the crank angle, their derivatives by the state, and what they are made of.
 #[derive(Clone, Debug)]
-pub struct Rates {
+pub struct Rates<N = f64> {
     /// Accelerations of all masses \[rad/s²\].
-    pub acceleration: Vec<f64>,
+    pub acceleration: Vec<N>,
     /// dy/dφ.
-    pub rate: Vec<f64>,
+    pub rate: Vec<N>,
     /// ∂(dy/dφ)/∂y, row by row.
-    pub jacobian: Vec<f64>,
-    slopes: Vec<f64>,
+    pub jacobian: Vec<N>,
+    slopes: Vec<N>,
 }
 
-impl Rates {
+impl<N: Real> Rates<N> {
     /// Room for a driveline.
-    pub fn new(chain: &Chain) -> Self {
-        let (n, m) = (chain.masses(), chain.states());
+    pub fn new(chain: &Chain<N>) -> Self {
+        let (n, m, zero) = (chain.masses(), chain.states(), N::splat(0.0));
         Rates {
-            acceleration: vec![0.0; n],
-            rate: vec![0.0; m],
-            jacobian: vec![0.0; m * m],
-            slopes: vec![0.0; n * m],
+            acceleration: vec![zero; n],
+            rate: vec![zero; m],
+            jacobian: vec![zero; m * m],
+            slopes: vec![zero; n * m],
         }
     }
 }
 
-impl Equation<'_> {
+impl<N: Real> Equation<'_, N> {
     /// Torque of the motor at a mass with this speed \[N m\], through the gearbox, and its derivative.
-    pub fn motor(&self, speed: f64) -> Dual<f64> {
+    #[inline(always)]
+    pub fn motor(&self, speed: N) -> Dual<N> {
         let drive = &self.plan.drive;
         drive.geared_torque(self.q, drive.motor_torque(&self.plan.tables, self.q, Dual::variable(speed)))
     }
 
     /// Torque of the loads at the crank \[N m\], and its derivative by the speed.
-    pub fn load(&self, row: &Row<'_>, omega: f64) -> Dual<f64> {
+    #[inline(always)]
+    pub fn load(&self, row: &Row<'_, N>, omega: N) -> Dual<N> {
         let (plan, r, omega) = (self.plan, &row.reduced, Dual::variable(omega));
-        let mut load = omega * r.viscous + Dual::constant(r.load + r.dry);
+        let mut load = omega * Dual::constant(r.viscous) + Dual::constant(r.load + r.dry);
         if !plan.drive.speed_loads.is_empty() {
             load = load + plan.drive.speed_load(&plan.tables, self.q, omega);
         }
         if !plan.laws.is_empty() {
             // A steady motion knows no time.
-            let never = Dual::constant(f64::NAN);
-            load = load + plan.law_torque::<f64, f64, Dual<f64>>(self.q, row.geometry, omega, never);
+            let never = Dual::splat(f64::NAN);
+            load = load + plan.law_torque::<N, N, Dual<N>>(self.q, row.geometry, omega, never);
         }
         load
     }
 
     /// Accelerations of a state, with their derivatives.
-    fn accelerations(&self, row: &Row<'_>, y: &[f64], to: &mut Rates) {
+    #[inline(always)]
+    fn accelerations(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
         let chain = self.chain;
         let (n, m, crank) = (chain.masses(), chain.states(), chain.masses() - 1);
-        to.acceleration.fill(0.0);
-        to.slopes.fill(0.0);
+        to.acceleration.fill(N::splat(0.0));
+        to.slopes.fill(N::splat(0.0));
         for link in &chain.links {
             let torque = chain.torque(link, y);
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
-                to.acceleration[mass] += sign * torque;
+                to.acceleration[mass] = to.acceleration[mass] + torque * sign;
                 let slopes = &mut to.slopes[mass * m..][..m];
                 for (end, side) in [(link.first, sign), (link.second, -sign)] {
                     if end < crank {
-                        slopes[end] += side * link.stiffness;
-                        slopes[crank + end] += side * link.damping;
+                        slopes[end] = slopes[end] + link.stiffness * side;
+                        slopes[crank + end] = slopes[crank + end] + link.damping * side;
                     }
                 }
             }
@@ -109,42 +114,52 @@ impl Equation<'_> {
         let speed = chain.speed(chain.driven, y);
         if let Driver::Motor = chain.driver {
             let motor = self.motor(speed);
-            to.acceleration[chain.driven] += motor.value;
+            to.acceleration[chain.driven] = to.acceleration[chain.driven] + motor.value;
             self.add_speed_slope(chain.driven, motor.d, &mut to.slopes);
         }
         let (r, omega) = (&row.reduced, y[m - 1]);
         let load = self.load(row, omega);
-        to.acceleration[crank] -= load.value + 0.5 * r.J_d1 * omega * omega;
-        to.slopes[crank * m + m - 1] -= load.d + r.J_d1 * omega;
+        to.acceleration[crank] = to.acceleration[crank] - (load.value + r.J_d1 * omega * omega * 0.5);
+        self.add_speed_slope(crank, -(load.d + r.J_d1 * omega), &mut to.slopes);
         for mass in 0..n {
-            let inverse = 1.0 / if mass == crank { r.J - chain.apart } else { chain.inertia[mass] };
-            to.acceleration[mass] *= inverse;
-            to.slopes[mass * m..][..m].iter_mut().for_each(|slope| *slope *= inverse);
+            let inverse = (if mass == crank { r.J - chain.apart } else { chain.inertia[mass] }).recip();
+            to.acceleration[mass] = to.acceleration[mass] * inverse;
+            for slope in &mut to.slopes[mass * m..][..m] {
+                *slope = *slope * inverse;
+            }
         }
         if let Driver::Held(held) = chain.driver {
-            let rate = held / CORRECTION;
+            let rate = held * (1.0 / CORRECTION);
             to.acceleration[chain.driven] = rate * (held - speed);
-            to.slopes[chain.driven * m..][..m].fill(0.0);
+            to.slopes[chain.driven * m..][..m].fill(N::splat(0.0));
             self.add_speed_slope(chain.driven, -rate, &mut to.slopes);
         }
     }
 
     /// Adds the derivative of something that acts on a mass by the speed of that mass.
-    fn add_speed_slope(&self, mass: usize, slope: f64, slopes: &mut [f64]) {
+    #[inline(always)]
+    fn add_speed_slope(&self, mass: usize, slope: N, slopes: &mut [N]) {
         let (m, crank) = (self.chain.states(), self.chain.masses() - 1);
-        slopes[mass * m + m - 1] += slope;
+        let mut add = |at: usize| slopes[at] = slopes[at] + slope;
+        add(mass * m + m - 1);
         if mass < crank {
-            slopes[mass * m + crank + mass] += slope;
+            add(mass * m + crank + mass);
         }
     }
 
     /// Rates of a state and their Jacobian.
-    pub fn rates(&self, row: &Row<'_>, y: &[f64], to: &mut Rates) {
+    #[inline(always)]
+    pub fn rates(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
+        out_of_line!(N, self.rates_inline(row, y, to));
+    }
+
+    #[inline(always)]
+    fn rates_inline(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
         self.accelerations(row, y, to);
         let (m, crank) = (self.chain.states(), self.chain.masses() - 1);
-        let inverse = 1.0 / y[m - 1];
+        let inverse = y[m - 1].recip();
         let a = to.acceleration[crank];
-        to.jacobian.fill(0.0);
+        to.jacobian.fill(N::splat(0.0));
         let (others, own) = to.slopes.split_at(crank * m);
         for mass in 0..crank {
             let v = y[crank + mass];
@@ -156,12 +171,12 @@ impl Equation<'_> {
             for j in 0..m {
                 to.jacobian[row * m + j] = (others[mass * m + j] - own[j]) * inverse;
             }
-            to.jacobian[row * m + m - 1] -= to.rate[row] * inverse;
+            to.jacobian[row * m + m - 1] = to.jacobian[row * m + m - 1] - to.rate[row] * inverse;
         }
         to.rate[m - 1] = a * inverse;
         for j in 0..m {
             to.jacobian[(m - 1) * m + j] = own[j] * inverse;
         }
-        to.jacobian[m * m - 1] -= to.rate[m - 1] * inverse;
+        to.jacobian[m * m - 1] = to.jacobian[m * m - 1] - to.rate[m - 1] * inverse;
     }
 }

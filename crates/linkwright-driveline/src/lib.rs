@@ -9,7 +9,8 @@
 //! | [`cycle`] | Newton's method for the periodic solution, and motion from cycle to cycle |
 //! | [`error`] | error of a solution in every step |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
-//! | [`reading`] | curves, extremes, and power of every part |
+//! | [`reading`] | curves and extremes of every part |
+//! | [`work`] | means and work of a cycle |
 
 pub mod chain;
 pub mod cycle;
@@ -19,3 +20,4 @@ pub mod error;
 pub mod mesh;
 pub mod reading;
 pub mod steady;
+pub mod work;

@@ -1,9 +1,9 @@
 //! Curves, extremes and power of a steady motion.
 
-use crate::chain::{Driver, Link};
 use crate::equation::{Equation, Rates, Row};
 use crate::mesh::Rows;
 use crate::steady::Steady;
+use crate::work::Work;
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
@@ -91,28 +91,13 @@ impl<'a> Reading<'a> {
         self.equation.plan
     }
 
-    /// Torque of the driver at its mass \[N m\]; one that keeps its speed gives what the links take.
-    fn drive(&self, y: &[f64]) -> f64 {
-        let chain = self.equation.chain;
-        match chain.driver {
-            Driver::Motor => self.equation.motor(chain.speed(chain.driven, y)).value,
-            Driver::Held(_) => {
-                let sign = |link: &Link| {
-                    f64::from(u8::from(link.first == chain.driven))
-                        - f64::from(u8::from(link.second == chain.driven))
-                };
-                chain.links.iter().map(|link| sign(link) * chain.torque(link, y)).sum()
-            }
-        }
-    }
-
     /// Extremes, means and work of a cycle.
     pub fn measures(&self) -> Measures {
         let (chain, steady) = (self.equation.chain, self.steady);
         let (n, links, steps) = (chain.masses(), &chain.links, steady.mesh.steps());
         let mut rates = Rates::new(chain);
         let mut accelerations = vec![0.0; n * steps * S];
-        let mut sums = vec![0.0; 3 + 3 * links.len()];
+        let mut work = Work::new(links.len());
         for k in 0..steps {
             let h = steady.mesh.length(k);
             for i in 0..S {
@@ -121,35 +106,24 @@ impl<'a> Reading<'a> {
                 for mass in 0..n {
                     accelerations[(mass * steps + k) * S + i] = rates.acceleration[mass];
                 }
-                let omega = chain.speed(n - 1, y);
-                let dt = h * B[i] / omega;
-                sums[0] += dt;
-                sums[1] += dt * self.drive(y) * chain.speed(chain.driven, y);
-                sums[2] += dt * self.equation.load(&row, omega).value * omega;
-                for (link, sums) in links.iter().zip(sums[3..].chunks_exact_mut(3)) {
-                    let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * torque;
-                    sums[2] += dt * link.damping * rate * rate;
-                }
+                work.add(&self.equation, &row, y, h * B[i]);
             }
         }
         let of = |at: &dyn Fn(&[f64]) -> f64| self.of_state(at);
-        let period = sums[0];
-        let part = |k: usize| sums[3..].iter().skip(k).step_by(3).copied();
+        let torques = |which: usize| (0..links.len()).map(|link| work.torques(link)[which]).collect();
         Measures {
-            period,
+            period: work.period,
             speed: (0..n).map(|mass| of(&|y| chain.speed(mass, y))).collect(),
             acceleration: (0..n)
                 .map(|mass| self.acceleration(mass, &accelerations[mass * steps * S..][..steps * S]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
             torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
-            torque_mean: part(0).map(|sum| sum / period).collect(),
-            torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
-            loss: part(2).collect(),
-            drive_work: sums[1],
-            load_work: sums[2],
+            torque_mean: torques(0),
+            torque_rms: torques(1),
+            loss: work.links.iter().map(|sums| sums[2]).collect(),
+            drive_work: work.drive,
+            load_work: work.load,
         }
     }
 
@@ -237,7 +211,7 @@ impl<'a> Reading<'a> {
             let row = rows.row(i);
             self.equation.rates(&row, &y, &mut rates);
             found.time.push(times[k] + self.time_within(k, share));
-            found.drive.push(self.drive(&y));
+            found.drive.push(self.equation.drive(&y));
             found.load.push(self.equation.load(&row, y[chain.states() - 1]).value);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
             links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));

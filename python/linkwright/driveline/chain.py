@@ -14,6 +14,7 @@ import numpy as np
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.arrays import Floats, Integers
+from linkwright.kernel.numerics.tangent import numbers
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
@@ -40,11 +41,15 @@ class Chain(NamedTuple):
     notes: tuple[str, ...]  # what was assumed
 
 
-def chain_of(machine: Machine) -> Chain:
-    """Masses and links of the driveline of a machine."""
+def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
+    """Masses and links of the driveline of a machine; entries that are tangents go through.
+
+    `mechanism`: its mean inertia, where that is known already [kg m²].
+    """
     drive = machine.drive
     assert drive is not None
-    mechanism = mean_inertia(machine) if _has_hysteresis(drive) else _ANY
+    if mechanism is None:
+        mechanism = mean_inertia(machine) if has_hysteresis(drive) else _ANY
     referred = refer(drive_train(drive, mechanism))
     crank = referred.discs.index(CRANK)
     # All was referred to the first disc.
@@ -59,11 +64,10 @@ def chain_of(machine: Machine) -> Chain:
     ]
     lead, ends = referred.lead[row] * n, ends[row]
     own = inertia[referred.mass[crank]] - mechanism
-    others = np.empty(len(order) - 1)
-    others[order[order < len(others)]] = inertia[order < len(others)]
+    others = inertia[np.argsort(order)[:-1]]
     links: dict[str, Any] = {
         "inertia": others,
-        "apart": float(drive_inertia(drive)) - own,
+        "apart": drive_inertia(drive) - own,
         "first": np.ascontiguousarray(ends[:, 0], dtype=np.int32),
         "second": np.ascontiguousarray(ends[:, 1], dtype=np.int32),
         "stiffness": referred.stiffness[row] * n**2,
@@ -74,15 +78,16 @@ def chain_of(machine: Machine) -> Chain:
     shafts = tuple(referred.shafts[k] for k in row)
     stations, ratio, mass = referred.discs, referred.speed * n, order[referred.mass]
     if isinstance(drive.motor, ConstantSpeedMotor):
-        links |= _held(links, float(drive.motor.speed) / drive.gearbox.ratio)
+        links |= _held(links, drive.motor.speed / drive.gearbox.ratio)
         # The motor is the mass before the crank, which moves on by one.
         held = links["driven"]
         mass = np.append(held, np.where(mass == held, held + 1, mass))
-        stations, ratio = (MOTOR, *stations), np.append(drive.gearbox.ratio, ratio)
+        stations, ratio = (MOTOR, *stations), np.concatenate([numbers([drive.gearbox.ratio]), ratio])
     return Chain(stations, ratio, mass, shafts, lead, links, tuple(notes))
 
 
-def _has_hysteresis(drive: Drive) -> bool:
+def has_hysteresis(drive: Drive) -> bool:
+    """Whether a loss factor stands for viscous damping, by the mean inertia of the mechanism."""
     return any(shaft is not None and shaft.loss_factor for shaft in (drive.motor_shaft, drive.crankshaft))
 
 
@@ -108,7 +113,15 @@ def _held(links: dict[str, Any], speed: float) -> dict[str, Any]:
         )
         for end in ("first", "second")
     }
-    return {**ends, "inertia": np.append(links["inertia"], 1.0), "driven": last, "held": speed}
+    return {**ends, "inertia": np.concatenate([links["inertia"], [1.0]]), "driven": last, "held": speed}
+
+
+def listed(chain: Chain) -> Any:
+    """Numbers of a driveline in the core's order, which may be tangents: see `Chain::numbers` there."""
+    links = chain.links
+    of_links = [x for name in zip(links["stiffness"], links["damping"], strict=True) for x in name]
+    held = [] if links["held"] is None else [links["held"]]
+    return numbers([*links["inertia"], links["apart"], *of_links, *held])
 
 
 def fastest(chain: Chain, inertia: float, period: float) -> float:

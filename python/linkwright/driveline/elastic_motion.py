@@ -246,6 +246,13 @@ def elastic_motion(
     ----------
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
+    compiled, chain, motion = solved_motion(machine, accuracy)
+    phi = turn_angles(n, compiled.turns) if angles is None else angles
+    return result_of(machine, motion, chain, phi, compiled.turns)
+
+
+def solved_motion(machine: Machine, accuracy: float) -> tuple[CompiledMachine, Chain, DrivelineMotion]:
+    """The machine over its cycle, its driveline, and the steady motion. Raises what `elastic_motion` raises."""
     drive = machine.drive
     if drive is None or not drive.twists:
         raise InputError(
@@ -261,17 +268,15 @@ def elastic_motion(
     require_sound_loads(compiled, machine)
     chain = chain_of(machine)
     motion = _solved(compiled, chain, accuracy)
-    multipliers = _multipliers(motion, chain)
-    if abs(multipliers[0]) >= 1:
+    if abs(multipliers_of(motion, chain)[0]) >= 1:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, _AWAY))
+        other = compiled.driveline(accuracy, **chain.links, **search(compiled, chain, _AWAY))
         if isinstance(other, DrivelineMotion):
-            motion, multipliers = other, _multipliers(other, chain)
-    phi = turn_angles(n, compiled.turns) if angles is None else angles
-    return _result(machine, motion, chain, phi, compiled.turns, multipliers)
+            motion = other
+    return compiled, chain, motion
 
 
-def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, Any]:
+def search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, Any]:
     """Where the search begins, and for how long it follows the motion."""
     speed = compiled.speed_guess
     period = compiled.cycle / speed
@@ -285,7 +290,7 @@ def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, A
 
 
 def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float) -> DrivelineMotion:
-    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, 0))
+    motion = compiled.driveline(accuracy, **chain.links, **search(compiled, chain, 0))
     if isinstance(motion, NoDrivelineMotion):
         raise _failure(motion, compiled, chain, accuracy)
     return motion
@@ -321,7 +326,7 @@ def _failure(
     )
 
 
-def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
+def multipliers_of(motion: DrivelineMotion, chain: Chain) -> Complexes:
     """From the largest on; without that by which a motor of constant speed keeps its speed."""
     found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
     found = found[np.argsort(-np.abs(found), kind="stable")]
@@ -329,9 +334,10 @@ def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
     return multipliers
 
 
-def _result(
-    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int, multipliers: Complexes
+def result_of(
+    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int
 ) -> ElasticMotion:
+    """The motion at crank angles [rad], with its torques judged."""
     curves = motion.curves(np.ascontiguousarray(phi, dtype=np.float64))
     at, ratio, lead = chain.mass, chain.ratio, chain.lead
     found = ElasticMotion(
@@ -346,29 +352,37 @@ def _result(
         twist=curves.twist * lead[:, None],
         torque_drive=curves.torque_drive,
         torque_load=curves.torque_load,
-        speed_min=ratio * motion.speed.least[at],
-        speed_max=ratio * motion.speed.greatest[at],
         speed_min_angle=motion.speed.least_at[at],
         speed_max_angle=motion.speed.greatest_at[at],
-        acceleration_min=ratio * motion.acceleration.least[at],
-        acceleration_max=ratio * motion.acceleration.greatest[at],
-        torque_min=motion.torque.least / lead,
-        torque_max=motion.torque.greatest / lead,
         torque_min_angle=motion.torque.least_at,
         torque_max_angle=motion.torque.greatest_at,
-        torque_mean=motion.torque_mean / lead,
-        torque_rms=motion.torque_rms / lead,
-        twist_min=motion.twist.least * lead,
-        twist_max=motion.twist.greatest * lead,
-        power_dissipated=motion.loss / motion.period,
-        period=motion.period,
-        multipliers=multipliers,
-        energy_drive=motion.energy_drive / turns,
-        energy_load=motion.energy_load / turns,
+        multipliers=multipliers_of(motion, chain),
         accuracy=motion.accuracy,
         steps=motion.steps,
         turns=turns,
         cycles_followed=motion.cycles,
         notes=chain.notes,
+        **measures(motion, chain, turns),
     )
     return judged(machine, found)
+
+
+def measures(motion: Any, chain: Any, turns: int) -> dict[str, Any]:
+    """Extremes, means and work of stations and shafts at their own speeds; tangents go through."""
+    at, ratio, lead = chain.mass, chain.ratio, chain.lead
+    return {
+        "speed_min": ratio * motion.speed.least[at],
+        "speed_max": ratio * motion.speed.greatest[at],
+        "acceleration_min": ratio * motion.acceleration.least[at],
+        "acceleration_max": ratio * motion.acceleration.greatest[at],
+        "torque_min": motion.torque.least / lead,
+        "torque_max": motion.torque.greatest / lead,
+        "torque_mean": motion.torque_mean / lead,
+        "torque_rms": motion.torque_rms / lead,
+        "twist_min": motion.twist.least * lead,
+        "twist_max": motion.twist.greatest * lead,
+        "power_dissipated": motion.loss / motion.period,
+        "period": motion.period,
+        "energy_drive": motion.energy_drive / turns,
+        "energy_load": motion.energy_load / turns,
+    }

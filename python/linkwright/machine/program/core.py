@@ -49,6 +49,7 @@ SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves
 SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
+DrivelineGradient = _core.DrivelineGradient
 DrivelineMotion = _core.DrivelineMotion
 NoDrivelineMotion = _core.NoDrivelineMotion
 motion_at = _core.motion_at
