@@ -34,7 +34,9 @@ __all__ = [
     "Drive",
     "DrivelineCurves",
     "DrivelineGradient",
+    "DrivelineExtremes",
     "DrivelineMotion",
+    "DrivelineRows",
     "Element",
     "Extremes",
     "Formula",
@@ -81,6 +83,7 @@ __all__ = [
     "What",
     "cam_crossings",
     "driveline_motion",
+    "driveline_rows",
     "follow_group",
     "gaps",
     "in_line",
@@ -88,6 +91,7 @@ __all__ = [
     "kinks",
     "kinks_along",
     "law_torques",
+    "least_inertias",
     "motion_at",
     "motions",
     "motions_along",
@@ -1246,6 +1250,62 @@ def driveline_motion(
     of the motor, which keeps the speed `held`; `fastest`: size of the fastest eigenvalue that lasts; followed
     for `cycles_first` cycles at first, for `cycles_max` at most.
     """
+
+@final
+class DrivelineExtremes:
+    """Extremes of masses or links of n machines, (parts, n)."""
+
+    least: Final[_Floats]
+    greatest: Final[_Floats]
+
+@final
+class DrivelineRows:
+    """Steady motion of n drivelines, (n,) or (masses or links, n), referred to the crank; NaN where not found.
+
+    `monodromy` is (numbers of the matrix, n).
+    """
+
+    period: Final[_Floats]
+    speed: Final[DrivelineExtremes]
+    acceleration: Final[DrivelineExtremes]
+    twist: Final[DrivelineExtremes]
+    torque: Final[DrivelineExtremes]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    monodromy: Final[_Floats]
+    accuracy: Final[_Floats]
+
+def driveline_rows(
+    plan: Plan,
+    q: _Floats,
+    slots: _Ints,
+    values: _Floats,
+    *,
+    inertia: _Floats,
+    apart: float,
+    first: _Ints,
+    second: _Ints,
+    stiffness: _Floats,
+    damping: _Floats,
+    driven: int,
+    held: float | None,
+    numbers: _Floats,
+    accuracy: float,
+    speed: _Floats,
+    fastest: _Floats,
+    cycles_max: int,
+) -> DrivelineRows:
+    """Steady motion of n machines with the driveline of one, whose numbers vary.
+
+    `values` is (slots, n), `numbers` (n, numbers): inertias, what is apart, stiffness and damping of each link,
+    a speed held; `speed` and `fastest` are (n,); the others as in `driveline_motion`.
+    """
+
+def least_inertias(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats) -> _Floats:
+    """Minimum inertia that the crank feels at crank angles, of n machines, (n,)."""
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""

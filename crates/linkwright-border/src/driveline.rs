@@ -171,6 +171,25 @@ fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: u
     Ok((0..first.len()).map(link).collect())
 }
 
+/// A driveline from its arrays.
+pub(crate) fn chain(
+    inertia: &Floats<'_>,
+    apart: f64,
+    (first, second): (&Ints<'_>, &Ints<'_>),
+    rates: [&Floats<'_>; 2],
+    driven: usize,
+    held: Option<f64>,
+) -> PyResult<Chain> {
+    let inertia = inertia.as_slice()?.to_vec();
+    let links = links(first, second, rates, inertia.len() + 1)?;
+    let driver = held.map_or(Driver::Motor, Driver::Held);
+    let chain = Chain { inertia, apart, links, driven, driver };
+    if !chain.fits() {
+        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
+    }
+    Ok(chain)
+}
+
 #[pyfunction]
 #[pyo3(signature = (
     plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
@@ -195,13 +214,7 @@ pub(crate) fn driveline_motion(
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
     let q = known.get().parameters(&q)?.to_vec();
-    let inertia = inertia.as_slice()?.to_vec();
-    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
-    let driver = held.map_or(Driver::Motor, Driver::Held);
-    let chain = Chain { inertia, apart, links, driven, driver };
-    if !chain.fits() {
-        return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
-    }
+    let chain = chain(&inertia, apart, (&first, &second), [&stiffness, &damping], driven, held)?;
     let plan = &known.get().0;
     let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
     let solved = guarded(py, ANALYSIS, || {

@@ -9,6 +9,7 @@ mod cam;
 mod drive;
 mod driveline;
 mod driveline_gradient;
+mod driveline_rows;
 mod equations;
 mod errors;
 mod guard;
@@ -78,6 +79,8 @@ pub mod _core {
     use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
     #[pymodule_export]
     use super::driveline_gradient::DrivelineGradient;
+    #[pymodule_export]
+    use super::driveline_rows::{DrivelineExtremes, DrivelineRows, driveline_rows, least_inertias};
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

@@ -2,6 +2,8 @@
 //!
 //! | module | answers |
 //! | --- | --- |
+//! | [`batch`] | many machines of one structure, each from the solution of another |
+//! | `bundle` | the periodic solutions of some machines at once |
 //! | [`chain`] | masses, and the springs with dampers between them |
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
@@ -12,6 +14,8 @@
 //! | [`reading`] | curves and extremes of every part |
 //! | [`work`] | means and work of a cycle |
 
+pub mod batch;
+mod bundle;
 pub mod chain;
 pub mod cycle;
 mod elimination;

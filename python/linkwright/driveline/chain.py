@@ -129,17 +129,27 @@ def fastest(chain: Chain, inertia: float, period: float) -> float:
 
     `inertia`: all that the crank feels, also of the drive [kg m²]; `period`: of a cycle [s].
     """
-    links, n = chain.links, len(chain.links["inertia"]) + 1
-    joins = np.zeros((len(chain.shafts), n))
-    rows = np.arange(len(joins))
-    joins[rows, links["first"]], joins[rows, links["second"]] = 1.0, -1.0
-    J = np.append(links["inertia"], max(inertia - links["apart"], 0.0))
+    one = fastest_of(chain, np.asarray(listed(chain))[None], np.array([inertia]), np.array([period]))
+    return float(one[0])
+
+
+def fastest_of(chain: Chain, rows: Floats, inertia: Floats, period: Floats) -> Floats:
+    """The same of drivelines of one form, (n,). `rows`: their numbers as `listed` has them, (n, numbers)."""
+    links, others, shafts = chain.links, len(chain.links["inertia"]), len(chain.shafts)
+    apart = rows[:, others]
+    stiffness, damping = (rows[:, others + 1 + k : others + 1 + 2 * shafts : 2] for k in (0, 1))
+    joins = np.zeros((shafts, others + 1))
+    at = np.arange(shafts)
+    joins[at, links["first"]], joins[at, links["second"]] = 1.0, -1.0
+    J = np.column_stack([rows[:, :others], np.maximum(inertia - apart, 0.0)])
     if links["held"] is not None:
         joins[:, links["driven"]] = 0.0
-    if not J.min() > 0:
-        return 0.0
-    K, C = (-(joins.T * links[name]) @ joins / J[:, None] for name in ("stiffness", "damping"))
-    system = np.block([[np.zeros((n, n)), np.eye(n)], [K, C]])
+    has_inertia = (J > 0).all(axis=1)
+    size = np.where(has_inertia[:, None], J, 1.0)[:, :, None]
+    K, C = (-np.einsum("sa,ns,sb->nab", joins, rates, joins) / size for rates in (stiffness, damping))
+    unit = np.broadcast_to(np.eye(others + 1), K.shape)
+    system = np.block([[np.zeros_like(K), unit], [K, C]])
     found = np.linalg.eigvals(system)
-    lasting = found[found.real * period > np.log(_GONE)]
-    return float(np.abs(lasting).max(initial=0.0))
+    lasting = found.real * period[:, None] > np.log(_GONE)
+    fastest: Floats = np.where(lasting & has_inertia[:, None], np.abs(found), 0.0).max(axis=1, initial=0.0)
+    return fastest

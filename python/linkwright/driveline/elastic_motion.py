@@ -36,13 +36,13 @@ from linkwright.machine.program.core import DrivelineMotion, NoDrivelineMotion
 from linkwright.torsion.model.drive_train import STIFFNESS_KEYS
 
 # Cycles of the crank that the motion is followed, at most, where Newton's method alone does not converge.
-_CYCLES = 300
+CYCLES = 300
 
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 _AWAY = 100
 
 # Angles of a revolution at which the minimum inertia is looked for.
-_ANGLES = 36
+ANGLES = 36
 
 _OWN = "At its own speed."
 
@@ -280,12 +280,12 @@ def search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, An
     """Where the search begins, and for how long it follows the motion."""
     speed = compiled.speed_guess
     period = compiled.cycle / speed
-    inertia = compiled.reductions(turn_angles(_ANGLES, compiled.turns)).inertia.min()
+    inertia = compiled.reductions(turn_angles(ANGLES, compiled.turns)).inertia.min()
     return {
         "speed": speed,
         "fastest": fastest(chain, float(inertia), period),
         "cycles_first": cycles,
-        "cycles_max": _CYCLES,
+        "cycles_max": CYCLES,
     }
 
 
@@ -312,10 +312,10 @@ def _failure(
         )
     if motion.reason == "not found":
         return ConvergenceError(
-            f"no periodic motion of the elastic driveline was found: in {_CYCLES} cycles the motion does not "
+            f"no periodic motion of the elastic driveline was found: in {CYCLES} cycles the motion does not "
             "come to one that Newton's method converges to; follow it in time (torsion_transient)",
             method="Newton's method",
-            iterations=_CYCLES,
+            iterations=CYCLES,
         )
     return ConvergenceError(
         "steady motion of the elastic driveline was found to a relative accuracy of "

@@ -51,6 +51,7 @@ SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
 DrivelineGradient = _core.DrivelineGradient
 DrivelineMotion = _core.DrivelineMotion
+DrivelineRows = _core.DrivelineRows
 NoDrivelineMotion = _core.NoDrivelineMotion
 motion_at = _core.motion_at
 
