@@ -122,9 +122,8 @@ impl DrivelineMotion {
     fn gradient(&self, py: Python<'_>, directions: Directions<'_>) -> PyResult<DrivelineGradient> {
         let numbers = self.numbers();
         let values = self.along(&directions, &numbers)?;
-        let found = guarded(py, DERIVATIVES, || {
-            self.derivation(&numbers, &values).derivatives(&self.measures)
-        })?;
+        let found =
+            guarded(py, DERIVATIVES, || self.derivation(&numbers, &values).derivatives(&self.measures))?;
         let sizes = [self.chain.masses(), self.chain.links.len(), self.chain.states()];
         DrivelineGradient::new(py, found, sizes)
     }
@@ -148,7 +147,9 @@ impl DrivelineMotion {
     /// Directions of all numbers.
     fn along(&self, directions: &Directions<'_>, numbers: &[f64]) -> PyResult<Vec<f64>> {
         if directions.shape()[0] != numbers.len() || directions.shape()[1] == 0 {
-            return Err(PyValueError::new_err("directions: one or more are needed, with a row for every number"));
+            return Err(PyValueError::new_err(
+                "directions: one or more are needed, with a row for every number",
+            ));
         }
         Ok(directions.as_slice()?.to_vec())
     }

@@ -101,12 +101,15 @@ pub(crate) fn driveline_rows(
     let varied = Rows { base: plan.parameters(&q)?, slots: &slots, values: values.as_slice()?, n };
     let chain = chain(&inertia, apart, (&first, &second), [&stiffness, &damping], driven, held)?;
     let (speed, fastest, count) = (speed.as_slice()?, fastest.as_slice()?, chain.numbers().len());
-    if [speed.len(), fastest.len(), numbers.as_array().nrows()] != [n; 3] || numbers.as_array().ncols() != count {
+    if [speed.len(), fastest.len(), numbers.as_array().nrows()] != [n; 3]
+        || numbers.as_array().ncols() != count
+    {
         return Err(PyIndexError::new_err("drivelines: numbers for every row are needed"));
     }
     let (masses, links, states) = (chain.masses(), chain.links.len(), chain.states());
     require_room(ANALYSIS, [n, 5 + 4 * masses + 7 * links + states * states])?;
-    let request = |(&speed, &fastest): (&f64, &f64)| Request { accuracy, speed, fastest, cycles_first: 0, cycles_max };
+    let request =
+        |(&speed, &fastest): (&f64, &f64)| Request { accuracy, speed, fastest, cycles_first: 0, cycles_max };
     let requests: Vec<Request> = speed.iter().zip(fastest).map(request).collect();
     let numbers = numbers.as_slice()?;
     let batch = Batch { plan: &plan.0, rows: &varied, chain: &chain, numbers, requests: &requests };

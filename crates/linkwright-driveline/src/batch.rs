@@ -9,7 +9,9 @@ use crate::chain::Chain;
 use crate::equation::Equation;
 use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
-use crate::steady::{Failure, Request, Steady, add_vibration, parts_of_step, refined, scales, speed_kinks, steady};
+use crate::steady::{
+    Failure, Request, Steady, add_vibration, parts_of_step, refined, scales, speed_kinks, steady,
+};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::reduce::reductions;
@@ -29,7 +31,7 @@ const CHUNK: usize = 16 * TOGETHER;
 const CHUNKS: usize = 4;
 
 /// The first machine is solved to this share of the accuracy, so that its steps suffice for others too.
-const FINER: f64 = 0.5;
+const FINER: f64 = 0.15;
 
 /// A mesh that has grown by this factor from machine to machine is begun with no more.
 const GROWN: f64 = 2.0;

@@ -85,10 +85,7 @@ impl Job for Bundle<'_> {
             (lanes(|m| &m.q), self.chain.with(&lanes(|m| &m.numbers)), lanes(|m| &m.edges));
         let equation = Equation { plan: self.plan, q: &q, chain: &chain };
         let mut steps = Steps::new(equation, edges, &C);
-        let mut states = States {
-            start: lanes(|m| &m.start.start),
-            stages: lanes(|m| &m.start.stages),
-        };
+        let mut states = States { start: lanes(|m| &m.start.start), stages: lanes(|m| &m.start.stages) };
         let (monodromy, left) = out_of_line!(R, steps.periodic(&mut states, self.scale, self.ends));
         let [start, stages, monodromy, left] =
             [&states.start, &states.stages, &monodromy, &vec![left]].map(|list| unbundle(list));

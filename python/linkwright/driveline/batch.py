@@ -30,7 +30,7 @@ from linkwright.machine.program.core import DrivelineRows
 from linkwright.machine.tangents import seeded
 
 # Relative accuracy of speeds and twists of every machine.
-_ACCURACY = 1e-8
+_ACCURACY = 1e-7
 
 # Entries in which the numbers of a driveline are linear as long as nothing vanishes.
 _LINEAR = ("stiffness", "damping", "inertia", "wheel_inertia")
@@ -41,7 +41,8 @@ QUANTITIES = frozenset(
     for name, (_, mark) in declared(ElasticMotion).items()
     if isinstance(mark, Label)
     and mark.shape in ("", "(stations,)", "(shafts,)")
-    and name.partition("_")[0] in ("speed", "acceleration", "torque", "twist", "power", "energy", "unevenness")
+    and name.partition("_")[0]
+    in ("speed", "acceleration", "torque", "twist", "power", "energy", "unevenness")
     and not name.endswith("_angle")
 ) - {"torque_drive", "torque_load"} | {"period", "multiplier_max"}
 

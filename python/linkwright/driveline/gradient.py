@@ -25,7 +25,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.driveline.chain import Chain, chain_of, has_hysteresis, listed
-from linkwright.driveline.elastic_motion import ElasticMotion, measures, multipliers_of, result_of, solved_motion
+from linkwright.driveline.elastic_motion import (
+    ElasticMotion,
+    measures,
+    multipliers_of,
+    result_of,
+    solved_motion,
+)
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, Kinks, as_high, chosen, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent, lifted
@@ -69,7 +75,9 @@ def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     whole = replace(steady, ratio=moved.ratio, **measures(numbers, moved, compiled.turns))
     named = dict(_named(whole))
     missing = {name: "it has no value" for name, x in named.items() if not np.isfinite(x.value)}
-    missing |= dict.fromkeys(_held(named, chain), "the motor keeps its speed: it is zero within rounding error")
+    missing |= dict.fromkeys(
+        _held(named, chain), "the motor keeps its speed: it is zero within rounding error"
+    )
     if steady.multiplier_max > _DIED_OUT:
         largest = _largest_multiplier(motion, gradient, chain)
         named["multiplier_max"] = Tangent(steady.multiplier_max, largest)
@@ -93,9 +101,7 @@ def _directions(
     program = directions(machine, variables)
     refused.update(program.refused)
     inertia = mean_inertia(machine) if _is_lossy(machine) else None
-    known, moved = followed(
-        machine, program.variables, lambda along: chain_of(along, inertia), refused
-    )
+    known, moved = followed(machine, program.variables, lambda along: chain_of(along, inertia), refused)
     along, n = program.only(known), len(known)
     of_chain = lifted(listed(moved), n).d if n else np.zeros((0, 0))
     if inertia is not None and n:
