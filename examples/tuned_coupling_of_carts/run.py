@@ -1,6 +1,6 @@
 """Which coupling and flywheel leave the minimum peak torque between a drive and carts that shake it?
 
-A stiff coupling follows the changing inertia of the carts, a soft one lets them swing; a minimum lies between.
+A stiff coupling follows the changing inertia of the carts, a soft one lets them swing: a minimum is between.
 """
 
 from functools import cache

@@ -33,8 +33,8 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
-    "DrivelineGradient",
     "DrivelineExtremes",
+    "DrivelineGradient",
     "DrivelineMotion",
     "DrivelineRows",
     "Element",
@@ -1189,7 +1189,7 @@ class DrivelineMotion:
         """Curves at crank angles of the cycle."""
 
     def gradient(self, directions: _Floats) -> DrivelineGradient:
-        """Derivatives along directions of all numbers, those of the plan and then of the driveline, (numbers, n).
+        """Derivatives along directions of all numbers, of the plan and then of the driveline, (numbers, n).
 
         The driveline's are inertias, what is apart, stiffness and damping of each link, and a speed held.
         """
@@ -1199,7 +1199,7 @@ class DrivelineMotion:
 
 @final
 class DrivelineGradient:
-    """Derivatives of a driveline along n directions, (n,), or (masses or links, n), referred to the crank."""
+    """Derivatives along n directions, (n,), or (masses or links, n), all referred to the crank."""
 
     period: Final[_Floats]
     energy_drive: Final[_Floats]
@@ -1260,7 +1260,7 @@ class DrivelineExtremes:
 
 @final
 class DrivelineRows:
-    """Steady motion of n drivelines, (n,) or (masses or links, n), referred to the crank; NaN where not found.
+    """Steady motion of n drivelines, (n,) or (parts, n), referred to the crank; NaN where not found.
 
     `monodromy` is (numbers of the matrix, n).
     """
@@ -1300,12 +1300,12 @@ def driveline_rows(
 ) -> DrivelineRows:
     """Steady motion of n machines with the driveline of one, whose numbers vary.
 
-    `values` is (slots, n), `numbers` (n, numbers): inertias, what is apart, stiffness and damping of each link,
-    a speed held; `speed` and `fastest` are (n,); the others as in `driveline_motion`.
+    `values` is (slots, n), `numbers` (n, numbers): inertias, what is apart, stiffness and damping of each
+    link, a speed held; `speed` and `fastest` are (n,); the others as in `driveline_motion`.
     """
 
 def least_inertias(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats) -> _Floats:
-    """Minimum inertia that the crank feels at crank angles, of n machines, (n,)."""
+    """Minimum inertia reduced to the crank at crank angles, of n machines, (n,)."""
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""

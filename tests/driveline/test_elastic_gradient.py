@@ -1,23 +1,19 @@
-"""Derivatives of the motion of elastic drivelines, against differences of motions of neighbouring machines."""
+"""Derivatives of the motion of elastic drivelines, against differences of neighbouring machines."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import numpy as np
-import pytest
 from elastic_drives import random_drive
 from numpy.random import Generator
 from sizes import random_cases
 
 import linkwright as lw
-from linkwright.kernel.errors import LinkwrightError
 
-# Relative changes of all entries at once between which differences are taken, and the accuracy of the motions.
+# Relative changes of all entries between which differences are taken, and the accuracy of the motions.
 STEP, ACCURACY = 4e-4, 1e-13
-
-# Extremes that the motion has twice, to this share, change places under a step.
-CLOSE = 1e-2
 
 
 def numbers(machine: lw.Machine, names: tuple[str, ...]) -> np.ndarray:
@@ -41,7 +37,7 @@ def differences(
         return numbers(lw.replace(machine, entries), names)
 
     slopes = [(moved(h) - moved(-h)) / (2 * h) for h in (4 * STEP, 2 * STEP, STEP)]
-    coarse, fine = ((4 * b - a) / 3 for a, b in zip(slopes, slopes[1:], strict=False))
+    coarse, fine = ((4 * b - a) / 3 for a, b in itertools.pairwise(slopes))
     best = (16 * fine - coarse) / 15
     # What two neighbouring orders differ by, and rounding of the motions over the step.
     return best, np.abs(best - fine) + 1e-12 / STEP * np.abs(numbers(machine, names))
@@ -51,7 +47,8 @@ def varied(rng: Generator) -> lw.Machine:
     """A random drive, now and then with another motor, a loss factor or a load over the crank angle."""
     machine = random_drive(rng).machine
     drive = machine.drive
-    assert drive is not None and drive.motor is not None
+    assert drive is not None
+    assert drive.motor is not None
     entries: dict[str, object] = {}
     kind, fast = rng.random(), float(drive.motor.speed_no_load)
     if kind < 0.25:
@@ -74,7 +71,7 @@ def varied(rng: Generator) -> lw.Machine:
 
 
 def test_derivatives_of_random_drives_along_random_directions_are_those_of_differences() -> None:
-    """All numbers of the motion by all entries at once, to a millionth of their change where differences are that good."""
+    """All numbers of the motion by all entries at once, to a millionth of their change."""
     for number, rng in random_cases(4830, 6, 200):
         machine = varied(rng)
         gradient = lw.gradient(machine, ["elastic_motion"])

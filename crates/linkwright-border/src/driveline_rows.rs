@@ -130,7 +130,7 @@ pub(crate) fn driveline_rows(
     })
 }
 
-/// Minimum inertia that the crank feels over some angles, of n machines \[kg m²\].
+/// Minimum inertia reduced to the crank over some angles, of n machines \[kg m²\].
 #[pyfunction]
 pub(crate) fn least_inertias<'py>(
     py: Python<'py>,

@@ -360,7 +360,7 @@ fn moved(edges: &[f64], from: &[f64], to: &[f64]) -> Vec<f64> {
     edges.iter().map(at).collect()
 }
 
-/// Minimum inertia that the crank feels at some angles, of every machine \[kg m²\].
+/// Minimum inertia reduced to the crank at some angles, of every machine \[kg m²\].
 pub fn least_inertias(plan: &Plan, rows: &Rows<'_>, phi: &[f64]) -> Vec<f64> {
     let least = |row: usize| {
         let reduced = reductions(plan, &rows.row(row), phi, 1.0);

@@ -67,8 +67,8 @@ class ElasticMotions:
 def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMotions:
     """Steady motion of machines that differ from one in some entries, arrays of one length [SI].
 
-    Raises MachineError for values that are not possible, InputError where the machine has no elastic driveline
-    with a motor, and what `chain_of` raises of the machine itself.
+    Raises MachineError for values that are not possible, InputError where the machine has no elastic
+    driveline with a motor, and what `chain_of` raises of the machine itself.
     """
     if machine.drive is None or not machine.drive.twists or machine.drive.motor is None:
         raise InputError(f"{machine.name}: many machines at once need a motor and an elastic driveline")

@@ -252,7 +252,7 @@ def elastic_motion(
 
 
 def solved_motion(machine: Machine, accuracy: float) -> tuple[CompiledMachine, Chain, DrivelineMotion]:
-    """The machine over its cycle, its driveline, and the steady motion. Raises what `elastic_motion` raises."""
+    """The machine over its cycle, its driveline, and its motion. Raises what `elastic_motion` raises."""
     drive = machine.drive
     if drive is None or not drive.twists:
         raise InputError(

@@ -9,11 +9,13 @@
 //! | module | answers |
 //! | --- | --- |
 //! | `sweep` | the linear system of all steps, for any right sides |
+//! | `stage` | the mechanism at a crank angle, along directions |
 //! | `solution` | the solution along directions, and its monodromy matrix |
 //! | `peaks` | where extremes are, and their derivatives there |
 
 mod peaks;
 mod solution;
+mod stage;
 mod sweep;
 
 use crate::along::{Directions, put};
@@ -186,12 +188,16 @@ impl Job for Derivation<'_> {
 
 /// Where minimum and maximum of every quantity are, in the order of the quantities.
 fn places(of: &ElasticGradient<'_>, measures: &Measures) -> Vec<(Quantity, Place)> {
+    let constants: Vec<Dual<f64>> = of.numbers.iter().copied().map(Dual::constant).collect();
+    let (q, of_chain) = constants.split_at(of.q().len());
+    let chain = of.chain.with(of_chain);
+    let equation = Equation { plan: of.plan, q, chain: &chain };
     let lists = [&measures.speed, &measures.acceleration, &measures.twist, &measures.torque];
     let extremes = lists.into_iter().flatten();
     let mut places = Vec::new();
     for (quantity, extreme) in of.quantities().into_iter().zip(extremes) {
-        for (phi, value) in [(extreme.min_at, extreme.min), (extreme.max_at, extreme.max)] {
-            places.push((quantity, place_of(of, quantity, phi, value)));
+        for at in [(extreme.min_at, extreme.min), (extreme.max_at, extreme.max)] {
+            places.push((quantity, place_of(&equation, of.steady, quantity, at)));
         }
     }
     places

@@ -3,10 +3,10 @@
 //! A derivative is that of the curve at the place of the extreme, which moves with the ends of its step: within a step, where the
 //! slope is zero, that moves nothing; at an end the extreme is a corner, which moves along.
 
-use super::ElasticGradient;
-use super::solution::StageRow;
+use super::stage::StageRow;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_driveline::equation::{Equation, Rates};
+use linkwright_driveline::steady::Steady;
 use linkwright_kernel::dual::Dual;
 use linkwright_kernel::out_of_line;
 use linkwright_kernel::radau::{slope_and_bend, value};
@@ -74,17 +74,18 @@ pub(super) fn read<R: Real>(
 }
 
 /// The step and the share of it where an extreme lies.
-pub(super) fn place_of(of: &ElasticGradient<'_>, quantity: Quantity, phi: f64, extreme: f64) -> Place {
-    let constants: Vec<Dual<f64>> = of.numbers.iter().copied().map(Dual::constant).collect();
-    let (q, of_chain) = constants.split_at(of.q().len());
-    let chain = of.chain.with(of_chain);
-    let equation = Equation { plan: of.plan, q, chain: &chain };
-    let mut motion = Motion::new(&of.plan.mechanism, q);
-    let mut read = |place: Place| value_and_slope(of, &equation, quantity, place, &mut motion);
-    let mesh = &of.steady.mesh;
+pub(super) fn place_of(
+    equation: &Equation<'_, Dual<f64>>,
+    steady: &Steady,
+    quantity: Quantity,
+    (phi, extreme): (f64, f64),
+) -> Place {
+    let mut motion = Motion::new(&equation.plan.mechanism, equation.q);
+    let mut read = |place: Place| value_and_slope(equation, steady, quantity, place, &mut motion);
+    let mesh = &steady.mesh;
     let step = mesh.edges.partition_point(|&edge| edge <= phi).clamp(1, mesh.steps()) - 1;
     let share = (phi - mesh.edges[step]) / mesh.length(step);
-    if share > 1.0 - AT_CORNER || share < AT_CORNER {
+    if !(AT_CORNER..=1.0 - AT_CORNER).contains(&share) {
         let edge = if share < 0.5 { step } else { step + 1 };
         let (last, steps) = (edge.checked_sub(1).unwrap_or(mesh.steps() - 1), mesh.steps());
         let sides = [Place { step: last, share: 1.0 }, Place { step: edge % steps, share: 0.0 }];
@@ -96,13 +97,13 @@ pub(super) fn place_of(of: &ElasticGradient<'_>, quantity: Quantity, phi: f64, e
 
 /// A quantity at a share of a step, and its derivative by that share.
 fn value_and_slope(
-    of: &ElasticGradient<'_>,
     equation: &Equation<'_, Dual<f64>>,
+    steady: &Steady,
     quantity: Quantity,
     place: Place,
     m: &mut Motion<Dual<f64>>,
 ) -> Dual<f64> {
-    let (mesh, solution) = (&of.steady.mesh, &of.steady.solution);
+    let (mesh, solution) = (&steady.mesh, &steady.solution);
     let Place { step, share } = place.inside();
     let h = mesh.length(step);
     let mut y = Vec::with_capacity(solution.states());

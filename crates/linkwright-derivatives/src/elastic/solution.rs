@@ -1,49 +1,22 @@
 //! A solution along directions: the derivatives of all its numbers, and of its monodromy matrix.
 
 use super::peaks::{Place, Quantity, read};
+use super::stage::StageRow;
 use super::sweep::{READ, Sweep, identity, product, state_read};
 use crate::moving_kinks::MovingKinks;
 use linkwright_core::drive::equation::Machine;
 use linkwright_core::drive::kinks::kinks;
-use linkwright_core::drive::law::LawGeometry;
-use linkwright_core::drive::reduce::Reduction;
 use linkwright_core::linkage::motion::Motion;
-use linkwright_driveline::equation::{Equation, Rates, Row};
+use linkwright_driveline::equation::{Equation, Rates};
 use linkwright_driveline::steady::Steady;
 use linkwright_driveline::work::Work;
 use linkwright_kernel::dual::Dual;
 use linkwright_kernel::out_of_line;
-use linkwright_kernel::plane::Angle;
 use linkwright_kernel::radau::{A, AT, B, N, S, through, value};
 use linkwright_kernel::real::Real;
 
 /// An end of a step this near to a kink of loads or motion \[rad\] moves with it.
 const ON_KINK: f64 = 1e-8;
-
-/// The mechanism where a stage is read, along the directions.
-pub(super) struct StageRow<R> {
-    reduced: Reduction<Dual<R>>,
-    geometry: Vec<LawGeometry<Dual<R>>>,
-}
-
-impl<R: Real> StageRow<R> {
-    /// At a crank angle, which may move.
-    #[inline(always)]
-    pub(super) fn new(equation: &Equation<'_, Dual<R>>, phi: Dual<R>, m: &mut Motion<Dual<R>>) -> Self {
-        out_of_line!(Dual<R>, {
-            let Equation { plan, q, .. } = *equation;
-            let reduced = plan.reduce::<Dual<R>, 2>(q, Angle::new(phi), 1.0, m);
-            let mut geometry = Vec::new();
-            plan.add_geometry(q, phi, m, &mut geometry);
-            StageRow { reduced, geometry }
-        })
-    }
-
-    #[inline(always)]
-    pub(super) fn row(&self) -> Row<'_, Dual<R>> {
-        Row { reduced: self.reduced, geometry: &self.geometry }
-    }
-}
 
 /// A solution with its derivatives along some directions, one a lane.
 pub(super) struct Along<'a, R> {

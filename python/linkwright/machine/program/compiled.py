@@ -302,7 +302,7 @@ class CompiledMachine:
         )
 
     def least_inertias(self, angles: Floats) -> Floats:
-        """Minimum inertia that the crank feels at crank angles, of every row, (n,) [kg m²]."""
+        """Minimum inertia reduced to the crank at crank angles, of every row, (n,) [kg m²]."""
         return _core.least_inertias(self.plan, self.parameters, self.slots, self.values, angles)
 
     @property
