@@ -57,8 +57,7 @@ def by_scipy(machine: lw.Machine, entries: dict[str, Any], expected: np.ndarray)
     from scipy.integrate import solve_bvp
     from scipy.interpolate import CubicSpline
 
-    drive = machine.drive
-    assert drive is not None
+    drive: Any = machine.drive
     motor, i = drive.motor, drive.gearbox.ratio
     J_motor = (motor.inertia + drive.gearbox.inertia) * i**2
     s_k = 1 - motor.speed_breakdown / motor.speed_synchronous
