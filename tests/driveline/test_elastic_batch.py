@@ -48,8 +48,11 @@ def test_variants_of_random_drives_are_those_of_single_machines() -> None:
                 if part:
                     of = alone.stations if part[0] in alone.stations else alone.shafts
                     expected = expected[of.index(part[0])]
-                near = {"rel": 1e-6, "abs": 1e-7 if quantity == "multiplier_max" else 0.0}
-                assert rows.columns[name][row] == pytest.approx(float(expected), **near), (number, response)
+                off = 1e-7 if quantity == "multiplier_max" else 0.0
+                assert rows.columns[name][row] == pytest.approx(float(expected), rel=1e-6, abs=off), (
+                    number,
+                    response,
+                )
 
 
 def test_a_variant_that_stalls_says_so_beside_others_that_run() -> None:

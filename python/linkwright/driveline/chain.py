@@ -144,12 +144,12 @@ def fastest_of(chain: Chain, rows: Floats, inertia: Floats, period: Floats) -> F
     J = np.column_stack([rows[:, :others], np.maximum(inertia - apart, 0.0)])
     if links["held"] is not None:
         joins[:, links["driven"]] = 0.0
-    has_inertia = (J > 0).all(axis=1)
+    has_inertia = np.asarray((J > 0).all(axis=1))
     size = np.where(has_inertia[:, None], J, 1.0)[:, :, None]
     K, C = (-np.einsum("sa,ns,sb->nab", joins, rates, joins) / size for rates in (stiffness, damping))
     unit = np.broadcast_to(np.eye(others + 1), K.shape)
     system = np.block([[np.zeros_like(K), unit], [K, C]])
     found = np.linalg.eigvals(system)
-    lasting = found.real * period[:, None] > np.log(_GONE)
+    lasting = np.asarray(found.real * period[:, None] > np.log(_GONE))
     fastest: Floats = np.where(lasting & has_inertia[:, None], np.abs(found), 0.0).max(axis=1, initial=0.0)
     return fastest

@@ -39,11 +39,11 @@ from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.own_motors import on_crankshaft
+from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import DrivelineGradient, DrivelineMotion
 from linkwright.machine.tangents import Derivatives, Directions, directions, followed
-from linkwright.torsion.excitation.drive_line import mean_inertia, mechanism_alone, without_drive
+from linkwright.torsion.excitation.drive_line import mean_inertia, mechanism_alone
 
 # Relative accuracy of the motion whose derivatives are taken.
 _ACCURACY = 1e-11
@@ -123,7 +123,8 @@ def _mean_inertia_along(machine: Machine, variables: Sequence[str]) -> Floats:
         return np.zeros(len(variables))
 
     def slopes(phi: Floats) -> Floats:
-        return alone.inertias_along(along.values, phi)[0].T
+        inertia: Floats = alone.inertias_along(along.values, phi)[0].T
+        return inertia
 
     mean = turn_curve(slopes, alone.kinks(), "derivatives of the reduced inertia").mean()
     by = dict(zip(along.variables, mean.tolist(), strict=True))
@@ -162,7 +163,7 @@ def _named(steady: ElasticMotion) -> Iterator[tuple[str, Tangent]]:
 
 def _held(names: Iterable[str], chain: Chain) -> list[str]:
     """What does not change of stations that a motor of constant speed turns."""
-    held = [] if chain.links["held"] is None else np.flatnonzero(chain.mass == chain.links["driven"])
+    held: Any = [] if chain.links["held"] is None else np.flatnonzero(chain.mass == chain.links["driven"])
     still = {f"{name}.{chain.stations[k]}" for k in held for name in _STILL}
     return [name for name in names if name in still]
 
