@@ -23,8 +23,8 @@ def best():
 
 def peak(machine: lw.Machine, coupling) -> float:
     """Peak torque with a stiffness and a damping."""
-    entries = dict(zip(COUPLING, map(float, coupling), strict=True))
-    return float(lw.elastic_motion(lw.replace(machine, entries), n=4).torque_max[0])
+    variant = lw.replace(machine, dict(zip(COUPLING, map(float, coupling), strict=True)))
+    return float(lw.elastic_motion(variant, n=4).torque_max[0])
 
 
 def study(machine: lw.Machine) -> dict[str, float]:
@@ -47,11 +47,9 @@ def figure(machine: lw.Machine):
 
     axes = (drawing := Figure(figsize=(7, 3.6), layout="constrained")).subplots()
     axes.set(xlabel="stiffness of the coupling [kN m/rad]", ylabel="peak torque [N m]")
-    stiffness = np.linspace(10e3, 60e3, 51)
-    for damping in (50, 150, 250):
-        torques = [peak(best().machine, (k, damping)) for k in stiffness]
-        axes.plot(stiffness / 1e3, torques, label=f"damping {damping} N m s/rad")
-    axes.plot(best().variables["stiffness"] / 1e3, best().responses["peak"], "ko")
+    k = np.linspace(10e3, 60e3, 51)
+    for c in (50, 150, 250):
+        axes.plot(k / 1e3, [peak(best().machine, (one, c)) for one in k], label=f"damping {c} N m s/rad")
     axes.legend()
     return drawing
 
