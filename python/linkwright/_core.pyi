@@ -33,9 +33,12 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
+    "DrivelineExtremes",
+    "DrivelineGradient",
     "DrivelineInTime",
     "DrivelineInTimeCurves",
     "DrivelineMotion",
+    "DrivelineRows",
     "DrivelineStation",
     "DrivelineTorque",
     "Element",
@@ -85,6 +88,7 @@ __all__ = [
     "cam_crossings",
     "driveline_in_time",
     "driveline_motion",
+    "driveline_rows",
     "follow_group",
     "gaps",
     "in_line",
@@ -92,6 +96,7 @@ __all__ = [
     "kinks",
     "kinks_along",
     "law_torques",
+    "least_inertias",
     "motion_at",
     "motions",
     "motions_along",
@@ -1218,6 +1223,39 @@ class DrivelineMotion:
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
 
+    def gradient(self, directions: _Floats) -> DrivelineGradient:
+        """Derivatives along directions of all numbers, of the plan and then of the driveline, (numbers, n).
+
+        The driveline's are inertias, what is apart, stiffness and damping of each link, numbers of drivers
+        and of loads, ratio and phase of each station, damping and share of each mass in `swing`.
+        """
+
+    def curves_along(self, directions: _Floats, phi: _Floats) -> _Floats:
+        """Derivatives of speeds, accelerations, twists and torques, (parts · angles, n)."""
+
+@final
+class DrivelineGradient:
+    """Derivatives along n directions, (n,), or (masses, links or drivers, n), referred to the crank."""
+
+    period: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    speed_min: Final[_Floats]
+    speed_max: Final[_Floats]
+    acceleration_min: Final[_Floats]
+    acceleration_max: Final[_Floats]
+    twist_min: Final[_Floats]
+    twist_max: Final[_Floats]
+    torque_min: Final[_Floats]
+    torque_max: Final[_Floats]
+    torque_drive_min: Final[_Floats]
+    torque_drive_max: Final[_Floats]
+    torque_drive_mean: Final[_Floats]
+    monodromy: Final[_Floats]
+
 @final
 class DrivelineInTimeCurves:
     """Curves of a driveline over time, (parts, n) each, all referred to the crank.
@@ -1318,6 +1356,57 @@ def driveline_motion(
     share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for `cycles_first`
     cycles at first, for `cycles_max` at most.
     """
+
+@final
+class DrivelineExtremes:
+    """Extremes of masses, links or drivers of n machines, (parts, n)."""
+
+    least: Final[_Floats]
+    greatest: Final[_Floats]
+
+@final
+class DrivelineRows:
+    """Steady motion of n drivelines, (n,) or (parts, n), referred to the crank; NaN where not found.
+
+    `monodromy` is (numbers of the matrix, n).
+    """
+
+    period: Final[_Floats]
+    speed: Final[DrivelineExtremes]
+    acceleration: Final[DrivelineExtremes]
+    twist: Final[DrivelineExtremes]
+    torque: Final[DrivelineExtremes]
+    torque_drive: Final[DrivelineExtremes]
+    torque_drive_mean: Final[_Floats]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    monodromy: Final[_Floats]
+    accuracy: Final[_Floats]
+
+def driveline_rows(
+    plan: Plan,
+    q: _Floats,
+    slots: _Ints,
+    values: _Floats,
+    chain: Mapping[str, Any],
+    *,
+    numbers: _Floats,
+    accuracy: float,
+    speed: _Floats,
+    fastest: _Floats,
+    cycles_max: int,
+) -> DrivelineRows:
+    """Steady motion of n machines with the driveline of one, whose numbers vary.
+
+    `values` is (slots, n), `numbers` (n, numbers) in the order of `DrivelineMotion.gradient`; `speed` and
+    `fastest` are (n,); the others as in `driveline_motion`.
+    """
+
+def least_inertias(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats) -> _Floats:
+    """Minimum inertia reduced to the crank at crank angles, of n machines, (n,)."""
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""

@@ -28,8 +28,8 @@ STANDS_ON: dict[str, set[str]] = {
     "torsion": {"kernel"},
     "topper": {"kernel"},
     "plan": {"kernel", "linkage", "drive"},
-    "derivatives": {"kernel", "linkage", "drive"},
     "driveline": {"kernel", "linkage", "drive"},
+    "derivatives": {"kernel", "linkage", "drive", "driveline"},
 }
 
 # The border has no kernels: it converts what crosses it.

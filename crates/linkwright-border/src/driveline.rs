@@ -1,23 +1,28 @@
 //! Steady motion of torsionally flexible drivelines at the border.
 
+use linkwright_derivatives::elastic::ElasticGradient;
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
-use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
+use linkwright_driveline::reading::{Extremes as CoreExtremes, Measures, Reading};
 use linkwright_driveline::steady::{Failure, Request, Steady, steady};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::column;
 use crate::builder::Plan;
 use crate::driveline_chain::Driveline;
+use crate::driveline_gradient::DrivelineGradient;
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
 use crate::Floats;
 
 pub(crate) type Array = Py<PyArray1<f64>>;
 pub(crate) type Table = Py<PyArray2<f64>>;
+type Directions<'py> = PyReadonlyArray2<'py, f64>;
 
 const ANALYSIS: &str = "steady motion of the driveline";
+const DERIVATIVES: &str = "derivatives of the driveline";
 
 /// Curves of a driveline over crank angles, a row a part.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
@@ -70,6 +75,7 @@ pub(crate) struct DrivelineMotion {
     q: Vec<f64>,
     chain: Chain,
     steady: Steady,
+    measures: Measures,
 }
 
 /// Why a driveline has no steady motion.
@@ -118,6 +124,45 @@ impl DrivelineMotion {
             torque_load: column(py, found.load).unbind(),
         })
     }
+
+    fn gradient(&self, py: Python<'_>, directions: Directions<'_>) -> PyResult<DrivelineGradient> {
+        let numbers = self.numbers();
+        let values = self.along(&directions, &numbers)?;
+        let found =
+            guarded(py, DERIVATIVES, || self.derivation(&numbers, &values).derivatives(&self.measures))?;
+        DrivelineGradient::new(py, found, &self.chain)
+    }
+
+    fn curves_along(&self, py: Python<'_>, directions: Directions<'_>, phi: Floats<'_>) -> PyResult<Table> {
+        let (numbers, phi) = (self.numbers(), phi.as_slice()?);
+        let values = self.along(&directions, &numbers)?;
+        let curves = 2 * (self.chain.masses() + self.chain.links.len()) + self.chain.drivers.len();
+        require_room(DERIVATIVES, [curves * phi.len(), values.len() / numbers.len()])?;
+        let found = guarded(py, DERIVATIVES, || self.derivation(&numbers, &values).curves(phi))?;
+        rows(py, found, curves * phi.len())
+    }
+}
+
+impl DrivelineMotion {
+    /// Numbers of the machine, and behind them those of the driveline.
+    fn numbers(&self) -> Vec<f64> {
+        self.q.iter().copied().chain(self.chain.numbers()).collect()
+    }
+
+    /// Directions of all numbers.
+    fn along(&self, directions: &Directions<'_>, numbers: &[f64]) -> PyResult<Vec<f64>> {
+        if directions.shape()[0] != numbers.len() || directions.shape()[1] == 0 {
+            return Err(PyValueError::new_err(
+                "directions: one or more are needed, with a row for every number",
+            ));
+        }
+        Ok(directions.as_slice()?.to_vec())
+    }
+
+    fn derivation<'a>(&'a self, numbers: &'a [f64], directions: &'a [f64]) -> ElasticGradient<'a> {
+        let (plan, chain, steady) = (&self.plan.get().0, &self.chain, &self.steady);
+        ElasticGradient { plan, numbers, chain, steady, directions }
+    }
 }
 
 #[pyfunction]
@@ -157,12 +202,12 @@ pub(crate) fn driveline_motion(
                 acceleration: extremes(py, &measures.acceleration)?,
                 twist: extremes(py, &measures.twist)?,
                 torque: extremes(py, &measures.torque)?,
-                torque_mean: column(py, measures.torque_mean).unbind(),
-                torque_rms: column(py, measures.torque_rms).unbind(),
-                loss: column(py, measures.loss).unbind(),
+                torque_mean: column(py, measures.torque_mean.clone()).unbind(),
+                torque_rms: column(py, measures.torque_rms.clone()).unbind(),
+                loss: column(py, measures.loss.clone()).unbind(),
                 torque_drive: extremes(py, &measures.drive)?,
-                torque_drive_mean: column(py, measures.drive_mean).unbind(),
-                energy_drive: column(py, measures.drive_work).unbind(),
+                torque_drive_mean: column(py, measures.drive_mean.clone()).unbind(),
+                energy_drive: column(py, measures.drive_work.clone()).unbind(),
                 energy_load: measures.load_work,
                 monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
                 accuracy: steady.reached,
@@ -172,6 +217,7 @@ pub(crate) fn driveline_motion(
                 q,
                 chain,
                 steady,
+                measures,
             };
             Ok(DrivelineOutcome::Motion(Py::new(py, motion)?))
         }

@@ -5,6 +5,8 @@
 //! | [`chain`] | masses, the springs with dampers between them, torques from outside |
 //! | [`station`] | further mechanisms, at angles that the state tells |
 //! | [`station_kinks`] | where they pass kinks of their own |
+//! | [`batch`] | many machines of one structure, each from the solution of another |
+//! | `bundle` | the periodic solutions of some machines at once |
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
@@ -13,7 +15,10 @@
 //! | [`steady`] | the periodic solution to a wanted accuracy |
 //! | [`reading`] | curves, extremes, and power of every part |
 //! | [`in_time`] | motion in time from rest or any state |
+//! | [`work`] | means and work of a cycle |
 
+pub mod batch;
+mod bundle;
 pub mod chain;
 pub mod cycle;
 mod elimination;
@@ -25,3 +30,4 @@ pub mod reading;
 pub mod station;
 pub mod station_kinks;
 pub mod steady;
+pub mod work;

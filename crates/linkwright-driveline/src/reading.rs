@@ -3,6 +3,7 @@
 use crate::equation::{Equation, Rates, Row};
 use crate::mesh::Rows;
 use crate::steady::Steady;
+use crate::work::Work;
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
@@ -102,8 +103,7 @@ impl<'a> Reading<'a> {
         // Of accelerations, then drivers, what stages have.
         let drivers = chain.drivers.len();
         let mut at_stages = vec![0.0; (n + drivers) * steps * S];
-        let (mut period, mut load_work) = (0.0, 0.0);
-        let (mut drives, mut sums) = (vec![[0.0; 2]; drivers], vec![0.0; 3 * links.len()]);
+        let mut work = Work::new(chain);
         for k in 0..steps {
             let h = steady.mesh.length(k);
             for i in 0..S {
@@ -112,41 +112,29 @@ impl<'a> Reading<'a> {
                 for (part, &x) in rates.acceleration.iter().chain(&rates.drive).enumerate() {
                     at_stages[(part * steps + k) * S + i] = x;
                 }
-                let dt = h * B[i] / chain.speed(n - 1, y);
-                period += dt;
-                load_work += dt * rates.load_power;
-                for ((sums, torque), driver) in drives.iter_mut().zip(&rates.drive).zip(&chain.drivers) {
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * chain.speed(driver.mass, y);
-                }
-                for (link, sums) in links.iter().zip(sums.chunks_exact_mut(3)) {
-                    let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * torque;
-                    sums[2] += dt * link.damping * rate * rate;
-                }
+                work.add(chain, &rates, y, h * B[i]);
             }
         }
         let of = |at: &dyn Fn(&[f64]) -> f64| self.of_state(at);
-        let part = |k: usize| sums.iter().skip(k).step_by(3).copied();
+        let torques = |which: usize| (0..links.len()).map(|link| work.torques(link)[which]).collect();
         let stages = |part: usize| &at_stages[part * steps * S..][..steps * S];
         Measures {
-            period,
+            period: work.period,
             speed: (0..n).map(|mass| of(&|y| chain.speed(mass, y))).collect(),
             acceleration: (0..n)
                 .map(|mass| self.of_rates(stages(mass), &|rates| rates.acceleration[mass]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
             torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
-            torque_mean: part(0).map(|sum| sum / period).collect(),
-            torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
-            loss: part(2).collect(),
+            torque_mean: torques(0),
+            torque_rms: torques(1),
+            loss: work.links.iter().map(|sums| sums[2]).collect(),
             drive: (0..drivers)
                 .map(|driver| self.of_rates(stages(n + driver), &|rates| rates.drive[driver]))
                 .collect(),
-            drive_mean: drives.iter().map(|sums| sums[0] / period).collect(),
-            drive_work: drives.iter().map(|sums| sums[1]).collect(),
-            load_work,
+            drive_mean: (0..drivers).map(|driver| work.mean_drive(driver)).collect(),
+            drive_work: work.drivers.iter().map(|sums| sums[1]).collect(),
+            load_work: work.load,
         }
     }
 

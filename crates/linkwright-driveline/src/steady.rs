@@ -102,7 +102,17 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
             found_roughly(equation, &mesh, request)?
         }
     };
-    let (mut solution, mut monodromy, cycles) = found;
+    refined(equation, mesh, found, request)
+}
+
+/// The periodic solution to the wanted accuracy, from one on a mesh with its monodromy matrix and the cycles that were followed.
+pub(crate) fn refined(
+    equation: Equation<'_>,
+    mut mesh: Mesh,
+    (mut solution, mut monodromy, cycles): (Solution, Vec<f64>, usize),
+    request: &Request,
+) -> Result<Steady, Failure> {
+    let chain = equation.chain;
     let mut reached = f64::INFINITY;
     for _ in 0..ROUNDS_MAX {
         let scale = scales(&solution, chain);
@@ -113,7 +123,7 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
         if reached <= request.accuracy && kinks.iter().all(|&kink| mesh.has_edge(kink)) {
             return Ok(Steady { mesh, solution, monodromy, reached, cycles });
         }
-        kinks.extend(speed_kinks(&equation, &mesh, &solution));
+        kinks.extend(speed_kinks(&equation, &mesh.edges, &solution));
         let edges = divided(&mesh.edges, &errors, request.accuracy, &kinks);
         if edges.len() > STEPS_MAX {
             break;
@@ -127,7 +137,7 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
 }
 
 /// Lets steps be divided in which the method would damp a vibration that lasts: the motion may have none of it, the multipliers do.
-fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: &Request) {
+pub(crate) fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: &Request) {
     let m = solution.states();
     for (k, error) in errors.iter_mut().enumerate() {
         let angle = request.fastest * mesh.length(k) / solution.start_of(k)[m - 1];
@@ -247,7 +257,7 @@ fn from_damped(
 
 /// What errors of the numbers of a state are compared with: the largest of each over the cycle. A speed against the crank counts
 /// beside the speed itself, and beside the torque that dampers make of it.
-fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
+pub(crate) fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
     let (m, others) = (chain.states(), chain.masses() - 1);
     let mut largest = vec![0.0_f64; m];
     let mut torques = vec![0.0_f64; chain.links.len()];
@@ -265,14 +275,19 @@ fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
     (0..m).map(|r| largest[r].max(floor(r))).collect()
 }
 
+/// Parts into which a step with an error is divided.
+pub(crate) fn parts_of_step(error: f64, accuracy: f64) -> usize {
+    let excess = 2.0 * error / accuracy;
+    if excess <= 2.0 { 1 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) as usize }
+}
+
 /// Ends of steps after those with too large an error are divided, with one at each of some kinks.
 fn divided(edges: &[f64], errors: &[f64], accuracy: f64, kinks: &[f64]) -> Vec<f64> {
     let mut finer = vec![edges[0]];
     for (pair, error) in edges.windows(2).zip(errors) {
-        let excess = 2.0 * error / accuracy;
-        let parts = if excess <= 2.0 { 1.0 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) };
+        let parts = parts_of_step(*error, accuracy);
         let length = pair[1] - pair[0];
-        finer.extend((1..=parts as usize).map(|i| pair[0] + length * (i as f64 / parts)));
+        finer.extend((1..=parts).map(|i| pair[0] + length * (i as f64 / parts as f64)));
     }
     for &kink in kinks {
         let behind = finer.partition_point(|&edge| edge < kink);
@@ -285,11 +300,11 @@ fn divided(edges: &[f64], errors: &[f64], accuracy: f64, kinks: &[f64]) -> Vec<f
 }
 
 /// Crank angles at which a mass passes a speed at which a characteristic of its motor, or a load over its speed, has a kink.
-fn speed_kinks(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) -> Vec<f64> {
+pub(crate) fn speed_kinks(equation: &Equation<'_>, edges: &[f64], solution: &Solution) -> Vec<f64> {
     let (chain, others) = (equation.chain, equation.chain.masses() - 1);
     let mut found = Vec::new();
     for (mass, speeds) in speeds_with_kinks(equation) {
-        for k in 0..mesh.steps() {
+        for k in 0..edges.len() - 1 {
             let mut speed = solution.quintic(k, chain.states() - 1);
             if mass < others {
                 let beside = solution.quintic(k, others + mass);
@@ -298,7 +313,7 @@ fn speed_kinks(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) -> Vec
             for &kink in &speeds {
                 let at = |share: f64| value(&speed, share) - kink;
                 if at(0.0) * at(1.0) < 0.0 {
-                    found.push(mesh.edges[k] + mesh.length(k) * crossing(at));
+                    found.push(edges[k] + (edges[k + 1] - edges[k]) * crossing(at));
                 }
             }
         }

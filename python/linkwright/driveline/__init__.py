@@ -3,12 +3,14 @@
 | module | |
 | --- | --- |
 | `analyses` | Its analyses, as study, report, studio and studies read it |
+| `batch` | Many drivelines at once |
 | `carried` | What of a train its steady motion does not carry, and the analysis that does |
 | `chain` | The driveline as masses and links, referred to the crank |
 | `commands` | `linkwright transient` |
 | `elastic_motion` | Steady motion: torques of shafts, motion of every station, Floquet multipliers |
 | `figures_in_time` | Torques and speeds over time |
 | `figures` | Torques of the shafts and speeds of the stations over the crank angle |
+| `gradient` | Derivatives of the steady motion by entries of the machine |
 | `in_time` | Motion in time: start, stop, load steps |
 | `permitted` | Torques of shafts against what is permitted |
 | `run_up` | Run-up: time, peak torques, losses |

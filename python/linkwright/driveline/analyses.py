@@ -13,6 +13,7 @@ ELASTIC = Analysis(
     obstacle=of("driveline.study:no_elastic_motion"),
     make=of("driveline.study:made_elastic_motion"),
     warnings=of("driveline.study:elastic_warnings"),
+    tangents=of("driveline.gradient:elastic_tangents"),
     check=of("driveline.study:check_driveline"),
     summary=of("driveline.study:driveline_summary"),
     tables=of("driveline.tables:elastic_tables", "elastic_motion"),

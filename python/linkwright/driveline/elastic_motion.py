@@ -39,13 +39,13 @@ from linkwright.machine.program.core import DrivelineMotion, NoDrivelineMotion
 from linkwright.torsion.model.drive_train import STIFFNESS_KEYS
 
 # Cycles of the crank that the motion is followed, at most, where Newton's method alone does not converge.
-_CYCLES = 300
+CYCLES = 300
 
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 _AWAY = 100
 
 # Angles of a revolution at which the minimum inertia is looked for.
-_ANGLES = 36
+ANGLES = 36
 
 _OWN = "At its own speed."
 
@@ -275,18 +275,22 @@ def elastic_motion(
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
     require_accuracy(accuracy)
-    solved = steady_solution(machine, accuracy)
+    solved = solved_motion(machine, accuracy)
     phi = turn_angles(n, solved.turns) if angles is None else angles
-    return _result(machine, solved.motion, solved.chain, phi, solved.turns, solved.multipliers)
+    return result_of(machine, solved.motion, solved.chain, phi, solved.turns)
 
 
 class SteadySolution(NamedTuple):
     """Steady motion as the core has it, of which curves are read."""
 
-    motion: DrivelineMotion
+    compiled: CompiledMachine  # the mechanism at the crank, over a cycle of all
     chain: Chain
-    turns: int  # revolutions of a cycle
-    multipliers: Complexes
+    motion: DrivelineMotion
+
+    @property
+    def turns(self) -> int:
+        """Revolutions of a cycle."""
+        return self.compiled.turns
 
 
 def require_flexible(machine: Machine) -> None:
@@ -298,17 +302,16 @@ def require_flexible(machine: Machine) -> None:
         )
 
 
-def steady_solution(machine: Machine, accuracy: float) -> SteadySolution:
+def solved_motion(machine: Machine, accuracy: float) -> SteadySolution:
     """Steady motion of an elastic driveline; raises as `elastic_motion`."""
     compiled, chain, speed = driven_chain(machine)
     motion = _solved(compiled, chain, accuracy, speed)
-    multipliers = _multipliers(motion, chain)
-    if abs(multipliers[0]) >= 1:
+    if abs(multipliers_of(motion, chain)[0]) >= 1:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(chain.links, accuracy=accuracy, **_search(compiled, chain, speed, _AWAY))
+        other = compiled.driveline(chain.core, accuracy=accuracy, **search(compiled, chain, speed, _AWAY))
         if isinstance(other, DrivelineMotion):
-            motion, multipliers = other, _multipliers(other, chain)
-    return SteadySolution(motion, chain, compiled.turns, multipliers)
+            motion = other
+    return SteadySolution(compiled, chain, motion)
 
 
 def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
@@ -326,20 +329,20 @@ def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
     return compiled, chain_of(machine), compiled.speed_guess
 
 
-def _search(compiled: CompiledMachine, chain: Chain, speed: float, cycles: int) -> dict[str, Any]:
+def search(compiled: CompiledMachine, chain: Chain, speed: float, cycles: int) -> dict[str, Any]:
     """Where the search begins, and for how long it follows the motion."""
     period = compiled.cycle / speed
-    inertia = compiled.reductions(turn_angles(_ANGLES, compiled.turns)).inertia.min()
+    inertia = compiled.reductions(turn_angles(ANGLES, compiled.turns)).inertia.min()
     return {
         "speed": speed,
         "fastest": fastest(chain, float(inertia), period),
         "cycles_first": cycles,
-        "cycles_max": _CYCLES,
+        "cycles_max": CYCLES,
     }
 
 
 def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float) -> DrivelineMotion:
-    motion = compiled.driveline(chain.links, accuracy=accuracy, **_search(compiled, chain, speed, 0))
+    motion = compiled.driveline(chain.core, accuracy=accuracy, **search(compiled, chain, speed, 0))
     if isinstance(motion, NoDrivelineMotion):
         raise _failure(motion, compiled, chain, accuracy, speed)
     return motion
@@ -361,10 +364,10 @@ def _failure(
         )
     if motion.reason == "not found":
         return ConvergenceError(
-            f"no periodic motion of the elastic driveline was found: in {_CYCLES} cycles the motion does not "
+            f"no periodic motion of the elastic driveline was found: in {CYCLES} cycles the motion does not "
             "come to one that Newton's method converges to; follow it in time (torsion_transient)",
             method="Newton's method",
-            iterations=_CYCLES,
+            iterations=CYCLES,
         )
     return ConvergenceError(
         "steady motion of the elastic driveline was found to a relative accuracy of "
@@ -375,7 +378,7 @@ def _failure(
     )
 
 
-def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
+def multipliers_of(motion: DrivelineMotion, chain: Chain) -> Complexes:
     """From the largest on; without that by which a motor of constant speed keeps its speed."""
     found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
     found = found[np.argsort(-np.abs(found), kind="stable")]
@@ -383,9 +386,10 @@ def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
     return multipliers
 
 
-def _result(
-    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int, multipliers: Complexes
+def result_of(
+    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int
 ) -> ElasticMotion:
+    """The motion at crank angles [rad], with its torques judged."""
     curves = motion.curves(np.ascontiguousarray(phi, dtype=np.float64))
     at, ratio, lead, of_motor = chain.mass, chain.ratio, chain.lead, chain.motor_ratio
     found = ElasticMotion(
@@ -402,34 +406,42 @@ def _result(
         twist=curves.twist * lead[:, None],
         torque_drive=curves.torque_drive.sum(axis=0),
         torque_motor=curves.torque_drive / of_motor[:, None],
-        torque_motor_min=motion.torque_drive.least / of_motor,
-        torque_motor_max=motion.torque_drive.greatest / of_motor,
-        torque_motor_mean=motion.torque_drive_mean / of_motor,
-        power_motor=motion.energy_drive / motion.period,
         torque_load=curves.torque_load,
-        speed_min=ratio * motion.speed.least[at],
-        speed_max=ratio * motion.speed.greatest[at],
         speed_min_angle=motion.speed.least_at[at],
         speed_max_angle=motion.speed.greatest_at[at],
-        acceleration_min=ratio * motion.acceleration.least[at],
-        acceleration_max=ratio * motion.acceleration.greatest[at],
-        torque_min=motion.torque.least / lead,
-        torque_max=motion.torque.greatest / lead,
         torque_min_angle=motion.torque.least_at,
         torque_max_angle=motion.torque.greatest_at,
-        torque_mean=motion.torque_mean / lead,
-        torque_rms=motion.torque_rms / lead,
-        twist_min=motion.twist.least * lead,
-        twist_max=motion.twist.greatest * lead,
-        power_dissipated=motion.loss / motion.period,
-        period=motion.period,
-        multipliers=multipliers,
-        energy_drive=float(motion.energy_drive.sum()) / turns,
-        energy_load=motion.energy_load / turns,
+        multipliers=multipliers_of(motion, chain),
         accuracy=motion.accuracy,
         steps=motion.steps,
         turns=turns,
         cycles_followed=motion.cycles,
         notes=chain.notes,
+        **measures(motion, chain, turns),
     )
     return judged(machine, found)
+
+
+def measures(motion: Any, chain: Any, turns: int) -> dict[str, Any]:
+    """Extremes, means and work of stations and shafts at their own speeds; tangents go through."""
+    at, ratio, lead, of_motor = chain.mass, chain.ratio, chain.lead, chain.motor_ratio
+    return {
+        "speed_min": ratio * motion.speed.least[at],
+        "speed_max": ratio * motion.speed.greatest[at],
+        "acceleration_min": ratio * motion.acceleration.least[at],
+        "acceleration_max": ratio * motion.acceleration.greatest[at],
+        "torque_min": motion.torque.least / lead,
+        "torque_max": motion.torque.greatest / lead,
+        "torque_mean": motion.torque_mean / lead,
+        "torque_rms": motion.torque_rms / lead,
+        "twist_min": motion.twist.least * lead,
+        "twist_max": motion.twist.greatest * lead,
+        "power_dissipated": motion.loss / motion.period,
+        "period": motion.period,
+        "torque_motor_min": motion.torque_drive.least / of_motor,
+        "torque_motor_max": motion.torque_drive.greatest / of_motor,
+        "torque_motor_mean": motion.torque_drive_mean / of_motor,
+        "power_motor": motion.energy_drive / motion.period,
+        "energy_drive": motion.energy_drive.sum(axis=0) / turns,
+        "energy_load": motion.energy_load / turns,
+    }

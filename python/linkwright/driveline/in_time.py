@@ -404,7 +404,7 @@ def followed(
             _require_same_driveline(moving.stretches[0].chain, chain)
         left = turns - abs(float(state[-1]) - first) / (2 * np.pi)
         motion = compiled.driveline_in_time(
-            chain.links,
+            chain.core,
             state=np.ascontiguousarray(state),
             brakes=_brakes(machine, chain) if brake else np.zeros(len(chain.links["inertia"]) + 1),
             time=time,

@@ -16,7 +16,7 @@ from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import (
     SteadySolution,
     require_flexible,
-    steady_solution,
+    solved_motion,
 )
 from linkwright.driveline.in_time import ElasticTransient, Followed, followed
 from linkwright.driveline.permitted import TorqueJudgement
@@ -149,7 +149,7 @@ def elastic_run_up(machine: Machine, *, accuracy: float = _ACCURACY) -> ElasticR
     while True:
         _require_forward(moving, machine)
         if solved is None:
-            solved = steady_solution(machine, accuracy)
+            solved = solved_motion(machine, accuracy)
             mean = 2 * np.pi * solved.turns / solved.motion.period
         limit = options.settled * mean
         known = _steady_speeds(solved)

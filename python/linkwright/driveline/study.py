@@ -11,7 +11,7 @@ from linkwright.drive.obstacles import no_run_up, no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
 from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
-from linkwright.driveline.train_chain import train_chain
+from linkwright.driveline.train_chain import driveline_chain
 from linkwright.driveline.run_up import ElasticRunUp, elastic_run_up, require_elastic_start
 from linkwright.kernel.errors import FindingError, StartError
 from linkwright.kernel.findings import Findings
@@ -95,12 +95,10 @@ def _never_runs_up(machine: Machine) -> bool:
 
 def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:
     """Whether every station of the driveline has an inertia, and every mechanism a full revolution."""
-    if not machine.has_mounted_mechanisms:
-        findings.of(chain_of, machine)
-        yield "driveline: inertia of every station"
-        return
-    findings.of(train_chain, machine)
-    yield "driveline: mechanisms of the train close over the full revolution"
+    findings.of(driveline_chain, machine)
+    mounted = "mechanisms of the train close over the full revolution"
+    what = mounted if machine.has_mounted_mechanisms else "inertia of every station"
+    yield f"driveline: {what}"
 
 
 def driveline_summary(machine: Machine) -> Iterator[tuple[str, str]]:

@@ -22,13 +22,12 @@ import numpy as np
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.driveline.carried import require_carried
-from linkwright.driveline.chain import Chain, links_of, order_of
+from linkwright.driveline.chain import Chain, chain_of, Outside, Stand, links_of, order_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
-from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
 from linkwright.torsion.core.torque import motor_program
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mounted_mechanism
@@ -89,9 +88,9 @@ def driven_train(machine: Machine) -> DrivenTrain:
     return DrivenTrain(compiled, chain, _balance(machine, chain, mounted))
 
 
-def train_chain(machine: Machine) -> Chain:
-    """Masses and links of a train with mechanisms."""
-    return _chain(machine)[0]
+def driveline_chain(machine: Machine) -> Chain:
+    """Masses and links of a train with mechanisms, or of the driveline that [drive] describes."""
+    return _chain(machine)[0] if machine.has_mounted_mechanisms else chain_of(machine)
 
 
 def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
@@ -126,10 +125,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
             _power(place[load.on], -load.torque, load.speed, load.exponent) for load in train.loads.values()
         ],
         "stations": [
-            DrivelineStation(
-                int(mass[one.disc]), one.compiled.plan, one.compiled.one, ratio=one.ratio, phase=one.phase
-            )
-            for one in mounted[1:]
+            Stand(int(mass[one.disc]), one.compiled, one.ratio, one.phase) for one in mounted[1:]
         ],
         "swing": (damped, mean / mean.sum()) if damped.any() else None,
     }
@@ -184,7 +180,7 @@ def _turns(mounted: list[_Mounted]) -> int:
 
 def _drivers(
     machine: Machine, train: Train, place: dict[str, tuple[int, float]]
-) -> Iterator[tuple[str, DrivelineTorque]]:
+) -> Iterator[tuple[str, Outside]]:
     for name, motor in train.motors.items():
         yield name, _motor(motor.motor, *place[motor.on])
     for name, driver in train.drivers.items():
@@ -203,17 +199,17 @@ def _on(train: Train, name: str) -> str:
     return train.motors[name].on if name in train.motors else train.drivers[name].on
 
 
-def _motor(motor: Any, mass: int, ratio: float) -> DrivelineTorque:
+def _motor(motor: Any, mass: int, ratio: float) -> Outside:
     """A motor whose disc turns at a ratio to the crank, which stands for its gears."""
     if isinstance(motor, ConstantSpeedMotor):
-        return DrivelineTorque.held(mass, float(motor.speed) / ratio)
+        return Outside(mass, "held", (motor.speed / ratio,))
     compiled = motor_program(motor, ratio)
-    return DrivelineTorque.motor(mass, compiled.plan, compiled.one)
+    return Outside(mass, "motor", compiled.one, compiled)
 
 
-def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> DrivelineTorque:
+def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> Outside:
     mass, ratio = place
-    return DrivelineTorque.power(mass, torque=torque * ratio, speed=speed / ratio, exponent=exponent)
+    return Outside(mass, "power", (torque * ratio, speed / ratio, exponent))
 
 
 def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
