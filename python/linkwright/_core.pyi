@@ -1179,6 +1179,8 @@ class DrivelineMotion:
     accuracy: Final[float]
     steps: Final[int]
     cycles: Final[int]
+    multiple: Final[int]
+    start: Final[_Floats]
 
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
@@ -1202,6 +1204,8 @@ def driveline_motion(
     second: _Ints,
     stiffness: _Floats,
     damping: _Floats,
+    gap: _Floats,
+    curves: Sequence[tuple[_Floats, _Floats, _Floats] | None],
     driven: int,
     held: float | None,
     accuracy: float,
@@ -1209,12 +1213,16 @@ def driveline_motion(
     fastest: float,
     cycles_first: int,
     cycles_max: int,
+    multiples: int,
+    start: _Floats | None,
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
     `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `driven`: mass
     of the motor, which keeps the speed `held`; `fastest`: size of the fastest eigenvalue that lasts; followed
-    for `cycles_first` cycles at first, for `cycles_max` at most.
+    for `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to
+    `multiples` of them, from a state `start` if given. `gap`: half of the backlash of each link; `curves`:
+    twists, torques and slopes of those that are not straight.
     """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:

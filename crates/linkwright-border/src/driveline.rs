@@ -2,6 +2,7 @@
 
 use linkwright_driveline::chain::{Chain, Driver, Link};
 use linkwright_driveline::equation::Equation;
+use linkwright_driveline::law::{Curve, Law};
 use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
 use linkwright_driveline::steady::{Failure, Request, Steady, steady};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -62,6 +63,8 @@ pub(crate) struct DrivelineMotion {
     steps: usize,
     #[pyo3(get)]
     cycles: usize,
+    #[pyo3(get)]
+    multiple: usize,
     plan: Py<Plan>,
     q: Vec<f64>,
     chain: Chain,
@@ -98,6 +101,12 @@ fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
 
 #[pymethods]
 impl DrivelineMotion {
+    /// State at the start of the cycle.
+    #[getter]
+    fn start(&self, py: Python<'_>) -> Array {
+        column(py, self.steady.solution.start.clone()).unbind()
+    }
+
     fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<DrivelineCurves> {
         let (phi, n, links) = (phi.as_slice()?, self.chain.masses(), self.chain.links.len());
         require_room(ANALYSIS, [3 + 2 * (n + links), phi.len()])?;
@@ -115,21 +124,39 @@ impl DrivelineMotion {
     }
 }
 
-/// Links of a driveline from arrays over them.
-fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: usize) -> PyResult<Vec<Link>> {
-    let [first, second] = [as_indices(first.as_slice()?, masses)?, as_indices(second.as_slice()?, masses)?];
-    let [stiffness, damping] = [rates[0].as_slice()?, rates[1].as_slice()?];
-    if [first.len(), second.len(), stiffness.len()] != [damping.len(); 3] {
+/// Twists, torques and slopes at the points of a link's curve; none of a straight spring.
+type Points = Option<[Vec<f64>; 3]>;
+
+/// Links of a driveline from arrays over them: stiffness, damping and half of the backlash.
+fn links(
+    ends: [&Ints<'_>; 2],
+    numbers: [&Floats<'_>; 3],
+    curves: Vec<Points>,
+    masses: usize,
+) -> PyResult<Vec<Link>> {
+    let [first, second] = [as_indices(ends[0].as_slice()?, masses)?, as_indices(ends[1].as_slice()?, masses)?];
+    let [stiffness, damping, gap] = [numbers[0].as_slice()?, numbers[1].as_slice()?, numbers[2].as_slice()?];
+    if [first.len(), second.len(), stiffness.len(), damping.len(), gap.len()] != [curves.len(); 5] {
         return Err(PyValueError::new_err("links: arrays of one length are needed"));
     }
-    let link =
-        |i: usize| Link { first: first[i], second: second[i], stiffness: stiffness[i], damping: damping[i] };
-    Ok((0..first.len()).map(link).collect())
+    let link = |(i, points): (usize, Points)| {
+        let curve = match points {
+            None => None,
+            Some([x, y, slope]) => Some(
+                Curve::new(&x, &y, &slope)
+                    .ok_or_else(|| PyValueError::new_err("links: a curve has to rise from zero"))?,
+            ),
+        };
+        let law = Law { stiffness: stiffness[i], damping: damping[i], gap: gap[i], curve };
+        Ok(Link { first: first[i], second: second[i], law })
+    };
+    curves.into_iter().enumerate().map(link).collect()
 }
 
 #[pyfunction]
 #[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, driven, held, accuracy, speed, fastest, cycles_first, cycles_max
+    plan, q, *, inertia, apart, first, second, stiffness, damping, gap, curves, driven, held,
+    accuracy, speed, fastest, cycles_first, cycles_max, multiples, start
 ))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
@@ -141,6 +168,8 @@ pub(crate) fn driveline_motion(
     second: Ints<'_>,
     stiffness: Floats<'_>,
     damping: Floats<'_>,
+    gap: Floats<'_>,
+    curves: Vec<Points>,
     driven: usize,
     held: Option<f64>,
     accuracy: f64,
@@ -148,18 +177,24 @@ pub(crate) fn driveline_motion(
     fastest: f64,
     cycles_first: usize,
     cycles_max: usize,
+    multiples: usize,
+    start: Option<Floats<'_>>,
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
     let q = known.get().parameters(&q)?.to_vec();
     let inertia = inertia.as_slice()?.to_vec();
-    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
+    let links = links([&first, &second], [&stiffness, &damping, &gap], curves, inertia.len() + 1)?;
     let driver = held.map_or(Driver::Motor, Driver::Held);
     let chain = Chain { inertia, apart, links, driven, driver };
     if !chain.fits() {
         return Err(PyIndexError::new_err("driveline: a link or the motor is at no mass"));
     }
     let plan = &known.get().0;
-    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
+    let start = start.map(|start| start.as_slice().map(<[f64]>::to_vec)).transpose()?;
+    if start.as_ref().is_some_and(|start| start.len() != chain.states()) {
+        return Err(PyValueError::new_err("driveline: a start has a number for each of the state"));
+    }
+    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max, multiples, start };
     let solved = guarded(py, ANALYSIS, || {
         let found = steady(plan, &q, &chain, &request)?;
         let equation = Equation { plan, q: &q, chain: &chain };
@@ -189,6 +224,7 @@ pub(crate) fn driveline_motion(
                 accuracy: steady.reached,
                 steps: steady.mesh.steps(),
                 cycles: steady.cycles,
+                multiple: steady.multiple,
                 plan: known.clone_ref(py),
                 q,
                 chain,

@@ -1,16 +1,16 @@
 //! The driveline as masses and links, all referred to the speed of the crank.
 
-/// A spring with a damper between two masses: T = k Δ + c Δ˙, with the twist Δ of the first against the second.
-#[derive(Clone, Copy, Debug)]
+use crate::law::{Law, Torque};
+
+/// A spring with a damper between two masses: T by the twist Δ of the first against the second, and its rate.
+#[derive(Clone, Debug)]
 pub struct Link {
     /// Mass that T holds back.
     pub first: usize,
     /// Mass that T drives.
     pub second: usize,
-    /// k \[N m/rad\].
-    pub stiffness: f64,
-    /// c \[N m s/rad\].
-    pub damping: f64,
+    /// T of Δ and Δ˙.
+    pub law: Law,
 }
 
 /// What drives a mass.
@@ -61,10 +61,10 @@ impl Chain {
         [0, others].map(|first| of(link.first, first) - of(link.second, first))
     }
 
-    /// Torque of a link \[N m\].
-    pub fn torque(&self, link: &Link, y: &[f64]) -> f64 {
+    /// Torque of a link \[N m\] with its slopes by twist and rate.
+    pub fn torque(&self, link: &Link, y: &[f64]) -> Torque {
         let [twist, rate] = self.twist(link, y);
-        link.stiffness * twist + link.damping * rate
+        link.law.torque(twist, rate)
     }
 
     /// Speed of a mass \[rad/s\].

@@ -62,9 +62,9 @@ impl<'a> Cycle<'a> {
         }
     }
 
-    /// Makes a step linear about its stages: corrections of the stages for the start as it is, and by that of the start where
-    /// `sides` has room for them, in the last columns of the table.
-    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool) {
+    /// Makes a step linear about its stages: corrections of the stages for the start as it is, by that of the start if asked for,
+    /// and by that of a parameter of which the rates at all stages have these derivatives, in the last columns of the table.
+    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool, by_parameter: &[f64]) {
         let m = y.len();
         let (h, n) = (self.mesh.length(k), S * m);
         for i in 0..S {
@@ -72,7 +72,8 @@ impl<'a> Cycle<'a> {
             self.f[i * m..][..m].copy_from_slice(&self.rates.rate);
             self.jacobians[i * m * m..][..m * m].copy_from_slice(&self.rates.jacobian);
         }
-        let width = n + if with_start { 1 + m } else { 1 };
+        let (starts, own) = (if with_start { m } else { 0 }, usize::from(!by_parameter.is_empty()));
+        let width = n + 1 + starts + own;
         self.table.clear();
         self.table.resize(n * width, 0.0);
         for i in 0..S {
@@ -92,86 +93,54 @@ impl<'a> Cycle<'a> {
                 if with_start {
                     row[n + 1 + r] = 1.0;
                 }
+                if own > 0 {
+                    let slopes = &by_parameter[k * n..][..n];
+                    row[width - 1] = (0..S).map(|j| h * A[i][j] * slopes[j * m + r]).sum();
+                }
             }
         }
         solve(&mut self.table, n, width - n);
+    }
+
+    /// Makes the cycle linear about a solution: rows of corrections of all stages by what each step begins with, and of the end of the
+    /// cycle by its start. Columns: for what they are as they are, by the numbers of the start, and by a parameter if asked for.
+    pub(crate) fn linear(&mut self, solution: &Solution, by_parameter: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let m = solution.states();
+        let (n, columns) = (S * m, 1 + m + usize::from(!by_parameter.is_empty()));
+        let mut solved = vec![0.0; self.mesh.steps() * n * columns];
+        let mut end = vec![0.0; m * columns];
+        for r in 0..m {
+            end[r * columns + 1 + r] = 1.0;
+        }
+        for k in 0..self.mesh.steps() {
+            self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true, by_parameter);
+            let kept = &mut solved[k * n * columns..][..n * columns];
+            for (to, row) in kept.chunks_exact_mut(columns).zip(self.table.chunks_exact(n + columns)) {
+                to.copy_from_slice(&row[n..]);
+            }
+            end = chained(&kept[(n - m) * columns..], &end, m);
+        }
+        (solved, end)
     }
 
     /// Newton's method for the periodic solution, from a guess. Gives the monodromy matrix, row by row, or nothing where it does
     /// not converge.
     pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
         let m = solution.states();
-        let (n, width, steps) = (S * m, S * m + 1 + m, self.mesh.steps());
-        let mut solved = vec![0.0; steps * n * (1 + m)];
         let mut last = f64::INFINITY;
         for _ in 0..SWEEPS_MAX {
             poll();
-            // End of the cycle over its start: columns of p and U.
-            let mut end = vec![0.0; m * (1 + m)];
-            for r in 0..m {
-                end[r * (1 + m) + 1 + r] = 1.0;
-            }
-            for k in 0..steps {
-                self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true);
-                let kept = &mut solved[k * n * (1 + m)..][..n * (1 + m)];
-                for (to, row) in kept.chunks_exact_mut(1 + m).zip(self.table.chunks_exact(width)) {
-                    to.copy_from_slice(&row[n..]);
-                }
-                end = chained(&kept[(n - m) * (1 + m)..], &end, m);
-            }
-            // (1 − U) δ = p + what the end is beside the start.
-            let close = solution.stage(steps - 1, S - 1);
-            let mut table = vec![0.0; m * (m + 1)];
-            for r in 0..m {
-                for c in 0..m {
-                    table[r * (m + 1) + c] = f64::from(u8::from(r == c)) - end[r * (1 + m) + 1 + c];
-                }
-                table[r * (m + 1) + m] = end[r * (1 + m)] + close[r] - solution.start[r];
-            }
+            let (solved, end) = self.linear(solution, &[]);
+            let mut table = closure(&end, solution, 0);
             solve(&mut table, m, 1);
             let start: Vec<f64> = (0..m).map(|r| table[r * (m + 1) + m]).collect();
-            let size = self.correct(solution, &solved, &start, scale)?;
-            if size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL {
-                let monodromy = (0..m).flat_map(|r| end[r * (1 + m) + 1..][..m].to_vec()).collect();
-                return Some(monodromy);
+            let size = correct(solution, &solved, &start, scale)?;
+            if is_last(size, last) {
+                return Some(monodromy(&end, m));
             }
             last = size;
         }
         None
-    }
-
-    /// Corrects start and stages; the largest correction over what it corrects, if sweeps may come near.
-    fn correct(&self, solution: &mut Solution, solved: &[f64], start: &[f64], scale: &[f64]) -> Option<f64> {
-        let m = solution.states();
-        let n = S * m;
-        let mut corrections = Vec::with_capacity(solution.stages.len());
-        let mut before = start.to_vec();
-        for rows in solved.chunks_exact(n * (1 + m)) {
-            for row in rows.chunks_exact(1 + m) {
-                corrections.push(row[0] + row[1..].iter().zip(&before).map(|(u, d)| u * d).sum::<f64>());
-            }
-            before.copy_from_slice(&corrections[corrections.len() - m..]);
-        }
-        let (mut size, mut share) = (0.0_f64, 1.0_f64);
-        for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
-            for r in 0..m {
-                size = size.max(d[r].abs() / scale[r]);
-            }
-            if d[m - 1] < 0.0 {
-                share = share.min((1.0 - SPEED_LEFT) * y[m - 1] / -d[m - 1]);
-            }
-        }
-        if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
-            return None;
-        }
-        let share = share.min(1.0);
-        for (y, d) in solution.stages.iter_mut().zip(&corrections) {
-            *y += share * d;
-        }
-        for (y, d) in solution.start.iter_mut().zip(start) {
-            *y += share * d;
-        }
-        Some(if share < 1.0 { size.max(1.0) } else { size })
     }
 
     /// Follows the motion over one cycle, step by step, from the start of a solution.
@@ -197,7 +166,7 @@ impl<'a> Cycle<'a> {
         let n = S * m;
         for _ in 0..SWEEPS_MAX {
             poll();
-            self.linear_step(k, y, stages, false);
+            self.linear_step(k, y, stages, false, &[]);
             let (mut size, mut share) = (0.0_f64, 1.0_f64);
             for (i, row) in self.table.chunks_exact(n + 1).enumerate() {
                 let d = row[n];
@@ -220,12 +189,76 @@ impl<'a> Cycle<'a> {
     }
 }
 
-/// p and U of a step behind those of what is before it.
+/// Whether the last sweep has been, by its correction and the one before.
+pub(crate) fn is_last(size: f64, last: f64) -> bool {
+    size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL
+}
+
+/// Derivative of the end of a cycle by its start, row by row.
+pub(crate) fn monodromy(end: &[f64], m: usize) -> Vec<f64> {
+    end.chunks_exact(end.len() / m).flat_map(|row| row[1..=m].to_vec()).collect()
+}
+
+/// Rows of (1 − U) δ − g δλ = p + what the end is beside the start, with `more` columns and rows of a parameter.
+pub(crate) fn closure(end: &[f64], solution: &Solution, more: usize) -> Vec<f64> {
+    let m = solution.states();
+    let (columns, width) = (end.len() / m, m + more + 1);
+    let close = &solution.stages[solution.stages.len() - m..];
+    let mut table = vec![0.0; (m + more) * width];
+    for (r, row) in end.chunks_exact(columns).enumerate() {
+        let to = &mut table[r * width..][..width];
+        for c in 0..m {
+            to[c] = f64::from(u8::from(r == c)) - row[1 + c];
+        }
+        (0..more).for_each(|j| to[m + j] = -row[1 + m + j]);
+        to[width - 1] = row[0] + close[r] - solution.start[r];
+    }
+    table
+}
+
+/// Corrects start and stages by that of the start, and of a parameter behind it; the largest correction over what it corrects, if
+/// sweeps may come near.
+pub(crate) fn correct(solution: &mut Solution, solved: &[f64], by: &[f64], scale: &[f64]) -> Option<f64> {
+    let m = solution.states();
+    let columns = 1 + by.len();
+    let mut corrections = Vec::with_capacity(solution.stages.len());
+    let mut before = by.to_vec();
+    for rows in solved.chunks_exact(S * m * columns) {
+        for row in rows.chunks_exact(columns) {
+            corrections.push(row[0] + row[1..].iter().zip(&before).map(|(u, d)| u * d).sum::<f64>());
+        }
+        before[..m].copy_from_slice(&corrections[corrections.len() - m..]);
+    }
+    let (mut size, mut share) = (0.0_f64, 1.0_f64);
+    for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
+        for r in 0..m {
+            size = size.max(d[r].abs() / scale[r]);
+        }
+        if d[m - 1] < 0.0 {
+            share = share.min((1.0 - SPEED_LEFT) * y[m - 1] / -d[m - 1]);
+        }
+    }
+    if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
+        return None;
+    }
+    let share = share.min(1.0);
+    for (y, d) in solution.stages.iter_mut().zip(&corrections) {
+        *y += share * d;
+    }
+    for (y, d) in solution.start.iter_mut().zip(by) {
+        *y += share * d;
+    }
+    Some(if share < 1.0 { size.max(1.0) } else { size })
+}
+
+/// p, U and g of a step behind those of what is before it.
 fn chained(step: &[f64], before: &[f64], m: usize) -> Vec<f64> {
-    let mut found = vec![0.0; m * (1 + m)];
-    for (row, to) in step.chunks_exact(1 + m).zip(found.chunks_exact_mut(1 + m)) {
+    let columns = before.len() / m;
+    let mut found = vec![0.0; m * columns];
+    for (row, to) in step.chunks_exact(columns).zip(found.chunks_exact_mut(columns)) {
         to[0] = row[0];
-        for (u, before) in row[1..].iter().zip(before.chunks_exact(1 + m)) {
+        to[1 + m..].copy_from_slice(&row[1 + m..]);
+        for (u, before) in row[1..=m].iter().zip(before.chunks_exact(columns)) {
             for (to, x) in to.iter_mut().zip(before) {
                 *to += u * x;
             }

@@ -96,12 +96,12 @@ impl Equation<'_> {
         for link in &chain.links {
             let torque = chain.torque(link, y);
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
-                to.acceleration[mass] += sign * torque;
+                to.acceleration[mass] += sign * torque.value;
                 let slopes = &mut to.slopes[mass * m..][..m];
                 for (end, side) in [(link.first, sign), (link.second, -sign)] {
                     if end < crank {
-                        slopes[end] += side * link.stiffness;
-                        slopes[crank + end] += side * link.damping;
+                        slopes[end] += side * torque.by_twist;
+                        slopes[crank + end] += side * torque.by_rate;
                     }
                 }
             }

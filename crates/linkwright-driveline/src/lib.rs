@@ -2,20 +2,26 @@
 //!
 //! | module | answers |
 //! | --- | --- |
+//! | [`law`] | torque of a link: straight, by a curve, with backlash |
 //! | [`chain`] | masses, and the springs with dampers between them |
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
 //! | [`cycle`] | Newton's method for the periodic solution, and motion from cycle to cycle |
 //! | [`error`] | error of a solution in every step |
+//! | [`crossings`] | where a solution passes kinks of laws |
+//! | [`starts`] | from where a periodic solution is found |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
 //! | [`reading`] | curves, extremes, and power of every part |
 
 pub mod chain;
+pub mod crossings;
 pub mod cycle;
 mod elimination;
 pub mod equation;
 pub mod error;
+pub mod law;
 pub mod mesh;
 pub mod reading;
+pub mod starts;
 pub mod steady;

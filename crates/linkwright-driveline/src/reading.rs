@@ -101,7 +101,7 @@ impl<'a> Reading<'a> {
                     f64::from(u8::from(link.first == chain.driven))
                         - f64::from(u8::from(link.second == chain.driven))
                 };
-                chain.links.iter().map(|link| sign(link) * chain.torque(link, y)).sum()
+                chain.links.iter().map(|link| sign(link) * chain.torque(link, y).value).sum()
             }
         }
     }
@@ -128,9 +128,9 @@ impl<'a> Reading<'a> {
                 sums[2] += dt * self.equation.load(&row, omega).value * omega;
                 for (link, sums) in links.iter().zip(sums[3..].chunks_exact_mut(3)) {
                     let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * torque;
-                    sums[2] += dt * link.damping * rate * rate;
+                    sums[0] += dt * torque.value;
+                    sums[1] += dt * torque.value * torque.value;
+                    sums[2] += dt * torque.damper * rate;
                 }
             }
         }
@@ -144,7 +144,7 @@ impl<'a> Reading<'a> {
                 .map(|mass| self.acceleration(mass, &accelerations[mass * steps * S..][..steps * S]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
-            torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
+            torque: links.iter().map(|link| of(&|y| chain.torque(link, y).value)).collect(),
             torque_mean: part(0).map(|sum| sum / period).collect(),
             torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
             loss: part(2).collect(),
@@ -240,7 +240,7 @@ impl<'a> Reading<'a> {
             found.drive.push(self.drive(&y));
             found.load.push(self.equation.load(&row, y[chain.states() - 1]).value);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
-            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
+            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]));
         }
         let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
             (0..parts)

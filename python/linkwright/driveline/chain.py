@@ -19,7 +19,9 @@ from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mean_inertia
 from linkwright.torsion.in_time.moving_train import shaft_damping
+from linkwright.torsion.model.drive_shaft import LooseShaft
 from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
+from linkwright.torsion.model.train import Train
 
 # Share of a disturbance below which it is gone.
 _GONE = 1e-8
@@ -45,7 +47,8 @@ def chain_of(machine: Machine) -> Chain:
     drive = machine.drive
     assert drive is not None
     mechanism = mean_inertia(machine) if _has_hysteresis(drive) else _ANY
-    referred = refer(drive_train(drive, mechanism))
+    train = drive_train(drive, mechanism)
+    referred = refer(train)
     crank = referred.discs.index(CRANK)
     # All was referred to the first disc.
     n = 1.0 / referred.speed[crank]
@@ -61,17 +64,17 @@ def chain_of(machine: Machine) -> Chain:
     own = inertia[referred.mass[crank]] - mechanism
     others = np.empty(len(order) - 1)
     others[order[order < len(others)]] = inertia[order < len(others)]
+    shafts = tuple(referred.shafts[k] for k in row)
     links: dict[str, Any] = {
         "inertia": others,
         "apart": float(drive_inertia(drive)) - own,
         "first": np.ascontiguousarray(ends[:, 0], dtype=np.int32),
         "second": np.ascontiguousarray(ends[:, 1], dtype=np.int32),
-        "stiffness": referred.stiffness[row] * n**2,
         "damping": damping[row] * lead**2,
+        **_laws(train, shafts, referred.stiffness[row] * n**2, lead),
         "driven": int(order[referred.mass[_driven(referred)]]),
         "held": None,
     }
-    shafts = tuple(referred.shafts[k] for k in row)
     stations, ratio, mass = referred.discs, referred.speed * n, order[referred.mass]
     if isinstance(drive.motor, ConstantSpeedMotor):
         links |= _held(links, float(drive.motor.speed) / drive.gearbox.ratio)
@@ -80,6 +83,28 @@ def chain_of(machine: Machine) -> Chain:
         mass = np.append(held, np.where(mass == held, held + 1, mass))
         stations, ratio = (MOTOR, *stations), np.append(drive.gearbox.ratio, ratio)
     return Chain(stations, ratio, mass, shafts, lead, links, tuple(notes))
+
+
+def _laws(train: Train, names: tuple[str, ...], stiffness: Floats, lead: Floats) -> dict[str, Any]:
+    """Stiffness of each link, half of its backlash, and its curve, with the steepest slope as stiffness."""
+    parts = [train.gears.get(name) or train.shafts[name] for name in names]
+    laws: dict[str, Any] = {
+        "stiffness": stiffness,
+        "gap": np.array([getattr(part, "backlash", 0.0) / 2 for part in parts]) / lead,
+        "curves": [None] * len(parts),
+    }
+    for k, (part, n) in enumerate(zip(parts, lead, strict=True)):
+        if isinstance(part, LooseShaft) and part.twist is not None:
+            twist, torque, slope = part.points
+            laws["curves"][k] = (twist / n, torque * n, slope * n**2)
+            stiffness[k] = _steepest(*laws["curves"][k])
+    return laws
+
+
+def _steepest(twist: Floats, torque: Floats, slope: Floats) -> float:
+    """A bound of the slope of the cubics through points [N m/rad]."""
+    chord = np.diff(torque) / np.diff(twist)
+    return float(max(slope.max(), 1.5 * chord.max()))
 
 
 def _has_hysteresis(drive: Drive) -> bool:

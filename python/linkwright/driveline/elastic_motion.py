@@ -41,6 +41,9 @@ _CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 _AWAY = 100
 
+# Cycles after which a motion that is followed may repeat, at most.
+MULTIPLES = 8
+
 # Angles of a revolution at which the minimum inertia is looked for.
 _ANGLES = 36
 
@@ -281,6 +284,8 @@ def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, A
         "fastest": fastest(chain, float(inertia), period),
         "cycles_first": cycles,
         "cycles_max": _CYCLES,
+        "multiples": MULTIPLES if cycles else 1,
+        "start": None,
     }
 
 
