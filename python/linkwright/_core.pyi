@@ -4,8 +4,8 @@ Fields of elements, loads and the drive that are integers are indices of points,
 slots: places of numbers in the list of parameters. A compiled module has one stub, however long.
 """
 
-from collections.abc import Sequence
-from typing import Final, final
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,6 +79,7 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_branch",
     "driveline_motion",
     "follow_group",
     "gaps",
@@ -1223,6 +1224,25 @@ def driveline_motion(
     for `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to
     `multiples` of them, from a state `start` if given. `gap`: half of the backlash of each link; `curves`:
     twists, torques and slopes of those that are not straight.
+    """
+
+def driveline_branch(
+    plan: Plan,
+    *,
+    nodes: Sequence[float],
+    machines: Sequence[tuple[_Floats, Mapping[str, Any]]],
+    accuracy: float,
+    fastest: float,
+    parameter: float,
+    start: DrivelineMotion,
+    direction: float,
+    points_max: int,
+) -> tuple[list[tuple[float, bool, DrivelineMotion]], str]:
+    """A branch of steady motions over a parameter, from one of them in a direction, to the end of its range.
+
+    `nodes`, `machines`: parameters with parameters of the plan and the masses and links of `driveline_motion`;
+    between them numbers are polynomials. Gives parameter, whether it turns back there, and motion of each;
+    why the branch ends: ``"range"``, ``"points"`` or ``"short"``, where steps became too short.
     """
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:

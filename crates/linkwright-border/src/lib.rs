@@ -74,7 +74,9 @@ pub mod _core {
         transient_along,
     };
     #[pymodule_export]
-    use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
+    use super::driveline::{
+        DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_branch, driveline_motion,
+    };
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

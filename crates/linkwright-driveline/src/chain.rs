@@ -49,6 +49,29 @@ impl Chain {
         self.driven < n && self.links.iter().all(|link| link.first < n && link.second < n)
     }
 
+    /// All numbers that a parameter may change, in one list.
+    pub fn numbers(&self) -> Vec<f64> {
+        let mut list = self.inertia.clone();
+        list.push(self.apart);
+        list.extend(if let Driver::Held(speed) = self.driver { Some(speed) } else { None });
+        self.links.iter().for_each(|link| link.law.add_numbers(&mut list));
+        list
+    }
+
+    /// The same driveline with other numbers.
+    pub fn with_numbers(&self, list: &[f64]) -> Chain {
+        let mut chain = self.clone();
+        let mut numbers = list.iter().copied();
+        let mut next = |to: &mut f64| *to = numbers.next().unwrap_or(*to);
+        chain.inertia.iter_mut().for_each(&mut next);
+        next(&mut chain.apart);
+        if let Driver::Held(speed) = &mut chain.driver {
+            next(speed);
+        }
+        chain.links.iter_mut().for_each(|link| link.law.set_numbers(&mut next));
+        chain
+    }
+
     /// Numbers of a state: twist and speed against the crank of every mass but the crank, and the crank's speed.
     pub fn states(&self) -> usize {
         2 * self.masses() - 1

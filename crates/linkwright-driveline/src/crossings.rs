@@ -86,11 +86,7 @@ fn link_crossings(
 }
 
 /// Shares before and behind the first change of the form that bisection comes to.
-fn first_change(
-    (mut low, own): (f64, Zone),
-    mut high: f64,
-    zone: &impl Fn(f64) -> Zone,
-) -> (f64, f64) {
+fn first_change((mut low, own): (f64, Zone), mut high: f64, zone: &impl Fn(f64) -> Zone) -> (f64, f64) {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if zone(middle) == own { low = middle } else { high = middle }

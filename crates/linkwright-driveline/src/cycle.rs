@@ -13,7 +13,7 @@ use linkwright_kernel::call::poll;
 use linkwright_kernel::radau::{A, S};
 
 /// Sweeps of Newton's method at most.
-const SWEEPS_MAX: usize = 25;
+pub(crate) const SWEEPS_MAX: usize = 25;
 
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
@@ -26,6 +26,11 @@ const SPEED_LEFT: f64 = 0.3;
 
 /// Largest correction, as a share of what it corrects, at which sweeps still come near.
 const FAR: f64 = 1e6;
+
+/// Parts of a step that is not solved at once, and the length \[rad\] below which it is not solved at all.
+const PARTS: usize = 4;
+/// See [`PARTS`].
+const SHORTEST: f64 = 1e-4;
 
 /// Where a motion ends that does not go on.
 #[derive(Clone, Copy, Debug)]
@@ -134,7 +139,7 @@ impl<'a> Cycle<'a> {
             let mut table = closure(&end, solution, 0);
             solve(&mut table, m, 1);
             let start: Vec<f64> = (0..m).map(|r| table[r * (m + 1) + m]).collect();
-            let size = correct(solution, &solved, &start, scale)?;
+            let [size, _] = correct(solution, &solved, &start, scale)?;
             if is_last(size, last) {
                 return Some(monodromy(&end, m));
             }
@@ -154,11 +159,35 @@ impl<'a> Cycle<'a> {
             let y = solution.start_of(k).to_vec();
             let mut stages = y.repeat(S);
             if !self.solved_step(k, &y, &mut stages, scale) {
-                return Err(Stop { phi: self.mesh.edges[k], omega: y[m - 1] });
+                let pair = [self.mesh.edges[k], self.mesh.edges[k + 1]];
+                stages = self.in_parts(pair, &y, scale).ok_or(Stop { phi: pair[0], omega: y[m - 1] })?;
             }
             solution.stages[k * n..][..n].copy_from_slice(&stages);
         }
         Ok(())
+    }
+
+    /// Stages of a step that Newton's method does not solve at once, such as one with kinks inside: by parts.
+    fn in_parts(&self, [low, high]: [f64; 2], y: &[f64], scale: &[f64]) -> Option<Vec<f64>> {
+        let m = y.len();
+        let at = |i: usize| low + (high - low) * (i as f64 / PARTS as f64);
+        let parts = Mesh::new(&self.equation, (0..=PARTS).map(at).collect());
+        let mut followed = Solution::constant(&parts, y);
+        let mut cycle = Cycle::new(self.equation, &parts);
+        for k in 0..PARTS {
+            let start = followed.start_of(k).to_vec();
+            let mut stages = start.repeat(S);
+            if !cycle.solved_step(k, &start, &mut stages, scale) {
+                // A speed that falls to zero ends the motion.
+                if parts.length(k) < SHORTEST {
+                    return None;
+                }
+                stages = self.in_parts([parts.edges[k], parts.edges[k + 1]], &start, scale)?;
+            }
+            followed.stages[k * S * m..][..S * m].copy_from_slice(&stages);
+        }
+        let one = Mesh::new(&self.equation, vec![low, high]);
+        Some(followed.on(&parts, &one).stages)
     }
 
     fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
@@ -216,9 +245,14 @@ pub(crate) fn closure(end: &[f64], solution: &Solution, more: usize) -> Vec<f64>
     table
 }
 
-/// Corrects start and stages by that of the start, and of a parameter behind it; the largest correction over what it corrects, if
-/// sweeps may come near.
-pub(crate) fn correct(solution: &mut Solution, solved: &[f64], by: &[f64], scale: &[f64]) -> Option<f64> {
+/// Corrects start and stages by that of the start, and of a parameter behind it; the largest correction over what it corrects, and the
+/// share of it that was taken, if sweeps may come near.
+pub(crate) fn correct(
+    solution: &mut Solution,
+    solved: &[f64],
+    by: &[f64],
+    scale: &[f64],
+) -> Option<[f64; 2]> {
     let m = solution.states();
     let columns = 1 + by.len();
     let mut corrections = Vec::with_capacity(solution.stages.len());
@@ -248,7 +282,7 @@ pub(crate) fn correct(solution: &mut Solution, solved: &[f64], by: &[f64], scale
     for (y, d) in solution.start.iter_mut().zip(by) {
         *y += share * d;
     }
-    Some(if share < 1.0 { size.max(1.0) } else { size })
+    Some([if share < 1.0 { size.max(1.0) } else { size }, share])
 }
 
 /// p, U and g of a step behind those of what is before it.

@@ -33,7 +33,12 @@ impl Curve {
         let cubic = |i: usize| {
             let h = x[i] - x[i - 1];
             let (chord, before, after) = ((y[i] - y[i - 1]) / h, slope[i - 1], slope[i]);
-            [y[i - 1], before, (3.0 * chord - 2.0 * before - after) / h, (before + after - 2.0 * chord) / (h * h)]
+            [
+                y[i - 1],
+                before,
+                (3.0 * chord - 2.0 * before - after) / h,
+                (before + after - 2.0 * chord) / (h * h),
+            ]
         };
         let mut pieces: Vec<_> = (1..n).map(cubic).collect();
         pieces.push([y[n - 1], slope[n - 1], 0.0, 0.0]);
@@ -92,6 +97,22 @@ impl Law {
     /// Whether it is a straight spring with a damper.
     pub fn is_linear(&self) -> bool {
         self.gap == 0.0 && self.curve.is_none()
+    }
+
+    /// Appends its numbers to a list.
+    pub(crate) fn add_numbers(&self, list: &mut Vec<f64>) {
+        list.extend([self.stiffness, self.damping, self.gap]);
+        if let Some(curve) = &self.curve {
+            list.extend(curve.x.iter().chain(curve.pieces.iter().flatten()));
+        }
+    }
+
+    /// Gives it other numbers, in the same order.
+    pub(crate) fn set_numbers(&mut self, next: &mut impl FnMut(&mut f64)) {
+        [&mut self.stiffness, &mut self.damping, &mut self.gap].into_iter().for_each(&mut *next);
+        if let Some(curve) = &mut self.curve {
+            curve.x.iter_mut().chain(curve.pieces.iter_mut().flatten()).for_each(next);
+        }
     }
 
     /// Its form at a twist and a rate.

@@ -12,8 +12,10 @@
 //! | [`crossings`] | where a solution passes kinks of laws |
 //! | [`starts`] | from where a periodic solution is found |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
+//! | [`branch`] | steady motions over a parameter, through folds |
 //! | [`reading`] | curves, extremes, and power of every part |
 
+pub mod branch;
 pub mod chain;
 pub mod crossings;
 pub mod cycle;

@@ -8,6 +8,7 @@ use linkwright_kernel::plane::Angle;
 use linkwright_kernel::radau::{C, N, S, through, value};
 
 /// Places of a step from one end to the other, and the mechanism there.
+#[derive(Clone)]
 pub struct Rows {
     /// Inertia and loads.
     pub reduced: Vec<Reduction<f64>>,
@@ -37,6 +38,7 @@ impl Rows {
 }
 
 /// Ends of the steps of a cycle, and the mechanism at the stages.
+#[derive(Clone)]
 pub struct Mesh {
     /// From 0 to the end of the cycle \[rad\].
     pub edges: Vec<f64>,

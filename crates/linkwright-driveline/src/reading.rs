@@ -240,7 +240,9 @@ impl<'a> Reading<'a> {
             found.drive.push(self.drive(&y));
             found.load.push(self.equation.load(&row, y[chain.states() - 1]).value);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
-            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]));
+            links.extend(
+                chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]),
+            );
         }
         let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
             (0..parts)

@@ -188,7 +188,8 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
             }
         }
         if is_last {
-            return Err(Failure::NotFound);
+            let repeats = repetition(&last, &next.start, &scale, request.multiples);
+            return Err(Failure::NotFound(repeats.map_or(f64::NAN, |(_, off)| off)));
         }
     }
 }

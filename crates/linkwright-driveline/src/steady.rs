@@ -16,7 +16,7 @@ use linkwright_core::drive::structure::Plan;
 pub const STEPS_MAX: usize = 20_000;
 
 /// Times that steps are divided.
-const ROUNDS_MAX: usize = 40;
+pub(crate) const ROUNDS_MAX: usize = 40;
 
 /// Rounds in which steps with a crossing inside are not divided: they end there in the next one.
 const KINKS_FIRST: usize = 12;
@@ -37,6 +37,7 @@ const NO_TWIST: f64 = 1e-12;
 const SAME_ANGLE: f64 = 1e-9;
 
 /// A steady motion.
+#[derive(Clone)]
 pub struct Steady {
     /// Steps.
     pub mesh: Mesh,
@@ -57,8 +58,9 @@ pub struct Steady {
 pub enum Failure {
     /// The crank comes to rest, or turns back.
     Stops(Stop),
-    /// Neither Newton's method nor the motion in time comes to a periodic motion.
-    NotFound,
+    /// Neither Newton's method nor the motion in time comes to a periodic motion: the smallest difference of its last cycles, over
+    /// the largest of each number of the state.
+    NotFound(f64),
     /// Steps cannot be divided further.
     Inaccurate(f64),
 }
@@ -97,39 +99,58 @@ fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -> Result<St
     let (mut reached, mut placed) = (f64::INFINITY, Vec::new());
     for round in 0..ROUNDS_MAX {
         let scale = scales(&solution, equation.chain);
-        let mut errors = errors(&equation, &mesh, &solution, &scale);
-        add_vibration(&mut errors, &mesh, &solution, request);
+        let found = errors(&equation, &mesh, &solution, &scale);
         let crossings = crossings(&equation, &mesh, &solution, &scale);
-        let missed = crossings.iter().map(|crossing| crossing.error).fold(0.0, f64::max);
-        reached = errors.iter().copied().fold(missed, f64::max);
+        let (errors, worst) = worst_error(found, &crossings, &mesh, &solution, request, round);
+        reached = worst;
         if reached <= request.accuracy {
             return Ok(Steady { mesh, solution, monodromy, reached, cycles, multiple });
         }
-        if round < KINKS_FIRST {
-            spare(&mut errors, &crossings, request.accuracy);
-        }
-        let mut edges = divided(&mesh.edges, &errors, request.accuracy);
-        // Crossings move with the solution, until both stand.
-        edges.retain(|edge| !placed.iter().any(|old: &f64| (old - edge).abs() < 0.5 * SAME_ANGLE));
-        placed = with_ends(&mut edges, &crossings);
+        let edges = finer_edges(&mesh, &errors, &crossings, request.accuracy, &mut placed);
         if edges.len() > STEPS_MAX {
             break;
         }
         let finer = Mesh::new(&equation, edges);
         solution = solution.on(&mesh, &finer);
         mesh = finer;
-        monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale).ok_or(Failure::NotFound)?;
+        monodromy =
+            Cycle::new(equation, &mesh).periodic(&mut solution, &scale).ok_or(Failure::NotFound(f64::NAN))?;
     }
     Err(Failure::Inaccurate(reached))
 }
 
-/// Leaves steps undivided whose error is that of a crossing inside.
-fn spare(errors: &mut [f64], crossings: &[Crossing], accuracy: f64) {
-    for crossing in crossings {
-        if crossing.error > accuracy {
-            errors[crossing.step] = errors[crossing.step].min(accuracy);
+/// Errors by which steps are divided, and the largest error of the solution.
+pub(crate) fn worst_error(
+    mut errors: Vec<f64>,
+    crossings: &[Crossing],
+    mesh: &Mesh,
+    solution: &Solution,
+    request: &Request,
+    round: usize,
+) -> (Vec<f64>, f64) {
+    add_vibration(&mut errors, mesh, solution, request);
+    let missed = crossings.iter().map(|crossing| crossing.error).fold(0.0, f64::max);
+    let worst = errors.iter().copied().fold(missed, f64::max);
+    if round < KINKS_FIRST {
+        for crossing in crossings.iter().filter(|crossing| crossing.error > request.accuracy) {
+            errors[crossing.step] = errors[crossing.step].min(request.accuracy);
         }
     }
+    (errors, worst)
+}
+
+/// Ends of finer steps, with those at crossings, which move with the solution until both stand; `placed` are those of the last round.
+pub(crate) fn finer_edges(
+    mesh: &Mesh,
+    errors: &[f64],
+    crossings: &[Crossing],
+    accuracy: f64,
+    placed: &mut Vec<f64>,
+) -> Vec<f64> {
+    let mut edges = divided(&mesh.edges, errors, accuracy);
+    edges.retain(|edge| !placed.iter().any(|old: &f64| (old - edge).abs() < 0.5 * SAME_ANGLE));
+    *placed = with_ends(&mut edges, crossings);
+    edges
 }
 
 /// Lets steps be divided in which the method would damp a vibration that lasts: the motion may have none of it, the multipliers do.

@@ -41,6 +41,11 @@ class Chain(NamedTuple):
     links: dict[str, Any]  # masses and links as the core takes them
     notes: tuple[str, ...]  # what was assumed
 
+    @property
+    def is_linear(self) -> bool:
+        """Whether no link has backlash or a curve."""
+        return not self.links["gap"].any() and all(curve is None for curve in self.links["curves"])
+
 
 def chain_of(machine: Machine) -> Chain:
     """Masses and links of the driveline of a machine."""

@@ -270,7 +270,7 @@ def elastic_motion(
         other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, _AWAY))
         if isinstance(other, DrivelineMotion):
             motion, multipliers = other, _multipliers(other, chain)
-    phi = turn_angles(n, compiled.turns) if angles is None else angles
+    phi = turn_angles(n, compiled.turns * motion.multiple) if angles is None else angles
     return _result(machine, motion, chain, phi, compiled.turns, multipliers)
 
 
@@ -284,7 +284,7 @@ def _search(compiled: CompiledMachine, chain: Chain, cycles: int) -> dict[str, A
         "fastest": fastest(chain, float(inertia), period),
         "cycles_first": cycles,
         "cycles_max": _CYCLES,
-        "multiples": MULTIPLES if cycles else 1,
+        "multiples": MULTIPLES if cycles or not chain.is_linear else 1,
         "start": None,
     }
 
@@ -368,11 +368,11 @@ def _result(
         power_dissipated=motion.loss / motion.period,
         period=motion.period,
         multipliers=multipliers,
-        energy_drive=motion.energy_drive / turns,
-        energy_load=motion.energy_load / turns,
+        energy_drive=motion.energy_drive / (turns * motion.multiple),
+        energy_load=motion.energy_load / (turns * motion.multiple),
         accuracy=motion.accuracy,
         steps=motion.steps,
-        turns=turns,
+        turns=turns * motion.multiple,
         cycles_followed=motion.cycles,
         notes=chain.notes,
     )
