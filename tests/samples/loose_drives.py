@@ -53,7 +53,9 @@ class Law:
         spring, damper = self.spring(twist), self.damping * rate
         if self.gap > 0:
             size = np.where(spring.real < 0, -spring, spring)
-            damper = np.where(damper.real > size.real, size, np.where(damper.real < -size.real, -size, damper))
+            damper = np.where(
+                damper.real > size.real, size, np.where(damper.real < -size.real, -size, damper)
+            )
         return spring + damper, damper
 
     def kinks(self, twist: float, rate: float) -> list[float]:
@@ -166,30 +168,28 @@ def loose_cycle(loose: LooseDrive, start: np.ndarray, turns: int = 1) -> LooseCy
     def kink(which: int):
         def event(phi: float, z: np.ndarray) -> float:
             slip = z[links : m - 1] - z[links + 1 : m]
-            return [
-                value for k, law in enumerate(loose.laws) for value in law.kinks(z[k], slip[k])
-            ][which]
+            return [value for k, law in enumerate(loose.laws) for value in law.kinks(z[k], slip[k])][which]
 
         event.terminal = True
         return event
 
     count = len([1 for law in loose.laws for _ in law.kinks(1.0, 1.0)])
     z = np.concatenate([start, np.eye(m).ravel(), np.zeros(1 + links)])
-    samples, phi, passed = [], 0.0, -1
+    samples, phi, passed = [], 0.0, set()
     while phi < 2 * np.pi * turns * (1 - 1e-14):
         until = np.pi * (np.floor(phi / np.pi + 1e-12) + 1)
-        asked = [k for k in range(count) if k != passed]
+        asked = [k for k in range(count) if k not in passed]
         solved = solve_ivp(
             rate, (phi, until), z, "DOP853", rtol=1e-11, atol=1e-13, dense_output=True,
             events=[kink(k) for k in asked],
         )  # fmt: skip
         met = [k for k, times in zip(asked, solved.t_events, strict=True) if len(times)]
-        at = np.linspace(phi, solved.t[-1], 3001)
+        at = np.linspace(phi, solved.t[-1], 1001)
         y = solved.sol(at)[:m]
         _, acceleration, torque, _ = rates(loose, at, y)
         samples.append((y[links:], acceleration, torque))
-        # The kink that ended this part is passed in the next: its function is zero but for rounding there.
-        passed = met[0] if met and solved.t[-1] - phi >= 0 else -1
+        # Kinks that ended this part are passed in the next: their functions are zero but for rounding there.
+        passed = set(met) | (passed if solved.t[-1] - phi < 1e-9 else set())
         phi, z = solved.t[-1], solved.y[:, -1]
     sums = [_extremes([sample[k] for sample in samples]) for k in range(3)]
     return LooseCycle(z[:m], z[m : m + m * m].reshape(m, m), z[m + m * m], z[m + m * m + 1 :], *sums)

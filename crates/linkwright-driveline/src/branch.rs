@@ -283,7 +283,7 @@ impl Follower<'_> {
     ) -> Option<Solved> {
         let mut sweeps = 0;
         for round in 0..ROUNDS_MAX {
-            let (end, taken) = self.corrected(&edges, &mut solution, &mut parameter, plane)?;
+            let (end, taken) = self.corrected((&edges, &placed), &mut solution, &mut parameter, plane)?;
             sweeps = sweeps.max(if round == 0 { taken } else { 0 });
             let (q, chain) = self.family.at(parameter);
             let equation = Equation { plan: self.family.plan, q: &q, chain: &chain };
@@ -320,7 +320,7 @@ impl Follower<'_> {
     /// Newton's method in a plane; gives the end of the cycle over its start and the parameter, and the sweeps taken.
     fn corrected(
         &self,
-        edges: &[f64],
+        (edges, placed): (&[f64], &[f64]),
         solution: &mut Solution,
         parameter: &mut f64,
         plane: &Plane<'_>,
@@ -332,7 +332,7 @@ impl Follower<'_> {
             let (q, chain) = self.family.at(*parameter);
             let equation = Equation { plan: self.family.plan, q: &q, chain: &chain };
             let scale = scales(solution, &chain);
-            let mesh = Mesh::new(&equation, edges.to_vec());
+            let mesh = Mesh::new(&equation, edges.to_vec()).with_kinks(placed);
             let by_parameter = self.by_parameter(edges, solution, *parameter);
             let (solved, end) = Cycle::new(equation, &mesh).linear(solution, &by_parameter);
             let mut table = closure(&end, solution, 1);

@@ -90,6 +90,12 @@ impl Chain {
         link.law.torque(twist, rate)
     }
 
+    /// The same by the form that its law has at another state.
+    pub fn torque_like(&self, link: &Link, y: &[f64], near: &[f64]) -> Torque {
+        let ([twist, rate], [t, r]) = (self.twist(link, y), self.twist(link, near));
+        link.law.of_zone(link.law.zone(t, r), twist, rate)
+    }
+
     /// Speed of a mass \[rad/s\].
     pub fn speed(&self, mass: usize, y: &[f64]) -> f64 {
         let others = self.masses() - 1;

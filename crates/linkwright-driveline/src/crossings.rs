@@ -26,6 +26,8 @@ pub struct Crossing {
     pub step: usize,
     /// Error of the solution, over its scale, as long as no step ends there.
     pub error: f64,
+    /// Error of its derivatives, likewise.
+    pub error_of_slopes: f64,
 }
 
 /// All crossings of a solution.
@@ -74,8 +76,10 @@ fn link_crossings(
         // Between two looks a law may pass several forms.
         while before.1 != end.1 {
             let (low, high) = first_change(before, end.0, &zone);
-            let error = missed(equation, mesh, solution, scale, (link, k), (high, before.1, zone(high)), &at);
-            found.push(Crossing { angle: mesh.edges[k] + high * mesh.length(k), step: k, error });
+            let angle = mesh.edges[k] + high * mesh.length(k);
+            let forms = (high, before.1, zone(high));
+            let [error, error_of_slopes] = missed(equation, mesh, solution, scale, (link, k), forms, &at);
+            found.push(Crossing { angle, step: k, error, error_of_slopes });
             if high <= low {
                 break;
             }
@@ -94,7 +98,7 @@ fn first_change((mut low, own): (f64, Zone), mut high: f64, zone: &impl Fn(f64) 
     (low, high)
 }
 
-/// Error of a solution whose step ends beside a crossing: between both the law is in the other form.
+/// Errors of a solution, and of its derivatives, whose step ends beside a crossing: between both the law is in the other form.
 fn missed(
     equation: &Equation<'_>,
     mesh: &Mesh,
@@ -103,19 +107,22 @@ fn missed(
     (link, k): (&Link, usize),
     (share, before, behind): (f64, Zone, Zone),
     at: &impl Fn(f64) -> [f64; 2],
-) -> f64 {
+) -> [f64; 2] {
     let chain = equation.chain;
     let (others, m) = (chain.masses() - 1, chain.states());
     let end = if share < 0.5 { 0.0 } else { 1.0 };
     let [twist, rate] = at(end);
-    let torque = |zone| link.law.of_zone(zone, twist, rate).value;
-    let off = (torque(before) - torque(behind)).abs();
+    let [one, other] = [before, behind].map(|zone| link.law.of_zone(zone, twist, rate));
+    let off = (one.value - other.value).abs();
     let row = mesh.rows.row(k * linkwright_kernel::radau::S);
     let inertia = |mass: usize| if mass < others { chain.inertia[mass] } else { row.reduced.J - chain.apart };
     let lightest = inertia(link.first).min(inertia(link.second));
     let finest = scale[others..].iter().copied().fold(f64::INFINITY, f64::min);
     let omega = solution.start_of(k)[m - 1];
-    0.5 * (share - end).abs() * mesh.length(k) * off / (lightest * omega * finest)
+    let apart = (share - end).abs() * mesh.length(k) / (lightest * omega);
+    // Twists change by a radian of the crank where their rate is that of the crank.
+    let bend = (one.by_twist - other.by_twist).abs() / omega + (one.by_rate - other.by_rate).abs();
+    [0.5 * apart * off / finest, apart * bend]
 }
 
 /// Where the motor, or the crank, passes a speed at which its characteristic has a kink.
@@ -138,7 +145,7 @@ fn speed_crossings(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution) ->
                 let at = |share: f64| value(&speed, share) - kink;
                 if at(0.0) * at(1.0) < 0.0 {
                     let angle = mesh.edges[k] + mesh.length(k) * crossing(at);
-                    found.push(Crossing { angle, step: k, error: 0.0 });
+                    found.push(Crossing { angle, step: k, error: 0.0, error_of_slopes: 0.0 });
                 }
             }
         }

@@ -73,7 +73,10 @@ impl<'a> Cycle<'a> {
         let m = y.len();
         let (h, n) = (self.mesh.length(k), S * m);
         for i in 0..S {
-            self.equation.rates(&self.mesh.rows.row(k * S + i), &stages[i * m..][..m], &mut self.rates);
+            // The last stage lies on the kink at which the step ends.
+            let like = (i == S - 1 && self.mesh.at_kink[k]).then(|| &stages[(i - 1) * m..][..m]);
+            let row = self.mesh.rows.row(k * S + i);
+            self.equation.rates_like(&row, &stages[i * m..][..m], like, &mut self.rates);
             self.f[i * m..][..m].copy_from_slice(&self.rates.rate);
             self.jacobians[i * m * m..][..m * m].copy_from_slice(&self.rates.jacobian);
         }

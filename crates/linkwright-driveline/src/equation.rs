@@ -88,13 +88,13 @@ impl Equation<'_> {
     }
 
     /// Accelerations of a state, with their derivatives.
-    fn accelerations(&self, row: &Row<'_>, y: &[f64], to: &mut Rates) {
+    fn accelerations(&self, row: &Row<'_>, y: &[f64], like: Option<&[f64]>, to: &mut Rates) {
         let chain = self.chain;
         let (n, m, crank) = (chain.masses(), chain.states(), chain.masses() - 1);
         to.acceleration.fill(0.0);
         to.slopes.fill(0.0);
         for link in &chain.links {
-            let torque = chain.torque(link, y);
+            let torque = like.map_or_else(|| chain.torque(link, y), |near| chain.torque_like(link, y, near));
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
                 to.acceleration[mass] += sign * torque.value;
                 let slopes = &mut to.slopes[mass * m..][..m];
@@ -140,7 +140,12 @@ impl Equation<'_> {
 
     /// Rates of a state and their Jacobian.
     pub fn rates(&self, row: &Row<'_>, y: &[f64], to: &mut Rates) {
-        self.accelerations(row, y, to);
+        self.rates_like(row, y, None, to);
+    }
+
+    /// The same with laws of links in the form that they have at another state: on a kink, that of the side on which it lies.
+    pub fn rates_like(&self, row: &Row<'_>, y: &[f64], like: Option<&[f64]>, to: &mut Rates) {
+        self.accelerations(row, y, like, to);
         let (m, crank) = (self.chain.states(), self.chain.masses() - 1);
         let inverse = 1.0 / y[m - 1];
         let a = to.acceleration[crank];

@@ -44,6 +44,8 @@ pub struct Mesh {
     pub edges: Vec<f64>,
     /// At all stages of all steps.
     pub rows: Rows,
+    /// Whether a step ends where a law of a link has a kink.
+    pub at_kink: Vec<bool>,
 }
 
 /// A solution on a mesh.
@@ -60,7 +62,15 @@ impl Mesh {
     pub fn new(equation: &Equation<'_>, edges: Vec<f64>) -> Self {
         let at_stages = |pair: &[f64]| C.map(|c| pair[0] + c * (pair[1] - pair[0]));
         let angles: Vec<f64> = edges.windows(2).flat_map(at_stages).collect();
-        Mesh { rows: Rows::at(equation, &angles), edges }
+        Mesh { rows: Rows::at(equation, &angles), at_kink: vec![false; edges.len() - 1], edges }
+    }
+
+    /// The same with some ends at kinks of laws.
+    pub fn with_kinks(mut self, kinks: &[f64]) -> Self {
+        for (at_kink, end) in self.at_kink.iter_mut().zip(&self.edges[1..]) {
+            *at_kink = kinks.contains(end);
+        }
+        self
     }
 
     /// Number of steps.

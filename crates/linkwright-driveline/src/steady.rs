@@ -21,6 +21,14 @@ pub(crate) const ROUNDS_MAX: usize = 40;
 /// Rounds in which steps with a crossing inside are not divided: they end there in the next one.
 const KINKS_FIRST: usize = 12;
 
+/// Cycles that are followed where a motion on coarse steps leads to none on fine ones.
+const AGAIN: usize = 20;
+
+/// Rounds in which crossings have to stand so exactly that derivatives by the start err by no more than [`SLOPES`].
+const SLOPES_FIRST: usize = 8;
+/// See [`SLOPES_FIRST`].
+const SLOPES: f64 = 1e-8;
+
 /// Parts of a step at once.
 const PARTS_MAX: f64 = 6.0;
 
@@ -90,7 +98,27 @@ pub struct Request {
 /// None is found, or not as exactly as asked for.
 pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Result<Steady, Failure> {
     let equation = Equation { plan, q, chain };
-    refined(equation, rough(equation, &kinks(plan, q), request)?, request)
+    let kinks = kinks(plan, q);
+    let found = refined(equation, rough(equation, &kinks, request)?, request);
+    let is_linear = chain.links.iter().all(|link| link.law.is_linear());
+    if found.is_ok() || is_linear || request.cycles_first > 0 {
+        return found;
+    }
+    // From the motion on coarse steps none comes; the machine itself comes to one.
+    let again = Request { cycles_first: AGAIN, ..request.clone() };
+    refined(equation, rough(equation, &kinks, &again)?, &again)
+}
+
+/// The periodic solution on finer steps from that on coarser ones, or behind a cycle that is followed on them.
+fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
+    let mut cycle = Cycle::new(equation, mesh);
+    let mut tried = solution.clone();
+    if let Some(monodromy) = cycle.periodic(&mut tried, scale) {
+        *solution = tried;
+        return Some(monodromy);
+    }
+    cycle.follow(solution, scale).ok()?;
+    cycle.periodic(solution, scale)
 }
 
 /// A periodic solution to the wanted accuracy.
@@ -110,11 +138,10 @@ fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -> Result<St
         if edges.len() > STEPS_MAX {
             break;
         }
-        let finer = Mesh::new(&equation, edges);
+        let finer = Mesh::new(&equation, edges).with_kinks(&placed);
         solution = solution.on(&mesh, &finer);
         mesh = finer;
-        monodromy =
-            Cycle::new(equation, &mesh).periodic(&mut solution, &scale).ok_or(Failure::NotFound(f64::NAN))?;
+        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(Failure::NotFound(f64::NAN))?;
     }
     Err(Failure::Inaccurate(reached))
 }
@@ -129,10 +156,12 @@ pub(crate) fn worst_error(
     round: usize,
 ) -> (Vec<f64>, f64) {
     add_vibration(&mut errors, mesh, solution, request);
-    let missed = crossings.iter().map(|crossing| crossing.error).fold(0.0, f64::max);
-    let worst = errors.iter().copied().fold(missed, f64::max);
+    // Where a law is only touched the place is known to half of the digits, and derivatives by the start are as uncertain.
+    let counts = if round < SLOPES_FIRST { request.accuracy / SLOPES } else { 0.0 };
+    let missed = |crossing: &Crossing| crossing.error.max(counts * crossing.error_of_slopes);
+    let worst = errors.iter().copied().chain(crossings.iter().map(missed)).fold(0.0, f64::max);
     if round < KINKS_FIRST {
-        for crossing in crossings.iter().filter(|crossing| crossing.error > request.accuracy) {
+        for crossing in crossings.iter().filter(|crossing| missed(crossing) > request.accuracy) {
             errors[crossing.step] = errors[crossing.step].min(request.accuracy);
         }
     }

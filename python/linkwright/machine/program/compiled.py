@@ -293,6 +293,11 @@ class CompiledMachine:
         require("driveline_motion")
         return _core.driveline_motion(self.plan, self.one, accuracy=accuracy, **chain)
 
+    def driveline_branch(self, **family: Any) -> tuple[list[tuple[float, bool, _core.DrivelineMotion]], str]:
+        """Steady motions over a parameter behind an elastic driveline; see `_core.driveline_branch`."""
+        require("driveline_branch")
+        return _core.driveline_branch(self.plan, **family)
+
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
         return _core.steady_rows(self.plan, self.parameters, self.slots, self.values, accuracy)
