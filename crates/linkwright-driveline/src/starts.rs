@@ -33,6 +33,9 @@ const REPEATS: f64 = 1e-3;
 /// Difference of a periodic motion from the cycles that led to it, likewise, up to which it is the one that they come to.
 const SAME_MOTION: f64 = 0.05;
 
+/// Squarings of a matrix for its largest eigenvalue, to a hundredth.
+const SQUARINGS: u32 = 10;
+
 /// Damping that is added at first, and its smallest step, as shares of k/ω.
 const DAMPED: f64 = 1.0;
 /// See [`DAMPED`].
@@ -157,7 +160,7 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
     let mesh = Mesh::new(&equation, edges.clone());
     let mut cycle = Cycle::new(equation, &mesh);
     let mut last: VecDeque<Solution> = VecDeque::new();
-    let (mut next, mut cycles) = (Solution::constant(&mesh, &start), 0);
+    let (mut next, mut cycles, mut passed) = (Solution::constant(&mesh, &start), 0, None);
     loop {
         for _ in 0..CYCLES_AT_ONCE {
             let turned = cycles as f64 * mesh.edges[mesh.steps()];
@@ -179,15 +182,23 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
                 Some(_) => 0,
                 None => 1,
             };
-            if multiple > 0
-                && let Some((mesh, solution, monodromy)) =
-                    periodic_behind(equation, &edges, &last, multiple, &scale)
-                && (request.multiples == 1 || distance(&solution.start, &next.start, &scale) < SAME_MOTION)
-            {
-                return Ok(Rough { mesh, solution, monodromy, cycles, multiple });
+            let found =
+                if multiple > 0 { periodic_behind(equation, &edges, &last, multiple, &scale) } else { None };
+            if let Some((mesh, solution, monodromy)) = found {
+                let near = distance(&solution.start, &next.start, &scale) < SAME_MOTION;
+                let settles = near && largest_multiplier(&monodromy) < 1.0;
+                let rough = Rough { mesh, solution, monodromy, cycles, multiple };
+                if settles || request.multiples == 1 {
+                    return Ok(rough);
+                }
+                // A motion that the machine passes by and leaves again is one, but not that to which it comes.
+                passed = passed.or(if near { Some(rough) } else { None });
             }
         }
         if is_last {
+            if let Some(rough) = passed {
+                return Ok(rough);
+            }
             let repeats = repetition(&last, &next.start, &scale, request.multiples);
             return Err(Failure::NotFound(repeats.map_or(f64::NAN, |(_, off)| off)));
         }
@@ -226,4 +237,22 @@ fn repetition(
     let found: Vec<_> = (1..=multiples.min(last.len())).map(|n| (n, off(n))).collect();
     let best = found.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(found.into_iter().find(|&(_, off)| off < REPEATS).unwrap_or(best))
+}
+
+/// Size of the largest eigenvalue of a square matrix, row by row, from a high power of it.
+fn largest_multiplier(matrix: &[f64]) -> f64 {
+    let m = matrix.len().isqrt();
+    let mut power = matrix.to_vec();
+    let mut log = 0.0;
+    for k in 0..SQUARINGS {
+        let size = power.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        if size == 0.0 {
+            return 0.0;
+        }
+        log += size.ln() / f64::from(1_u32 << k);
+        power.iter_mut().for_each(|x| *x /= size);
+        let square = |i: usize| (0..m).map(|j| power[i / m * m + j] * power[j * m + i % m]).sum();
+        power = (0..m * m).map(square).collect();
+    }
+    log.exp()
 }

@@ -24,7 +24,7 @@ from linkwright.driveline.chain import Chain, chain_of
 from linkwright.driveline.coexisting import is_same
 from linkwright.driveline.solving import multipliers_of, ready, search, solved
 from linkwright.kernel.arrays import Bools, Complexes, Floats
-from linkwright.kernel.errors import ConvergenceError, InputError
+from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
@@ -74,6 +74,9 @@ class ElasticBranch:
         Of the crank [rad/s].
     multiplier_max : ndarray, shape (n,)
         Magnitude of the largest Floquet multiplier.
+    start : ndarray, shape (n, states)
+        Twist and speed of every mass but the crank against it, and speed of the crank, at the start of the
+        cycle, referred to the crank.
     special : tuple of SpecialPoint
         Folds, period doublings and Neimark–Sacker points.
     end : str
@@ -87,8 +90,14 @@ class ElasticBranch:
     speed_min: Floats
     speed_max: Floats
     multiplier_max: Floats
+    start: Floats
     special: tuple[SpecialPoint, ...]
     end: str
+
+    @property
+    def torque_peak(self) -> Floats:
+        """Peak absolute torques of the shafts, (shafts, n) [N m]."""
+        return np.maximum(np.abs(self.torque_min), np.abs(self.torque_max))
 
     @property
     def is_stable(self) -> Bools:
@@ -169,8 +178,14 @@ def elastic_branches(
         raise InputError(f"range: found {first:g} to {last:g}, expected two different finite numbers")
     family = _Family(machine, address, first, last)
     branches, ends = [], []
+    refused: list[Exception] = []
     for place, direction in ((0.0, 1.0), (1.0, -1.0)):
-        motion, compiled, chain = family.motion(place, accuracy)
+        try:
+            motion, compiled, chain = family.motion(place, accuracy)
+        except (ConvergenceError, SteadyStateError) as none:
+            # At one end there may be no motion of one cycle, as behind period doublings.
+            refused.append(none)
+            continue
         if any(is_same(motion, end) for end in ends):
             continue
         points, why = compiled.driveline_branch(
@@ -191,6 +206,8 @@ def elastic_branches(
             )
         ends.append(points[-1][2])
         branches.append(_branch(points, why, chain, family))
+    if not branches:
+        raise refused[0]
     return ElasticBranches(address, chain.shafts, tuple(branches))
 
 
@@ -284,6 +301,7 @@ def _branch(
         speed_min=np.array([motion.speed.least[crank] for motion in motions]),
         speed_max=np.array([motion.speed.greatest[crank] for motion in motions]),
         multiplier_max=np.array([abs(each[0]) for each in multipliers]),
+        start=np.array([motion.start for motion in motions]),
         special=tuple(_special(points, multipliers, family)),
         end={
             "range": "end of the range",
