@@ -10,7 +10,7 @@
 
 use crate::chain::Chain;
 use crate::crossings::crossings;
-use crate::cycle::{Cycle, SWEEPS_MAX, closure, correct, is_last, monodromy};
+use crate::cycle::{Cycle, SWEEPS_MAX, closure, correct, damping, is_last, monodromy};
 use crate::elimination::solve;
 use crate::equation::{Equation, Rates};
 use crate::error::errors;
@@ -326,7 +326,7 @@ impl Follower<'_> {
         plane: &Plane<'_>,
     ) -> Option<(Vec<f64>, usize)> {
         let m = solution.states();
-        let mut last = f64::INFINITY;
+        let (mut last, mut damped) = (f64::INFINITY, 1.0);
         for sweep in 1..=SWEEPS_MAX {
             poll();
             let (q, chain) = self.family.at(*parameter);
@@ -345,7 +345,7 @@ impl Follower<'_> {
             (row[m], row[m + 1]) = (plane.tangent[m] / self.width, plane.length - distance);
             solve(&mut table, m + 1, 1);
             let by: Vec<f64> = (0..=m).map(|r| table[r * (m + 2) + m + 1]).collect();
-            let [size, share] = correct(solution, &solved, &by, &scale)?;
+            let [size, share] = correct(solution, &solved, &by, &scale, damped)?;
             *parameter += share * by[m];
             if !parameter.is_finite() {
                 return None;
@@ -354,6 +354,7 @@ impl Follower<'_> {
             if is_last(size, last) {
                 return Some((end, sweep));
             }
+            damped = damping(damped, sweep, size / last);
             last = size;
         }
         None

@@ -34,8 +34,14 @@ pub struct Crossing {
 pub fn crossings(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution, scale: &[f64]) -> Vec<Crossing> {
     let mut found = speed_crossings(equation, mesh, solution);
     for link in equation.chain.links.iter().filter(|link| !link.law.is_linear()) {
+        let mut before = None;
         for k in 0..mesh.steps() {
-            link_crossings(equation, mesh, solution, scale, (link, k), &mut found);
+            let [first, last] = link_crossings(equation, mesh, solution, scale, (link, k), &mut found);
+            // Where a step ends at a kink, rounding decides on which side of it the kink is found.
+            if before.is_some_and(|zone| zone != first) {
+                found.push(Crossing { angle: mesh.edges[k], step: k, error: 0.0, error_of_slopes: 0.0 });
+            }
+            before = Some(last);
         }
     }
     found
@@ -56,6 +62,7 @@ fn twist_quintics(equation: &Equation<'_>, solution: &Solution, link: &Link, k: 
     })
 }
 
+/// Crossings of a link in a step; gives the forms of its law at both ends.
 fn link_crossings(
     equation: &Equation<'_>,
     mesh: &Mesh,
@@ -63,14 +70,15 @@ fn link_crossings(
     scale: &[f64],
     (link, k): (&Link, usize),
     found: &mut Vec<Crossing>,
-) {
+) -> [Zone; 2] {
     let quintics = twist_quintics(equation, solution, link, k);
     let at = |share: f64| quintics.map(|quintic| value(&quintic, share));
     let zone = |share: f64| {
         let [twist, rate] = at(share);
         link.law.zone(twist, rate)
     };
-    let mut before = (0.0, zone(0.0));
+    let first = zone(0.0);
+    let mut before = (0.0, first);
     for look in 1..=LOOKS {
         let end = (look as f64 / LOOKS as f64, zone(look as f64 / LOOKS as f64));
         // Between two looks a law may pass several forms.
@@ -87,6 +95,7 @@ fn link_crossings(
         }
         before = end;
     }
+    [first, before.1]
 }
 
 /// Shares before and behind the first change of the form that bisection comes to.

@@ -13,7 +13,12 @@ use linkwright_kernel::call::poll;
 use linkwright_kernel::radau::{A, S};
 
 /// Sweeps of Newton's method at most.
-pub(crate) const SWEEPS_MAX: usize = 25;
+pub(crate) const SWEEPS_MAX: usize = 40;
+
+/// Sweeps without damping, and the smallest share of a correction that is taken.
+const UNDAMPED: usize = 5;
+/// See [`UNDAMPED`].
+const DAMPED_MOST: f64 = 0.125;
 
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
@@ -135,17 +140,18 @@ impl<'a> Cycle<'a> {
     /// not converge.
     pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
         let m = solution.states();
-        let mut last = f64::INFINITY;
-        for _ in 0..SWEEPS_MAX {
+        let (mut last, mut damped) = (f64::INFINITY, 1.0);
+        for sweep in 0..SWEEPS_MAX {
             poll();
             let (solved, end) = self.linear(solution, &[]);
             let mut table = closure(&end, solution, 0);
             solve(&mut table, m, 1);
             let start: Vec<f64> = (0..m).map(|r| table[r * (m + 1) + m]).collect();
-            let [size, _] = correct(solution, &solved, &start, scale)?;
+            let [size, _] = correct(solution, &solved, &start, scale, damped)?;
             if is_last(size, last) {
                 return Some(monodromy(&end, m));
             }
+            damped = damping(damped, sweep, size / last);
             last = size;
         }
         None
@@ -221,6 +227,12 @@ impl<'a> Cycle<'a> {
     }
 }
 
+/// Share of the next correction that is taken: between two forms of a law Newton's method may step to and fro, which shorter steps
+/// end.
+pub(crate) fn damping(damped: f64, sweep: usize, left: f64) -> f64 {
+    if sweep > UNDAMPED && left > 0.5 { (0.5 * damped).max(DAMPED_MOST) } else { (2.0 * damped).min(1.0) }
+}
+
 /// Whether the last sweep has been, by its correction and the one before.
 pub(crate) fn is_last(size: f64, last: f64) -> bool {
     size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL
@@ -255,6 +267,7 @@ pub(crate) fn correct(
     solved: &[f64],
     by: &[f64],
     scale: &[f64],
+    damped: f64,
 ) -> Option<[f64; 2]> {
     let m = solution.states();
     let columns = 1 + by.len();
@@ -266,7 +279,7 @@ pub(crate) fn correct(
         }
         before[..m].copy_from_slice(&corrections[corrections.len() - m..]);
     }
-    let (mut size, mut share) = (0.0_f64, 1.0_f64);
+    let (mut size, mut share) = (0.0_f64, damped);
     for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
         for r in 0..m {
             size = size.max(d[r].abs() / scale[r]);
@@ -278,14 +291,13 @@ pub(crate) fn correct(
     if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
         return None;
     }
-    let share = share.min(1.0);
     for (y, d) in solution.stages.iter_mut().zip(&corrections) {
         *y += share * d;
     }
     for (y, d) in solution.start.iter_mut().zip(by) {
         *y += share * d;
     }
-    Some([if share < 1.0 { size.max(1.0) } else { size }, share])
+    Some([if share < damped { size.max(1.0) } else { size }, share])
 }
 
 /// p, U and g of a step behind those of what is before it.

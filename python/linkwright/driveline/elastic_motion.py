@@ -87,6 +87,7 @@ class ElasticMotion(Result):
     ]
     twist_min: Annotated[Floats, Label("minimum twist", "Δ_min", "rad", _OWN, shape="(shafts,)")]
     twist_max: Annotated[Floats, Label("maximum twist", "Δ_max", "rad", _OWN, shape="(shafts,)")]
+    backlash: Annotated[Floats, Label("backlash of each shaft", "b", "rad", _OWN, shape="(shafts,)")]
     power_dissipated: Annotated[
         Floats,
         Label(
@@ -326,6 +327,7 @@ def _result(
         torque_rms=motion.torque_rms / lead,
         twist_min=motion.twist.least * lead,
         twist_max=motion.twist.greatest * lead,
+        backlash=2 * chain.links["gap"] * lead,
         power_dissipated=motion.loss / motion.period,
         period=motion.period,
         multipliers=multipliers_of(motion, chain),

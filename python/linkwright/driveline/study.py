@@ -73,7 +73,7 @@ def elastic_warnings(known: Results) -> Iterator[str]:
     yield from _resonance(known.machine, motion)
     yield from _parametric(known.machine, motion)
     yield from _others(motion)
-    yield from _reversals(known.machine, motion)
+    yield from _reversals(motion)
     yield from _fluctuation(known, motion)
 
 
@@ -128,13 +128,13 @@ def _others(motion: ElasticMotion) -> Iterator[str]:
     yield from (text for text in motion.not_periodic)
 
 
-def _reversals(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
-    gaps = dict(zip(motion.shafts, chain_of(machine).links["gap"], strict=True))
-    for name, low, high in zip(motion.shafts, motion.torque_min, motion.torque_max, strict=True):
+def _reversals(motion: ElasticMotion) -> Iterator[str]:
+    extremes = zip(motion.shafts, motion.torque_min, motion.torque_max, motion.backlash, strict=True)
+    for name, low, high, gap in extremes:
         if min(-low, high) > _REVERSED * max(-low, high):
             backlash = (
                 "its backlash is crossed, and the flanks rattle"
-                if gaps[name]
+                if gap
                 else "backlash in gears and couplings would be crossed with impacts; give it as `backlash`"
             )
             yield (
