@@ -1238,7 +1238,7 @@ def driveline_branch(
     direction: float,
     points_max: int,
 ) -> tuple[list[tuple[float, bool, DrivelineMotion]], str]:
-    """A branch of steady motions over a parameter, from one of them in a direction, to the end of its range.
+    """A branch of steady motions over a parameter from one of them in a direction, to an end of its range.
 
     `nodes`, `machines`: parameters with parameters of the plan and the masses and links of `driveline_motion`;
     between them numbers are polynomials. Gives parameter, whether it turns back there, and motion of each;

@@ -9,6 +9,7 @@ from loose_drives import Law, LooseDrive, loose_cycle, random_loose_drive
 from sizes import random_cases
 
 import linkwright as lw
+from linkwright.driveline.parametric import parametric_zones
 
 
 def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down_here() -> None:
@@ -112,7 +113,9 @@ def test_between_the_flanks_a_shaft_carries_exactly_nothing_and_never_pulls() ->
     assert (motion.torque[0][free] == 0).all()
     assert (motion.torque[0] * motion.twist[0] >= 0).all()
     lost = motion.power_dissipated.sum() * motion.period
-    assert motion.turns * motion.energy_drive == pytest.approx(motion.turns * motion.energy_load + lost, rel=1e-7)
+    assert motion.turns * motion.energy_drive == pytest.approx(
+        motion.turns * motion.energy_load + lost, rel=1e-7
+    )
 
 
 def test_without_backlash_the_law_is_that_of_a_spring() -> None:
@@ -165,3 +168,20 @@ def test_entries_that_do_not_fit_are_refused(line: str, by: str, message: str) -
     text = RATTLING.format(stiffness=1e4, damping=30.0, backlash=0.02)
     with pytest.raises(lw.InputError, match=message):
         lw.loads(text.replace(line, by))
+
+
+def test_growth_in_a_zone_of_parametric_resonance_is_that_of_the_multipliers() -> None:
+    """Speed at a natural frequency, J(φ) of order 2: first-order growth to a tenth where J changes little."""
+    for number, rng in random_cases(4803, 6, 200):
+        mass, c = rng.uniform(5.0, 15.0), rng.uniform(0.0, 0.3)
+        J = 3.5 + 0.5 * mass * 0.2**2
+        k = J * (10.0 * (1 + rng.uniform(-0.2, 0.2) * mass * 0.04 / 4 / J)) ** 2
+        text = RATTLING.format(stiffness=k, damping=c, backlash=0).replace("mass = 60", f"mass = {mass}")
+        text = text.replace("inertia = 1\n", "inertia = 3\n").replace("damping = 30", "damping = 0.1")
+        machine = lw.loads(text.replace("rod = 0.7", "rod = 10.0"))
+        motion = lw.elastic_motion(machine)
+        zones = [zone for zone in parametric_zones(machine, motion.speed_mean_time) if zone.order == 2]
+        exponent = np.log(motion.multiplier_max) / motion.period
+        rate = 0.25 * 0.5 * mass * 0.04 / J * 10.0
+        assert zones, number
+        assert zones[0].growth == pytest.approx(exponent, abs=0.1 * rate), number

@@ -230,7 +230,11 @@ impl<'a> Cycle<'a> {
 /// Share of the next correction that is taken: between two forms of a law Newton's method may step to and fro, which shorter steps
 /// end.
 pub(crate) fn damping(damped: f64, sweep: usize, left: f64) -> f64 {
-    if sweep > UNDAMPED && left > 0.5 { (0.5 * damped).max(DAMPED_MOST) } else { (2.0 * damped).min(1.0) }
+    if sweep > UNDAMPED && left > 1.0 - 0.5 * damped {
+        (0.5 * damped).max(DAMPED_MOST)
+    } else {
+        (2.0 * damped).min(1.0)
+    }
 }
 
 /// Whether the last sweep has been, by its correction and the one before.

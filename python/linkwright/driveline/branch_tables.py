@@ -22,7 +22,13 @@ _ROWS = 12
 
 def branch_tables(branches: ElasticBranches) -> Iterator[Table]:
     """Motions along the branches, and where their stability changes."""
-    heads: Row = ("motion", "", branches.address, *(f"{name}: peak torque" for name in branches.shafts), "|μ|")
+    heads: Row = (
+        "motion",
+        "",
+        branches.address,
+        *(f"{name}: peak torque" for name in branches.shafts),
+        "|μ|",
+    )
     rows: list[Row] = []
     for k, branch in enumerate(branches.branches):
         for n in np.unique(np.linspace(0, len(branch.parameter) - 1, _ROWS).astype(int)):
@@ -30,7 +36,9 @@ def branch_tables(branches: ElasticBranches) -> Iterator[Table]:
             state = "stable" if branch.is_stable[n] else "unstable"
             at, multiplier = number(float(branch.parameter[n])), number(float(branch.multiplier_max[n]))
             rows.append((f"branch {k + 1}: {state}", "", at, *peaks, multiplier))
-    yield Table("elastic_branches", "Elastic driveline: steady motions over a number of the file", heads, rows)
+    yield Table(
+        "elastic_branches", "Elastic driveline: steady motions over a number of the file", heads, rows
+    )
     special: list[Row] = [
         (f"branch {k + 1}: {point.kind}", "", number(point.parameter))
         for k, branch in enumerate(branches.branches)

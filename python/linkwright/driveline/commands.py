@@ -1,4 +1,4 @@
-"""``linkwright elastic FILE``: steady motion of an elastic driveline, over a number of its file if asked for."""
+"""``linkwright elastic FILE``: steady motion of an elastic driveline, also over a number of its file."""
 
 from __future__ import annotations
 

@@ -1,12 +1,12 @@
 r"""Parametric resonance of a driveline, estimated from its linear modes and the harmonics of J(φ).
 
-The inertia of the crank changes by :math:`\epsilon_n = |J_n|/\bar J` at the order n of its speed ω. With the
-share :math:`s_i` of the kinetic energy that mode i has in the crank, a pair of modes is excited where
+The inertia of the crank changes with the amplitude :math:`J_n` at the order n of its speed ω. With the
+amplitude q_i of mode i at the crank, :math:`\sum J q^2 = 1`, a pair of modes is excited where
 
 .. math:: n\,\omega \approx \omega_i + \omega_j, \qquad
-    \sigma_{ij} = \tfrac14\,\epsilon_n \sqrt{\frac{s_i s_j}{\omega_i\omega_j}}\; \omega_i\omega_j
+    \sigma = \frac{J_n |q_i q_j|}{8} \frac{\omega_i^2 + \omega_j^2}{\sqrt{\omega_i\omega_j}}
 
-is the rate at which it grows in the middle of the zone, of first order in ε, and where it exceeds the damping,
+is the rate at which it grows in the middle of the zone, of first order in J_n, and where it exceeds the damping,
 :math:`\sigma^2 > \delta_i \delta_j`. Half of the width of the zone, as a difference of nω, is
 
 .. math:: \Delta = (\delta_i + \delta_j) \sqrt{\frac{\sigma^2}{\delta_i\delta_j} - 1},
@@ -16,7 +16,8 @@ For i = j and one degree of freedom this is Mathieu's first zone [1]_ [2]_.
 
 References
 ----------
-.. [1] Nayfeh and Mook, Nonlinear Oscillations, 1979, sections 5.3 and 5.5: zones of first order, combinations.
+.. [1] Nayfeh and Mook, Nonlinear Oscillations, 1979, sections 5.3 and 5.5: zones of first
+   order, combinations.
 .. [2] Dresig and Holzweißig, Dynamics of Machinery, 2010, section 7.2.2.3: parametric resonance.
 """
 
@@ -63,7 +64,8 @@ def parametric_zones(machine: Machine, speed: float) -> Iterator[ParametricZone]
         for j in modes[modes >= i]:
             sum_of_both = omega[i] + omega[j]
             for k, amplitude in enumerate(harmonics, start=1):
-                rate = 0.25 * amplitude * abs(at_crank[i] * at_crank[j]) * np.sqrt(omega[i] * omega[j])
+                together = (omega[i] ** 2 + omega[j] ** 2) / np.sqrt(omega[i] * omega[j])
+                rate = 0.125 * amplitude * abs(at_crank[i] * at_crank[j]) * together
                 product = decay[i] * decay[j]
                 if rate**2 <= product or rate == 0:
                     continue

@@ -1,4 +1,4 @@
-"""How the steady motion of an elastic driveline is found: what is checked, where the search begins, why it fails."""
+"""How steady motion of an elastic driveline is found: its checks, where the search begins, why it fails."""
 
 from __future__ import annotations
 
@@ -94,14 +94,10 @@ def _failure(
             "larger flywheel or motor, or follow the motion in time (torsion_transient)"
         )
     if motion.reason == "not found":
-        off = (
-            ""
-            if np.isnan(motion.accuracy)
-            else (
-                f"; the last cycles differ by {number(100 * motion.accuracy, 2)} % at best: it is chaotic, or "
-                "settles very slowly"
-            )
-        )
+        off = ""
+        if not np.isnan(motion.accuracy):
+            percent = number(100 * motion.accuracy, 2)
+            off = f"; the last cycles differ by {percent} % at best; it is chaotic, or settles very slowly"
         return ConvergenceError(
             f"no periodic motion of the elastic driveline was found: in {_CYCLES} cycles the motion does not "
             f"come to one that Newton's method converges to{off}; follow it in time (torsion_transient)",
