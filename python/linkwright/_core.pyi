@@ -1240,7 +1240,7 @@ def driveline_branch(
 ) -> tuple[list[tuple[float, bool, DrivelineMotion]], str]:
     """A branch of steady motions over a parameter from one of them in a direction, to an end of its range.
 
-    `nodes`, `machines`: parameters with parameters of the plan and the masses and links of `driveline_motion`;
+    `nodes`, `machines`: parameters, with numbers of the plan and masses and links of `driveline_motion`;
     between them numbers are polynomials. Gives parameter, whether it turns back there, and motion of each;
     why the branch ends: ``"range"``, ``"points"`` or ``"short"``, where steps became too short.
     """

@@ -6,7 +6,7 @@ amplitude q_i of mode i at the crank, :math:`\sum J q^2 = 1`, a pair of modes is
 .. math:: n\,\omega \approx \omega_i + \omega_j, \qquad
     \sigma = \frac{J_n |q_i q_j|}{8} \frac{\omega_i^2 + \omega_j^2}{\sqrt{\omega_i\omega_j}}
 
-is the rate at which it grows in the middle of the zone, of first order in J_n, and where it exceeds the damping,
+is the rate at which it grows in the middle of the zone, of first order in J_n, where it exceeds damping,
 :math:`\sigma^2 > \delta_i \delta_j`. Half of the width of the zone, as a difference of nω, is
 
 .. math:: \Delta = (\delta_i + \delta_j) \sqrt{\frac{\sigma^2}{\delta_i\delta_j} - 1},
