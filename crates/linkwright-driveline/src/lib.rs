@@ -9,6 +9,8 @@
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
 //! | [`cycle`] | Newton's method for the periodic solution, and motion from cycle to cycle |
 //! | [`error`] | error of a solution in every step |
+//! | [`request`] | what is asked for, and why there is none |
+//! | [`scale`] | what errors are compared with |
 //! | [`crossings`] | where a solution passes kinks of laws |
 //! | [`starts`] | from where a periodic solution is found |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
@@ -25,5 +27,7 @@ pub mod error;
 pub mod law;
 pub mod mesh;
 pub mod reading;
+pub mod request;
+pub mod scale;
 pub mod starts;
 pub mod steady;

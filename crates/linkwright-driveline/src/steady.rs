@@ -4,10 +4,12 @@
 
 use crate::chain::Chain;
 use crate::crossings::{Crossing, crossings};
-use crate::cycle::{Cycle, Stop};
+use crate::cycle::Cycle;
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::mesh::{Mesh, Solution};
+use crate::request::{Failure, Request};
+use crate::scale::scales;
 use crate::starts::{Rough, rough};
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
@@ -38,9 +40,6 @@ const POWER: f64 = 6.0;
 /// Phase \[rad\] of a vibration in a step: the method errs by 2.2·10⁻⁹ times its tenth power.
 const ANGLE_OF_VIBRATION: f64 = 1.3;
 
-/// Twists \[rad\] that count as none.
-const NO_TWIST: f64 = 1e-12;
-
 /// Angles \[rad\] that are one.
 const SAME_ANGLE: f64 = 1e-9;
 
@@ -59,37 +58,6 @@ pub struct Steady {
     pub cycles: usize,
     /// Cycles of the mechanism after which it repeats.
     pub multiple: usize,
-}
-
-/// Why there is none.
-#[derive(Clone, Copy, Debug)]
-pub enum Failure {
-    /// The crank comes to rest, or turns back.
-    Stops(Stop),
-    /// Neither Newton's method nor the motion in time comes to a periodic motion: the smallest difference of its last cycles, over
-    /// the largest of each number of the state.
-    NotFound(f64),
-    /// Steps cannot be divided further.
-    Inaccurate(f64),
-}
-
-/// What is asked for.
-#[derive(Clone, Debug)]
-pub struct Request {
-    /// Relative accuracy.
-    pub accuracy: f64,
-    /// Speed of the crank to begin with \[rad/s\].
-    pub speed: f64,
-    /// Size of the fastest eigenvalue of the driveline whose disturbances last for a cycle \[1/s\].
-    pub fastest: f64,
-    /// Cycles that are followed before Newton's method is tried.
-    pub cycles_first: usize,
-    /// Cycles that are followed at most.
-    pub cycles_max: usize,
-    /// Cycles after which a motion that is followed may repeat, at most.
-    pub multiples: usize,
-    /// State to begin with, instead of one speed without twist.
-    pub start: Option<Vec<f64>>,
 }
 
 /// Steady motion of a machine with its driveline.
@@ -191,26 +159,6 @@ fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: 
             *error = error.max(request.accuracy * (angle / ANGLE_OF_VIBRATION).powf(POWER));
         }
     }
-}
-
-/// What errors of the numbers of a state are compared with: the largest of each over the cycle. A speed against the crank counts
-/// beside the speed itself, and beside the torque that dampers make of it.
-pub(crate) fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
-    let (m, others) = (chain.states(), chain.masses() - 1);
-    let mut largest = vec![0.0_f64; m];
-    let mut torques = vec![0.0_f64; chain.links.len()];
-    for y in solution.stages.chunks_exact(m) {
-        for (largest, y) in largest.iter_mut().zip(y) {
-            *largest = largest.max(y.abs());
-        }
-        for (largest, link) in torques.iter_mut().zip(&chain.links) {
-            *largest = largest.max(chain.torque(link, y).value.abs());
-        }
-    }
-    let damped = chain.links.iter().zip(&torques).filter(|(link, _)| link.law.damping > 0.0);
-    let beside = damped.map(|(link, torque)| torque / link.law.damping).fold(largest[m - 1], f64::min);
-    let floor = |r: usize| if r < others { NO_TWIST } else { beside };
-    (0..m).map(|r| largest[r].max(floor(r))).collect()
 }
 
 /// Ends of steps after those with too large an error are divided.
