@@ -9,13 +9,15 @@ from loose_drives import Law, LooseDrive, loose_cycle, random_loose_drive
 from sizes import random_cases
 
 import linkwright as lw
+from linkwright.driveline.chain import chain_of
 from linkwright.driveline.parametric import parametric_zones
+from linkwright.driveline.solving import multipliers_of, ready, solved
 
 
 def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down_here() -> None:
     """Start, multipliers, period, losses and extremes of drives with up to three links."""
     refused = 0
-    for number, rng in random_cases(4802, 4, 200):
+    for number, rng in random_cases(4802, 1, 200):
         loose = random_loose_drive(rng)
         try:
             motion = lw.elastic_motion(loose.machine, angles=np.zeros(1))
@@ -90,7 +92,7 @@ def written(stiffness: float, damping: float, backlash: float) -> LooseDrive:
     """The same drive by its equations, at the crank: a motor of any inertia keeps its speed."""
     drive = Drive(
         machine=None,
-        inertia=np.array([1e30, 1.0 + 0.02 * 25]),
+        inertia=np.array([1e30, 1.0]),
         stiffness=np.array([stiffness]),
         damping=np.array([damping]),
         ratio=np.array([1.0]),
@@ -144,17 +146,6 @@ def test_a_branch_turns_where_a_multiplier_of_an_independent_integration_is_one(
         assert np.abs(np.linalg.eigvals(slopes) - 1).min() < 1e-4
 
 
-def test_a_motion_that_repeats_after_two_revolutions_is_found() -> None:
-    """Behind a period doubling the machine comes to a motion of two cycles, which is stable."""
-    motion = lw.elastic_motion(rattling(11.8e3, 20.0), angles=np.zeros(1))
-    assert motion.turns == 2
-    assert motion.is_stable
-    start = np.array([motion.twist[0, 0], motion.speed[0, 0] / 5, motion.speed[-1, 0]])
-    found = loose_cycle(written(11.8e3, 20.0, 0.02), start, 2)
-    assert found.end == pytest.approx(start, rel=1e-6, abs=1e-8)
-    assert motion.period == pytest.approx(found.period, rel=1e-8)
-
-
 @pytest.mark.parametrize(
     ("line", "by", "message"),
     [
@@ -174,14 +165,16 @@ def test_growth_in_a_zone_of_parametric_resonance_is_that_of_the_multipliers() -
     """Speed at a natural frequency, J(φ) of order 2: first-order growth to a tenth where J changes little."""
     for number, rng in random_cases(4803, 6, 200):
         mass, c = rng.uniform(5.0, 15.0), rng.uniform(0.0, 0.3)
-        J = 3.5 + 0.5 * mass * 0.2**2
+        J = 3.0 + 0.5 * mass * 0.2**2
         k = J * (10.0 * (1 + rng.uniform(-0.2, 0.2) * mass * 0.04 / 4 / J)) ** 2
         text = RATTLING.format(stiffness=k, damping=c, backlash=0).replace("mass = 60", f"mass = {mass}")
         text = text.replace("inertia = 1\n", "inertia = 3\n").replace("damping = 30", "damping = 0.1")
         machine = lw.loads(text.replace("rod = 0.7", "rod = 10.0"))
-        motion = lw.elastic_motion(machine)
-        zones = [zone for zone in parametric_zones(machine, motion.speed_mean_time) if zone.order == 2]
-        exponent = np.log(motion.multiplier_max) / motion.period
+        # The motion about which disturbances grow, not the one to which they lead.
+        chain = chain_of(machine)
+        motion, _ = solved(ready(machine), chain, 1e-9)
+        zones = [zone for zone in parametric_zones(machine, 2 * np.pi / motion.period) if zone.order == 2]
+        exponent = np.log(abs(multipliers_of(motion, chain)[0])) / motion.period
         rate = 0.25 * 0.5 * mass * 0.04 / J * 10.0
         assert zones, number
         assert zones[0].growth == pytest.approx(exponent, abs=0.1 * rate), number
