@@ -2,8 +2,8 @@
 //!
 //! A law of a link passes from one form to another where its twist meets a flank or a point of its curve, or where its damper is held
 //! back; the characteristic of a motor bends at some speeds. These angles follow from the solution, and the solution from them: both
-//! are found in turn. The vector field is continuous there, so that an end of a step which is off by d costs an error in proportion
-//! to d², and each turn doubles the digits.
+//! are found alternately. The vector field is continuous there, so that an end of a step which is off by d costs an error in proportion
+//! to d², and each round doubles the digits.
 
 use crate::chain::Link;
 use crate::equation::Equation;

@@ -227,7 +227,7 @@ impl<'a> Cycle<'a> {
     }
 }
 
-/// Share of the next correction that is taken: between two forms of a law Newton's method may step to and fro, which shorter steps
+/// Share of the next correction that is taken: between two forms of a law Newton's method may alternate, which shorter steps
 /// end.
 pub(crate) fn damping(damped: f64, sweep: usize, left: f64) -> f64 {
     if sweep > UNDAMPED && left > 1.0 - 0.5 * damped {

@@ -177,7 +177,8 @@ def elastic_branches(
     if not (np.isfinite([first, last]).all() and first != last):
         raise InputError(f"range: found {first:g} to {last:g}, expected two different finite numbers")
     family = _Family(machine, address, first, last)
-    branches, ends = [], []
+    branches: list[ElasticBranch] = []
+    ends: list[DrivelineMotion] = []
     refused: list[Exception] = []
     for place, direction in ((0.0, 1.0), (1.0, -1.0)):
         try:
