@@ -164,7 +164,7 @@ CASES = {
     ),
     "elastic": Case(
         "{coupling} --over drive.crankshaft.stiffness --from 20000 --to 22000",
-        "{coupling} --set drive.motor.torque_breakdown=90 --set drive.motor.torque_start=80",
+        "{coupling} --set loads.rolling1.force=1e5",
         "{coupling} --over drive.crankshaft.stiffness",
     ),
     "plot": Case(
