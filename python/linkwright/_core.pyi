@@ -86,6 +86,7 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_branch",
     "driveline_in_time",
     "driveline_motion",
     "driveline_rows",
@@ -1219,6 +1220,8 @@ class DrivelineMotion:
     accuracy: Final[float]
     steps: Final[int]
     cycles: Final[int]
+    multiple: Final[int]
+    start: Final[_Floats]
 
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
@@ -1226,8 +1229,9 @@ class DrivelineMotion:
     def gradient(self, directions: _Floats) -> DrivelineGradient:
         """Derivatives along directions of all numbers, of the plan and then of the driveline, (numbers, n).
 
-        The driveline's are inertias, what is apart, stiffness and damping of each link, numbers of drivers
-        and of loads, ratio and phase of each station, damping and share of each mass in `swing`.
+        The driveline's are inertias, what is apart, stiffness, damping, half of the backlash and points of
+        the curve of each link, numbers of drivers and loads, ratio and phase of each station, damping and
+        share of each mass in `swing`.
         """
 
     def curves_along(self, directions: _Floats, phi: _Floats) -> _Floats:
@@ -1347,14 +1351,37 @@ def driveline_motion(
     fastest: float,
     cycles_first: int,
     cycles_max: int,
+    multiples: int,
+    start: _Floats | None,
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
     `chain`: `inertia` of all masses but the crank; `apart`, what of the plan's inertia is not at the crank;
-    `first`, `second`, `stiffness` and `damping` of links; lists `drivers` and `loads` of `DrivelineTorque`,
-    `stations` of `DrivelineStation`; `swing`, damping of every mass against the rotation of all with its
-    share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for `cycles_first`
-    cycles at first, for `cycles_max` at most.
+    `first`, `second`, `stiffness`, `damping` and `gap`, half of the backlash, of links; `curves`, twists,
+    torques and slopes of those that are not straight, None of the others; lists `drivers` and `loads` of
+    `DrivelineTorque`, `stations` of `DrivelineStation`; `swing`, damping of every mass against the rotation
+    of all with its share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for
+    `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to `multiples` of them, from
+    a state `start` if given.
+    """
+
+def driveline_branch(
+    plan: Plan,
+    *,
+    nodes: Sequence[float],
+    machines: Sequence[tuple[_Floats, Mapping[str, Any]]],
+    accuracy: float,
+    fastest: float,
+    parameter: float,
+    start: DrivelineMotion,
+    direction: float,
+    points_max: int,
+) -> tuple[list[tuple[float, bool, DrivelineMotion]], str]:
+    """A branch of steady motions over a parameter from one of them in a direction, to an end of its range.
+
+    `nodes`, `machines`: parameters, with numbers of the plan and masses and links of `driveline_motion`;
+    between them numbers are polynomials. Gives parameter, whether it turns back there, and motion of each;
+    why the branch ends: ``"range"``, ``"points"`` or ``"short"``, where steps became too short.
     """
 
 @final

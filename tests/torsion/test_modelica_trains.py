@@ -67,7 +67,10 @@ def test_first() -> None:
             shafts={"spring": {"between": ["output", "load"], "stiffness": 1e4}},
             loads={"damper": {"on": "output", "torque": 10.0, "speed": 1.0, "exponent": 1.0}},
             excitations={
-                "sine": {"on": "motor", "harmonics": [{"frequency": 5.0, "torque": 10.0, "phase": -np.pi / 2}]}
+                "sine": {
+                    "on": "motor",
+                    "harmonics": [{"frequency": 5.0, "torque": 10.0, "phase": -np.pi / 2}],
+                }
             },
             transient={"duration": 1.0, "sample_time": 1e-3, "accuracy": 1e-12},
         )
@@ -123,7 +126,9 @@ def test_elastic_bearing() -> None:
     wanted = solve_ivp(rates, (0, 2), np.zeros(8), t_eval=moved.time, **TIGHT).y
     # The load follows with a thousandth of the speed of the shaft.
     assert moved.speed == pytest.approx(wanted[4:], abs=1e-8)
-    assert moved.torque[moved.shafts.index("seat")] == pytest.approx(1e5 * wanted[2] + 5 * wanted[6], abs=1e-5)
+    assert moved.torque[moved.shafts.index("seat")] == pytest.approx(
+        1e5 * wanted[2] + 5 * wanted[6], abs=1e-5
+    )
 
 
 def test_backlash() -> None:
@@ -145,7 +150,12 @@ def test_backlash() -> None:
                     "backlash": 2 * half,
                 }
             },
-            transient={"duration": 1.0, "sample_time": 1e-3, "accuracy": 1e-12, "twists": {"mesh": np.pi / 2}},
+            transient={
+                "duration": 1.0,
+                "sample_time": 1e-3,
+                "accuracy": 1e-12,
+                "twists": {"mesh": np.pi / 2},
+            },
         )
     )
 
@@ -157,7 +167,12 @@ def test_backlash() -> None:
 
     # The torque is continuous; steps short beside the swing of 63 rad/s meet its kinks closely.
     wanted = solve_ivp(
-        lambda t, y: [y[1], -torque(y) / J], (0, 1), [np.pi / 2, 0.0], t_eval=moved.time, max_step=2e-4, **TIGHT
+        lambda t, y: [y[1], -torque(y) / J],
+        (0, 1),
+        [np.pi / 2, 0.0],
+        t_eval=moved.time,
+        max_step=2e-4,
+        **TIGHT,
     ).y
     twist = moved.angle[0] - moved.angle[1]
     assert twist == pytest.approx(wanted[0], abs=1e-8)
@@ -233,9 +248,7 @@ def test_lossy_gear_demo_1() -> None:
     moved = torsion_transient(
         machine(
             discs=discs(a=1.0, b=1.5),
-            gears={
-                "gear": {"between": ["a", "b"], "ratio": RATIO, "kind": "internal", "efficiency": 0.5}
-            },
+            gears={"gear": {"between": ["a", "b"], "ratio": RATIO, "kind": "internal", "efficiency": 0.5}},
             excitations={
                 "sine": {"on": "a", "harmonics": [{"frequency": 1.0, "torque": 10.0, "phase": -np.pi / 2}]}
             },

@@ -1,10 +1,12 @@
 //! Steady motion of torsionally flexible drivelines at the border.
 
 use linkwright_derivatives::elastic::ElasticGradient;
+use linkwright_driveline::branch::{BranchPoint, End, Family, branch};
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
 use linkwright_driveline::reading::{Extremes as CoreExtremes, Measures, Reading};
-use linkwright_driveline::steady::{Failure, Request, Steady, steady};
+use linkwright_driveline::request::{Failure, Request};
+use linkwright_driveline::steady::{Steady, steady};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -71,6 +73,8 @@ pub(crate) struct DrivelineMotion {
     steps: usize,
     #[pyo3(get)]
     cycles: usize,
+    #[pyo3(get)]
+    multiple: usize,
     plan: Py<Plan>,
     q: Vec<f64>,
     chain: Chain,
@@ -106,8 +110,49 @@ pub(crate) fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Tabl
     Ok(column(py, list).reshape([rows, columns])?.unbind())
 }
 
+impl DrivelineMotion {
+    fn new(
+        py: Python<'_>,
+        plan: &Py<Plan>,
+        (q, chain): (Vec<f64>, Chain),
+        steady: Steady,
+        measures: Measures,
+    ) -> PyResult<Self> {
+        Ok(DrivelineMotion {
+            period: measures.period,
+            speed: extremes(py, &measures.speed)?,
+            acceleration: extremes(py, &measures.acceleration)?,
+            twist: extremes(py, &measures.twist)?,
+            torque: extremes(py, &measures.torque)?,
+            torque_mean: column(py, measures.torque_mean.clone()).unbind(),
+            torque_rms: column(py, measures.torque_rms.clone()).unbind(),
+            loss: column(py, measures.loss.clone()).unbind(),
+            torque_drive: extremes(py, &measures.drive)?,
+            torque_drive_mean: column(py, measures.drive_mean.clone()).unbind(),
+            energy_drive: column(py, measures.drive_work.clone()).unbind(),
+            energy_load: measures.load_work,
+            monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
+            accuracy: steady.reached,
+            steps: steady.mesh.steps(),
+            cycles: steady.cycles,
+            multiple: steady.multiple,
+            plan: plan.clone_ref(py),
+            q,
+            chain,
+            steady,
+            measures,
+        })
+    }
+}
+
 #[pymethods]
 impl DrivelineMotion {
+    /// State at the start of the cycle.
+    #[getter]
+    fn start(&self, py: Python<'_>) -> Array {
+        column(py, self.steady.solution.start.clone()).unbind()
+    }
+
     fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<DrivelineCurves> {
         let (phi, n, links) = (phi.as_slice()?, self.chain.masses(), self.chain.links.len());
         let drivers = self.chain.drivers.len();
@@ -166,7 +211,7 @@ impl DrivelineMotion {
 }
 
 #[pyfunction]
-#[pyo3(signature = (plan, q, chain, *, accuracy, speed, fastest, cycles_first, cycles_max))]
+#[pyo3(signature = (plan, q, chain, *, accuracy, speed, fastest, cycles_first, cycles_max, multiples, start))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
     plan: Bound<'_, Plan>,
@@ -177,11 +222,17 @@ pub(crate) fn driveline_motion(
     fastest: f64,
     cycles_first: usize,
     cycles_max: usize,
+    multiples: usize,
+    start: Option<Floats<'_>>,
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
     let (q, chain) = (known.get().parameters(&q)?.to_vec(), chain.chain()?);
     let plan = &known.get().0;
-    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
+    let start = start.map(|start| start.as_slice().map(<[f64]>::to_vec)).transpose()?;
+    if start.as_ref().is_some_and(|start| start.len() != chain.states()) {
+        return Err(PyValueError::new_err("driveline: a start has a number for each of the state"));
+    }
+    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max, multiples, start };
     let solved = guarded(py, ANALYSIS, || {
         let found = steady(plan, &q, &chain, &request)?;
         let equation = Equation { plan, q: &q, chain: &chain };
@@ -193,33 +244,65 @@ pub(crate) fn driveline_motion(
     };
     match solved {
         Err(Failure::Stops(stop)) => none("stops", stop.phi, stop.omega, f64::NAN),
-        Err(Failure::NotFound) => none("not found", f64::NAN, f64::NAN, f64::NAN),
+        Err(Failure::NotFound(off)) => none("not found", f64::NAN, f64::NAN, off),
         Err(Failure::Inaccurate(reached)) => none("inaccurate", f64::NAN, f64::NAN, reached),
         Ok((steady, measures)) => {
-            let motion = DrivelineMotion {
-                period: measures.period,
-                speed: extremes(py, &measures.speed)?,
-                acceleration: extremes(py, &measures.acceleration)?,
-                twist: extremes(py, &measures.twist)?,
-                torque: extremes(py, &measures.torque)?,
-                torque_mean: column(py, measures.torque_mean.clone()).unbind(),
-                torque_rms: column(py, measures.torque_rms.clone()).unbind(),
-                loss: column(py, measures.loss.clone()).unbind(),
-                torque_drive: extremes(py, &measures.drive)?,
-                torque_drive_mean: column(py, measures.drive_mean.clone()).unbind(),
-                energy_drive: column(py, measures.drive_work.clone()).unbind(),
-                energy_load: measures.load_work,
-                monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
-                accuracy: steady.reached,
-                steps: steady.mesh.steps(),
-                cycles: steady.cycles,
-                plan: known.clone_ref(py),
-                q,
-                chain,
-                steady,
-                measures,
-            };
+            let motion = DrivelineMotion::new(py, &known, (q, chain), steady, measures)?;
             Ok(DrivelineOutcome::Motion(Py::new(py, motion)?))
         }
     }
+}
+
+/// A branch of steady motions over a parameter: parameter, whether it turns back there, and the motion; and why it ends.
+type Branch = (Vec<(f64, bool, Py<DrivelineMotion>)>, &'static str);
+
+#[pyfunction]
+#[pyo3(signature = (plan, *, nodes, machines, accuracy, fastest, parameter, start, direction, points_max))]
+pub(crate) fn driveline_branch(
+    py: Python<'_>,
+    plan: Bound<'_, Plan>,
+    nodes: Vec<f64>,
+    machines: Vec<(Vec<f64>, Driveline<'_>)>,
+    accuracy: f64,
+    fastest: f64,
+    parameter: f64,
+    start: Py<DrivelineMotion>,
+    direction: f64,
+    points_max: usize,
+) -> PyResult<Branch> {
+    let known = plan.unbind();
+    let chains: PyResult<Vec<_>> =
+        machines.into_iter().map(|(q, driveline)| Ok((q, driveline.chain()?))).collect();
+    let machines = chains?;
+    let alike = |(q, chain): &(Vec<f64>, Chain)| {
+        let (first, own) = &machines[0];
+        [q.len(), chain.states(), chain.numbers().len()] == [first.len(), own.states(), own.numbers().len()]
+    };
+    if machines.is_empty() || machines.len() != nodes.len() || !machines.iter().all(alike) {
+        return Err(PyValueError::new_err("driveline: machines of one structure, one for each parameter"));
+    }
+    let family = Family { plan: &known.get().0, nodes, machines };
+    let request =
+        Request { accuracy, speed: 1.0, fastest, cycles_first: 0, cycles_max: 0, multiples: 1, start: None };
+    let first = start.get().steady.clone();
+    let (points, end) = guarded(py, ANALYSIS, || {
+        let (points, end) = branch(&family, &request, (first, parameter), direction, points_max);
+        let read = |point: BranchPoint| {
+            let equation = Equation { plan: family.plan, q: &point.q, chain: &point.chain };
+            let measures = Reading { equation, steady: &point.steady }.measures();
+            (point, measures)
+        };
+        (points.into_iter().map(read).collect::<Vec<_>>(), end)
+    })?;
+    let listed = points.into_iter().map(|(point, measures)| {
+        let BranchPoint { parameter, q, chain, steady, is_fold } = point;
+        let motion = DrivelineMotion::new(py, &known, (q, chain), steady, measures)?;
+        Ok((parameter, is_fold, Py::new(py, motion)?))
+    });
+    let end = match end {
+        End::Range => "range",
+        End::Points => "points",
+        End::Short => "short",
+    };
+    Ok((listed.collect::<PyResult<_>>()?, end))
 }

@@ -1,6 +1,7 @@
 //! Masses and links of a driveline at the border.
 
 use linkwright_driveline::chain::{Chain, Link, Swing};
+use linkwright_driveline::law::{Curve, Law};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 
@@ -8,7 +9,10 @@ use crate::arrays::as_indices;
 use crate::builder::driveline::{DrivelineStation, DrivelineTorque};
 use crate::{Floats, Ints};
 
-/// A driveline as Python lists it, by name.
+/// Twists, torques and slopes at the points of a link's curve; none of a straight spring.
+type Points = Option<[Vec<f64>; 3]>;
+
+/// A driveline as Python lists it, by name; `gap` is half of the backlash of each link.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Driveline<'py> {
@@ -18,6 +22,8 @@ pub(crate) struct Driveline<'py> {
     second: Ints<'py>,
     stiffness: Floats<'py>,
     damping: Floats<'py>,
+    gap: Floats<'py>,
+    curves: Vec<Points>,
     drivers: Vec<PyRef<'py, DrivelineTorque>>,
     loads: Vec<PyRef<'py, DrivelineTorque>>,
     stations: Vec<PyRef<'py, DrivelineStation>>,
@@ -54,15 +60,17 @@ impl Driveline<'_> {
         let [first, second] =
             [as_indices(self.first.as_slice()?, masses)?, as_indices(self.second.as_slice()?, masses)?];
         let (stiffness, damping) = (self.stiffness.as_slice()?, self.damping.as_slice()?);
-        if [second.len(), stiffness.len(), damping.len()] != [first.len(); 3] {
+        let gap = self.gap.as_slice()?;
+        if [second.len(), stiffness.len(), damping.len(), gap.len(), self.curves.len()] != [first.len(); 5] {
             return Err(PyValueError::new_err("links: arrays of one length are needed"));
         }
-        let link = |i: usize| Link {
-            first: first[i],
-            second: second[i],
-            stiffness: stiffness[i],
-            damping: damping[i],
+        let wrong = || PyValueError::new_err("links: a curve has to rise from zero");
+        let link = |i: usize| {
+            let through = |[x, y, slope]: &[Vec<f64>; 3]| Curve::new(x, y, slope).ok_or_else(wrong);
+            let curve = self.curves[i].as_ref().map(through).transpose()?;
+            let law = Law { stiffness: stiffness[i], damping: damping[i], gap: gap[i], curve };
+            Ok(Link { first: first[i], second: second[i], law })
         };
-        Ok((0..first.len()).map(link).collect())
+        (0..first.len()).map(link).collect()
     }
 }

@@ -3,7 +3,7 @@
 use linkwright_core::drive::batch::Rows;
 use linkwright_driveline::batch::{Batch, Motion};
 use linkwright_driveline::reading::{Extremes, Measures};
-use linkwright_driveline::steady::{Failure, Request};
+use linkwright_driveline::request::{Failure, Request};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -103,8 +103,15 @@ pub(crate) fn driveline_rows(
     let (masses, links, states) = (chain.masses(), chain.links.len(), chain.states());
     let drivers = chain.drivers.len();
     require_room(ANALYSIS, [n, 5 + 4 * (masses + drivers) + 7 * links + states * states])?;
-    let request =
-        |(&speed, &fastest): (&f64, &f64)| Request { accuracy, speed, fastest, cycles_first: 0, cycles_max };
+    let request = |(&speed, &fastest): (&f64, &f64)| Request {
+        accuracy,
+        speed,
+        fastest,
+        cycles_first: 0,
+        cycles_max,
+        multiples: 1,
+        start: None,
+    };
     let requests: Vec<Request> = speed.iter().zip(fastest).map(request).collect();
     let numbers = numbers.as_slice()?;
     let batch = Batch { plan: &plan.0, rows: &varied, chain: &chain, numbers, requests: &requests };

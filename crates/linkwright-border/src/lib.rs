@@ -81,7 +81,9 @@ pub mod _core {
         transient_along,
     };
     #[pymodule_export]
-    use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
+    use super::driveline::{
+        DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_branch, driveline_motion,
+    };
     #[pymodule_export]
     use super::driveline_gradient::DrivelineGradient;
     #[pymodule_export]

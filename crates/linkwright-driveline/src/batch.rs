@@ -9,9 +9,11 @@ use crate::chain::Chain;
 use crate::equation::Equation;
 use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
-use crate::steady::{
-    Failure, Request, Steady, add_vibration, parts_of_step, refined, scales, speed_kinks, steady,
-};
+use crate::request::{Failure, Request};
+use crate::scale::scales;
+use crate::speed_kinks::speed_kinks;
+use crate::starts::Rough;
+use crate::steady::{Steady, add_vibration, parts_of_step, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::reduce::reductions;
@@ -110,7 +112,7 @@ impl Batch<'_> {
     }
 
     fn chunk(&self, rows: &[usize], places: &[Vec<f64>]) -> Motions {
-        if !self.chain.stations.is_empty() {
+        if !(self.chain.stations.is_empty() && self.chain.is_linear()) {
             return rows.iter().map(|&row| self.one(row)).collect();
         }
         let (mut known, mut found) = (Vec::new(), Vec::new());
@@ -165,8 +167,8 @@ impl Batch<'_> {
 
     /// A first machine, more exactly than it is asked for.
     fn first(&self, machine: &Machine, places: &[Vec<f64>]) -> Option<Known> {
-        let request = self.requests[machine.row];
-        let request = Request { accuracy: FINER * request.accuracy, ..request };
+        let request = &self.requests[machine.row];
+        let request = Request { accuracy: FINER * request.accuracy, ..request.clone() };
         let steady = steady(self.plan, &machine.q, &self.chain.with(&machine.numbers), &request).ok()?;
         Some(self.known(machine, places[machine.row].clone(), steady))
     }
@@ -186,7 +188,7 @@ impl Batch<'_> {
         let chain = self.chain.with(&machine.numbers);
         let equation = Equation { plan: self.plan, q: &machine.q, chain: &chain };
         let mut marks = machine.kinks.clone();
-        marks.extend(speed_kinks(&equation, edges, solution));
+        marks.extend(speed_kinks(&equation, edges, solution).into_iter().map(|(_, angle)| angle));
         marks.sort_by(f64::total_cmp);
         marks.dedup_by(|a, b| (*a - *b).abs() < SAME);
         marks
@@ -272,9 +274,10 @@ impl Batch<'_> {
         add_vibration(&mut errors, &mesh, &solution, request);
         let reached = errors.iter().copied().fold(0.0, f64::max);
         if reached <= request.accuracy {
-            return Ok(Steady { mesh, solution, monodromy, reached, cycles: 0 });
+            return Ok(Steady { mesh, solution, monodromy, reached, cycles: 0, multiple: 1 });
         }
-        refined(equation, mesh, (solution, monodromy, 0), request).or_else(|_| self.alone(machine))
+        let rough = Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 };
+        refined(equation, rough, request).or_else(|_| self.alone(machine))
     }
 
     fn read(&self, machine: &Machine, steady: &Steady) -> Motion {

@@ -7,7 +7,7 @@ use crate::chain::Chain;
 use crate::equation::{Equation, Rates, Row};
 use crate::error::{ERROR_OF_DEFECT, GAMMA, WATCHED};
 use crate::mesh::Solution;
-use crate::steady::scales;
+use crate::scale::scales;
 use linkwright_core::drive::law::LawGeometry;
 use linkwright_core::drive::layout::{bundle, unbundle};
 use linkwright_core::drive::reduce::Reduction;

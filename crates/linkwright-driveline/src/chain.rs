@@ -1,20 +1,19 @@
 //! The driveline as masses and links, all referred to the speed of the crank. Its numbers are plain ones or, for derivatives, duals.
 
+use crate::law::{Law, Transmitted};
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::real::Real;
 use std::sync::Arc;
 
-/// A spring with a damper between two masses: T = k Δ + c Δ˙, with the twist Δ of the first against the second.
-#[derive(Clone, Copy, Debug)]
+/// A spring with a damper between two masses: T by the twist Δ of the first against the second, and its rate.
+#[derive(Clone, Debug)]
 pub struct Link<N = f64> {
     /// Mass that T holds back.
     pub first: usize,
     /// Mass that T drives.
     pub second: usize,
-    /// k \[N m/rad\].
-    pub stiffness: N,
-    /// c \[N m s/rad\].
-    pub damping: N,
+    /// T of Δ and Δ˙.
+    pub law: Law<N>,
 }
 
 /// The structure of a machine with its numbers: a further motor, or a further mechanism.
@@ -127,13 +126,12 @@ impl Chain {
         let mut next = || rest.next().unwrap_or(N::splat(f64::NAN));
         let inertia = self.inertia.iter().map(|_| next()).collect();
         let apart = next();
-        let link = |link: &Link, next: &mut dyn FnMut() -> N| Link {
+        let link = |link: &Link| Link {
             first: link.first,
             second: link.second,
-            stiffness: next(),
-            damping: next(),
+            law: link.law.with(&mut next),
         };
-        let links = self.links.iter().map(|each| link(each, &mut next)).collect();
+        let links = self.links.iter().map(link).collect();
         let [drivers, loads] = [&self.drivers, &self.loads].map(|list| {
             let with = |each: &Torque| Torque { mass: each.mass, source: each.source.with(&mut next) };
             list.iter().map(with).collect()
@@ -159,7 +157,7 @@ impl<N: Real> Chain<N> {
     pub fn numbers(&self) -> Vec<N> {
         let mut list = self.inertia.clone();
         list.push(self.apart);
-        list.extend(self.links.iter().flat_map(|link| [link.stiffness, link.damping]));
+        self.links.iter().for_each(|link| link.law.add_numbers(&mut list));
         self.drivers.iter().chain(&self.loads).for_each(|each| each.source.add_numbers(&mut list));
         list.extend(self.stations.iter().flat_map(|each| [each.ratio, each.phase]));
         if let Some(swing) = &self.swing {
@@ -196,11 +194,23 @@ impl<N: Real> Chain<N> {
         [of(link.first, 0) - of(link.second, 0), of(link.first, others) - of(link.second, others)]
     }
 
-    /// Torque of a link \[N m\].
+    /// Whether all links are straight springs with dampers.
+    pub fn is_linear(&self) -> bool {
+        self.links.iter().all(|link| link.law.is_linear())
+    }
+
+    /// Torque of a link \[N m\] with its slopes by twist and rate.
     #[inline(always)]
-    pub fn torque(&self, link: &Link<N>, y: &[N]) -> N {
+    pub fn torque(&self, link: &Link<N>, y: &[N]) -> Transmitted<N> {
         let [twist, rate] = self.twist(link, y);
-        link.stiffness * twist + link.damping * rate
+        link.law.torque(twist, rate)
+    }
+
+    /// The same by the form that its law has at another state.
+    #[inline(always)]
+    pub fn torque_like(&self, link: &Link<N>, y: &[N], near: &[N]) -> Transmitted<N> {
+        let ([twist, rate], [t, r]) = (self.twist(link, y), self.twist(link, near));
+        link.law.of_zone(link.law.zone(t, r), twist, rate)
     }
 
     /// Angle of a mass at a crank angle \[rad\].

@@ -23,6 +23,12 @@ use linkwright_kernel::real::Real;
 /// A driver that keeps its speed corrects it within this share of a radian of the crank; the periodic motion has none to correct.
 const CORRECTION: f64 = 0.01;
 
+/// How far before a kink \[rad\] a mechanism is read, from where its values are taken on by their slopes.
+const BEFORE: f64 = 1e-7;
+
+/// State whose forms laws of links have, and how far before a kink further mechanisms are read.
+type Side<'y, N> = (Option<&'y [N]>, f64);
+
 /// The mechanism at one crank angle.
 #[derive(Clone, Copy)]
 pub struct Row<'a, N = f64> {
@@ -80,6 +86,11 @@ impl<N: Real> Rates<N> {
             inertia: vec![[zero; 2]; n],
             places: chain.stations.iter().map(Place::new).collect(),
         }
+    }
+
+    /// Inertia of a mass \[kg m²\].
+    pub fn inertia(&self, mass: usize) -> N {
+        self.inertia[mass][0]
     }
 
     fn add_load(&mut self, torque: N, speed: N) {
@@ -149,20 +160,23 @@ impl<N: Real> Equation<'_, N> {
 
     /// Accelerations of a state, with their derivatives.
     #[inline(always)]
-    fn accelerations(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
+    fn accelerations(&self, row: &Row<'_, N>, y: &[N], (like, before): Side<'_, N>, to: &mut Rates<N>) {
         let chain = self.chain;
         let (n, m, crank, zero) = (chain.masses(), chain.states(), chain.masses() - 1, N::splat(0.0));
         to.acceleration.fill(zero);
         to.slopes.fill(zero);
         for link in &chain.links {
-            let torque = chain.torque(link, y);
+            let torque = match like {
+                None => chain.torque(link, y),
+                Some(near) => chain.torque_like(link, y, near),
+            };
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
-                add(&mut to.acceleration, mass, torque * sign);
+                add(&mut to.acceleration, mass, torque.value * sign);
                 let slopes = &mut to.slopes[mass * m..][..m];
                 for (end, side) in [(link.first, sign), (link.second, -sign)] {
                     if end < crank {
-                        add(slopes, end, link.stiffness * side);
-                        add(slopes, crank + end, link.damping * side);
+                        add(slopes, end, torque.by_twist * side);
+                        add(slopes, crank + end, torque.by_rate * side);
                     }
                 }
             }
@@ -184,7 +198,7 @@ impl<N: Real> Equation<'_, N> {
         add(&mut to.acceleration, crank, -(load.value + r.J_d1 * omega * omega * 0.5));
         add(&mut to.slopes, crank * m + m - 1, -(load.d + r.J_d1 * omega));
         to.add_load(load.value, omega);
-        self.add_stations(row, y, to);
+        self.add_stations(row, y, before, to);
         for mass in 0..n {
             let [inertia, inertia_d1] = to.inertia[mass];
             let inverse = inertia.recip();
@@ -238,14 +252,14 @@ impl<N: Real> Equation<'_, N> {
 
     /// Adds further mechanisms.
     #[inline(always)]
-    fn add_stations(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
+    fn add_stations(&self, row: &Row<'_, N>, y: &[N], before: f64, to: &mut Rates<N>) {
         let chain = self.chain;
         let (m, crank) = (chain.states(), chain.masses() - 1);
         for (at, station) in chain.stations.iter().enumerate() {
             let mass = station.mass;
             let speed = chain.speed(mass, y);
             let Felt { inertia, inertia_d1, inertia_d2, load, load_by_angle, load_by_speed } =
-                to.places[at].felt(station, chain.angle(mass, row.phi, y), speed);
+                to.places[at].felt(station, chain.angle(mass, row.phi, y), speed, before);
             add(&mut to.acceleration, mass, -(load + inertia_d1 * speed * speed * 0.5));
             let [own, own_d1] = to.inertia[mass];
             to.inertia[mass] = [own + inertia, own_d1 + inertia_d1];
@@ -285,12 +299,19 @@ impl<N: Real> Equation<'_, N> {
     /// Rates of a state and their Jacobian.
     #[inline(always)]
     pub fn rates(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
-        out_of_line!(N, self.rates_inline(row, y, to));
+        out_of_line!(N, self.rates_inline(row, y, (None, 0.0), to));
+    }
+
+    /// The same before a kink, at the end of a step: further mechanisms as they are just before, and laws of links in the form that
+    /// they have at another state, if one is given.
+    #[inline(always)]
+    pub fn rates_before(&self, row: &Row<'_, N>, y: &[N], like: Option<&[N]>, to: &mut Rates<N>) {
+        out_of_line!(N, self.rates_inline(row, y, (like, BEFORE), to));
     }
 
     #[inline(always)]
-    fn rates_inline(&self, row: &Row<'_, N>, y: &[N], to: &mut Rates<N>) {
-        self.accelerations(row, y, to);
+    fn rates_inline(&self, row: &Row<'_, N>, y: &[N], side: Side<'_, N>, to: &mut Rates<N>) {
+        self.accelerations(row, y, side, to);
         let (m, crank) = (self.chain.states(), self.chain.masses() - 1);
         let inverse = y[m - 1].recip();
         let a = to.acceleration[crank];

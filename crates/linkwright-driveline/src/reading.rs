@@ -108,7 +108,11 @@ impl<'a> Reading<'a> {
             let h = steady.mesh.length(k);
             for i in 0..S {
                 let (y, row) = (steady.solution.stage(k, i), steady.mesh.rows.row(k * S + i));
-                self.equation.rates(&row, y, &mut rates);
+                if i == S - 1 {
+                    self.equation.rates_before(&row, y, None, &mut rates);
+                } else {
+                    self.equation.rates(&row, y, &mut rates);
+                }
                 for (part, &x) in rates.acceleration.iter().chain(&rates.drive).enumerate() {
                     at_stages[(part * steps + k) * S + i] = x;
                 }
@@ -125,7 +129,7 @@ impl<'a> Reading<'a> {
                 .map(|mass| self.of_rates(stages(mass), &|rates| rates.acceleration[mass]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
-            torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
+            torque: links.iter().map(|link| of(&|y| chain.torque(link, y).value)).collect(),
             torque_mean: torques(0),
             torque_rms: torques(1),
             loss: work.links.iter().map(|sums| sums[2]).collect(),
@@ -230,7 +234,9 @@ impl<'a> Reading<'a> {
             }
             found.load.push(rates.load);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
-            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
+            links.extend(
+                chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]),
+            );
         }
         let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
             (0..parts)

@@ -56,12 +56,13 @@ impl Place {
         Place { motion: Motion::new(&station.part.plan.mechanism, &q), q, geometry: Vec::new() }
     }
 
-    /// What a mass at an angle, with a speed, feels of its mechanism.
+    /// What a mass at an angle, with a speed, feels of its mechanism, as that is a little `before` \[rad\].
     #[inline(always)]
-    pub fn felt<N: Real>(&mut self, station: &Station<N>, theta: N, speed: N) -> Felt<N> {
+    pub fn felt<N: Real>(&mut self, station: &Station<N>, theta: N, speed: N, before: f64) -> Felt<N> {
         let r = station.ratio;
         let (psi, omega) = (r * theta + station.phase, r * speed);
-        let [J, J_d1, J_d2, load, by_angle, by_speed] = self.along(&station.part.plan, psi, omega);
+        let [J, J_d1, J_d2, load, by_angle, by_speed] = self.along(&station.part.plan, psi - before, omega);
+        let (J, J_d1, load) = (J + J_d1 * before, J_d1 + J_d2 * before, load + by_angle * before);
         let square = r * r;
         Felt {
             inertia: square * J,

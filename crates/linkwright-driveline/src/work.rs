@@ -36,9 +36,9 @@ impl<N: Real> Work<N> {
         }
         for (link, sums) in chain.links.iter().zip(&mut self.links) {
             let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
-            sums[0] = sums[0] + dt * torque;
-            sums[1] = sums[1] + dt * torque * torque;
-            sums[2] = sums[2] + dt * link.damping * rate * rate;
+            sums[0] = sums[0] + dt * torque.value;
+            sums[1] = sums[1] + dt * torque.value * torque.value;
+            sums[2] = sums[2] + dt * torque.damper * rate;
         }
     }
 

@@ -16,7 +16,8 @@ import numpy as np
 from linkwright.drive.batch import columns_of
 from linkwright.drive.load_checks import require_same_turns
 from linkwright.driveline.chain import Chain, chain_of, fastest_of, has_hysteresis, listed
-from linkwright.driveline.elastic_motion import ANGLES, CYCLES, ElasticMotion, measures
+from linkwright.driveline.elastic_motion import ElasticMotion, measures
+from linkwright.driveline.solving import ANGLES, CYCLES
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.numerics.tangent import lifted
@@ -195,4 +196,5 @@ def _one_by_one(
 def _form(chain: Chain) -> tuple[Any, ...]:
     links = chain.links
     ends = (links["first"].tolist(), links["second"].tolist(), chain.held)
-    return chain.stations, chain.shafts, chain.mass.tolist(), *ends
+    knots = [None if curve is None else len(curve[0]) for curve in links["curves"]]
+    return chain.stations, chain.shafts, chain.mass.tolist(), knots, *ends

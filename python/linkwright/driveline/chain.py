@@ -8,6 +8,7 @@ mechanisms is in `train_chain`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.arrays import Floats, Integers
-from linkwright.kernel.numerics.tangent import numbers
+from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
@@ -24,6 +25,7 @@ from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mean_inertia
 from linkwright.torsion.in_time.moving_train import shaft_damping
 from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
+from linkwright.torsion.model.train import Train
 
 # Share of a disturbance below which it is gone.
 _GONE = 1e-8
@@ -84,6 +86,25 @@ class Chain(NamedTuple):
     notes: tuple[str, ...]  # what was assumed
 
     @property
+    def is_linear(self) -> bool:
+        """Whether no link has backlash or a curve."""
+        return not primal(self.links["gap"]).any() and all(curve is None for curve in self.links["curves"])
+
+    @property
+    def speed_held(self) -> float | None:
+        """Speed of the crank where a driver keeps its own [rad/s]."""
+        kept = [each.numbers[0] for each in self.links["drivers"] if each.kind == "held"]
+        return float(kept[0]) if kept else None
+
+    @property
+    def joins(self) -> Floats:
+        """Twists of the links by angles of the masses, (shafts, masses)."""
+        rows = np.arange(len(self.shafts))
+        joins = np.zeros((len(rows), len(self.links["inertia"]) + 1))
+        joins[rows, self.links["first"]], joins[rows, self.links["second"]] = 1.0, -1.0
+        return joins
+
+    @property
     def core(self) -> dict[str, Any]:
         """Masses, links, torques and mechanisms as the core takes them."""
         made = {name: [each.core() for each in self.links[name]] for name in _MADE}
@@ -91,6 +112,14 @@ class Chain(NamedTuple):
 
 
 _MADE = ("drivers", "loads", "stations")
+
+
+class Driven(NamedTuple):
+    """A driveline with its mechanisms, ready for steady motion."""
+
+    compiled: CompiledMachine  # the mechanism at the crank, over the cycle of all
+    chain: Chain
+    speed: float  # of the crank, with which the search begins [rad/s]
 
 
 def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
@@ -102,7 +131,8 @@ def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
     assert drive is not None
     if mechanism is None:
         mechanism = mean_inertia(machine) if has_hysteresis(drive) else _ANY
-    referred = refer(drive_train(drive, mechanism))
+    train = drive_train(drive, mechanism)
+    referred = refer(train)
     crank = referred.discs.index(CRANK)
     # All was referred to the first disc.
     n = 1.0 / referred.speed[crank]
@@ -114,7 +144,7 @@ def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
         referred.shafts.index(name) for name in (MOTOR_SHAFT, GEARS, CRANKSHAFT) if name in referred.shafts
     ]
     own = inertia[referred.mass[crank]] - mechanism
-    links = links_of(referred, n, order, row, damping)
+    links = links_of(train, referred, n, order, row, damping)
     links["apart"] = drive_inertia(drive) - own
     held = None
     driver = Outside(int(order[referred.mass[_driven(referred)]]))
@@ -145,21 +175,42 @@ def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
 
 
 def links_of(
-    referred: ReferredTrain, n: Any, order: Integers, row: list[int], damping: Any
+    train: Train, referred: ReferredTrain, n: Any, order: Integers, row: list[int], damping: Any
 ) -> dict[str, Any]:
     """Masses but the crank, and links, as the core takes them; tangents go through.
 
     `n`: speed of the first disc over that of the crank; `order`: new number of each mass; `row`: which
     shafts; `damping`: of all, at their own speeds [N m s/rad].
     """
+    names = [referred.shafts[k] for k in row]
     ends = np.where(referred.ends == HELD, len(order), np.append(order, 0)[referred.ends])[row]
     return {
         "inertia": (referred.inertia * n**2)[np.argsort(order)[:-1]],
         "first": np.ascontiguousarray(ends[:, 0], dtype=np.int32),
         "second": np.ascontiguousarray(ends[:, 1], dtype=np.int32),
-        "stiffness": referred.stiffness[row] * n**2,
         "damping": damping[row] * (referred.lead[row] * n) ** 2,
+        **_laws(train, names, referred.stiffness[row] * n**2, referred.lead[row] * n),
     }
+
+
+def _laws(train: Train, names: list[str], stiffness: Any, lead: Any) -> dict[str, Any]:
+    """Stiffness of each link, half of its backlash, and its curve, with the steepest slope as stiffness."""
+    parts = [train.gears.get(name) or train.couplings.get(name) or train.shafts[name] for name in names]
+    gaps = [getattr(part, "backlash", 0.0) / 2 for part in parts]
+    slopes, curves = list(stiffness), list[Any]()
+    for k, (part, n) in enumerate(zip(parts, lead, strict=True)):
+        curves.append(None)
+        if getattr(part, "twist", None) is not None:
+            twist, torque, slope = part.points
+            curves[k] = (twist / n, torque * n, slope * n**2)
+            slopes[k] = _steepest(*(primal(points) for points in curves[k]))
+    return {"stiffness": numbers(slopes), "gap": numbers(gaps) / lead, "curves": curves}
+
+
+def _steepest(twist: Floats, torque: Floats, slope: Floats) -> float:
+    """A bound of the slope of the cubics through points [N m/rad]."""
+    chord = np.diff(torque) / np.diff(twist)
+    return float(max(slope.max(), 1.5 * chord.max()))
 
 
 def has_hysteresis(drive: Drive) -> bool:
@@ -195,11 +246,20 @@ def _held(links: dict[str, Any]) -> dict[str, Any]:
 def listed(chain: Chain) -> Any:
     """Numbers of a driveline in the core's order, which may be tangents: see `Chain::numbers` there."""
     links = chain.links
-    of_links = [x for name in zip(links["stiffness"], links["damping"], strict=True) for x in name]
+    of_links = list(_of_links(links))
     outside = [x for each in (*links["drivers"], *links["loads"]) for x in each.numbers]
     stations = [x for each in links["stations"] for x in (each.ratio, each.phase)]
     swing = [] if links["swing"] is None else [x for part in links["swing"] for x in part]
     return numbers([*links["inertia"], links["apart"], *of_links, *outside, *stations, *swing])
+
+
+def _of_links(links: dict[str, Any]) -> Iterator[Any]:
+    """Stiffness, damping, half of the backlash and points of the curve of every link."""
+    names = ("stiffness", "damping", "gap", "curves")
+    for *rates, curve in zip(*(links[name] for name in names), strict=True):
+        yield from rates
+        for point in zip(*(curve or ()), strict=True):
+            yield from point
 
 
 def fastest(chain: Chain, inertia: float, period: float) -> float:
@@ -213,12 +273,12 @@ def fastest(chain: Chain, inertia: float, period: float) -> float:
 
 def fastest_of(chain: Chain, rows: Floats, inertia: Floats, period: Floats) -> Floats:
     """The same of drivelines of one form, (n,). `rows`: their numbers as `listed` has them, (n, numbers)."""
-    links, others, shafts = chain.links, len(chain.links["inertia"]), len(chain.shafts)
+    links, others = chain.links, len(chain.links["inertia"])
     apart = rows[:, others]
-    stiffness, damping = (rows[:, others + 1 + k : others + 1 + 2 * shafts : 2] for k in (0, 1))
-    joins = np.zeros((shafts, others + 1))
-    at = np.arange(shafts)
-    joins[at, links["first"]], joins[at, links["second"]] = 1.0, -1.0
+    sizes = [3 + (0 if curve is None else 3 * len(curve[0])) for curve in links["curves"]]
+    at = others + 1 + np.cumsum([0, *sizes[:-1]])
+    stiffness, damping = rows[:, at], rows[:, at + 1]
+    joins = chain.joins
     J = np.column_stack([rows[:, :others], np.maximum(inertia - apart, 0.0)]) + chain.felt
     if chain.held is not None:
         joins[:, chain.held] = 0.0

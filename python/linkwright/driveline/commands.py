@@ -1,10 +1,11 @@
-"""``linkwright transient FILE``: motion in time, of an elastic driveline where ``[drive]`` has one."""
+"""``linkwright transient FILE``: motion in time; ``linkwright elastic FILE``: steady elastic motion."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -22,14 +23,15 @@ from linkwright.drive.commands import (
 )
 from linkwright.drive.commands import transient as rigid_transient
 from linkwright.kernel.command.answer import Answer
-from linkwright.kernel.command.common import ZeroAt
-from linkwright.kernel.command.parameter import Option
+from linkwright.kernel.command.common import FolderOutput, ZeroAt, belong_to, to_folder
+from linkwright.kernel.command.parameter import Group, Option
 from linkwright.kernel.command.value import option_value
 from linkwright.kernel.errors import InputError, require_within, show
 from linkwright.kernel.later import at_place, later
 from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.units.kinds import TIME
 from linkwright.machine.file_argument import File, MachineFile
+from linkwright.machine.machine import Machine
 
 if TYPE_CHECKING:
     from linkwright.driveline.in_time import DriveSwitch, ElasticTransient
@@ -194,3 +196,88 @@ def _csv(course: ElasticTransient, zero: Zero) -> str:
                 columns[f"{name}_{curve} [{course.unit_of(curve)}]"] = getattr(course, curve)[k]
     columns |= {f"{name} [N m]": getattr(course, name) for name in ("torque_drive", "torque_load")}
     return columns_csv(columns)
+
+
+Over = Annotated[
+    str | None,
+    Option("--over", "ADDRESS", 'Follow the motion over this number, such as "drive.crankshaft.stiffness".'),
+]
+First = Annotated[str | None, Option("--from", "VALUE", 'First end of its range, such as "5 kN m/rad".')]
+Last = Annotated[str | None, Option("--to", "VALUE", "Other end of its range.")]
+ToFolder = Annotated[FolderOutput, to_folder("Write results.json and the figure as SVG and PNG there.")]
+
+
+@dataclass(frozen=True)
+class RangeOptions:
+    """The number that is changed."""
+
+    over: Over = None
+    first: First = None
+    last: Last = None
+
+
+def elastic(file: File, *, along: Annotated[RangeOptions, Group(RangeOptions)], to: ToFolder) -> None:
+    """Steady motion of a torsionally flexible driveline with its mechanism.
+
+    Torques of the shafts, motion of the stations, Floquet multipliers, and further steady motions where links
+    have backlash or a torque curve. With --over: the branch of steady motions over a number of the file, also
+    through folds, with the motions that are stable and the points where their stability changes. Exit code 1
+    if there is no steady motion, or a permitted torque is exceeded.
+
+    Example: linkwright elastic press.toml --over drive.crankshaft.stiffness --from "5 kN m/rad" --to
+    "50 kN m/rad".
+    """
+    if along.over is None:
+        belong_to("--over", "first", "last")
+    machine = file.read()
+    to.hand_over(_motion(machine) if along.over is None else _branches(machine, along.over, along))
+
+
+def _motion(machine: Machine) -> Answer:
+    from linkwright.driveline.elastic_motion import elastic_motion
+
+    motion = elastic_motion(machine, others=True)
+    return Answer(
+        machine=machine,
+        results=lambda curves: {"elastic_motion": motion.to_dict(curves=curves)},
+        findings=motion.findings,
+        tables=later("driveline.tables:elastic_tables", motion),
+        figures={"elastic_motion": later("driveline.figures:elastic_figure", motion)},
+    )
+
+
+def _branches(machine: Machine, address: str, along: RangeOptions) -> Answer:
+    from linkwright.driveline.branches import elastic_branches
+
+    first, last = (
+        _value(machine, address, option, text)
+        for option, text in (("--from", along.first), ("--to", along.last))
+    )
+    branches = elastic_branches(machine, address, first, last)
+    return Answer(
+        machine=machine,
+        results=lambda _: {"elastic_branches": branches.to_dict()},
+        tables=later("driveline.branch_tables:branch_tables", branches),
+        figures={"elastic_branches": later("driveline.branch_tables:branch_figure", branches)},
+    )
+
+
+def _is_plain(text: str) -> bool:
+    """Whether a text is a plain number, which is taken in SI."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _value(machine: Machine, address: str, option: str, text: Any) -> float:
+    from linkwright.machine.address import kind
+    from linkwright.machine.size_limits import parsed
+
+    its_kind = kind(machine, address)
+    if its_kind is None:
+        raise InputError(f"--over: found {address}, expected the address of a number")
+    if text is None:
+        raise InputError(f"{option}: found nothing, expected an end of the range of {address}")
+    return parsed(option, float(text) if _is_plain(text) else text, its_kind)

@@ -28,10 +28,10 @@ from linkwright.driveline.chain import Chain, chain_of, has_hysteresis, listed
 from linkwright.driveline.elastic_motion import (
     ElasticMotion,
     measures,
-    multipliers_of,
     result_of,
     solved_motion,
 )
+from linkwright.driveline.solving import multipliers_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, Kinks, as_high, chosen, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent, lifted
@@ -64,15 +64,16 @@ def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
 
     Raises what `elastic_motion` raises.
     """
-    compiled, chain, motion = solved_motion(machine, _ACCURACY)
+    solved = solved_motion(machine, _ACCURACY)
+    compiled, chain, motion = solved.driven.compiled, solved.chain, solved.motion
     refused: dict[str, str] = {}
     along, moved, values = _directions(machine, variables, refused)
-    steady = result_of(machine, motion, chain, np.zeros(1), compiled.turns)
+    steady = result_of(machine, motion, chain, np.zeros(1), solved.turns)
     if not along.variables:
         return Derivatives((), {}, {}, {}, refused)
     gradient = motion.gradient(values)
     numbers = SimpleNamespace(**dict(_tangents(motion, gradient)))
-    whole = replace(steady, ratio=moved.ratio, **measures(numbers, moved, compiled.turns))
+    whole = replace(steady, ratio=moved.ratio, **measures(numbers, moved, solved.turns))
     named = dict(_named(whole))
     missing = {name: "it has no value" for name, x in named.items() if not np.isfinite(x.value)}
     missing |= dict.fromkeys(
@@ -133,7 +134,7 @@ def _mean_inertia_along(machine: Machine, variables: Sequence[str]) -> Floats:
 
 def _tangents(motion: DrivelineMotion, gradient: DrivelineGradient) -> Iterator[tuple[str, Any]]:
     """Numbers of the core with their derivatives, as `measures` takes them."""
-    for name in ("period", "energy_load", "torque_mean", "torque_rms", "loss", "torque_drive_mean", "energy_drive"):
+    for name in _SCALARS:
         yield name, Tangent(getattr(motion, name), getattr(gradient, name))
     for name in ("speed", "acceleration", "twist", "torque", "torque_drive"):
         extremes = getattr(motion, name)
@@ -144,6 +145,15 @@ def _tangents(motion: DrivelineMotion, gradient: DrivelineGradient) -> Iterator[
         yield name, SimpleNamespace(**ends)
 
 
+_SCALARS = (
+    "period",
+    "energy_load",
+    "torque_mean",
+    "torque_rms",
+    "loss",
+    "torque_drive_mean",
+    "energy_drive",
+)
 _ENDS = {"least": "min", "greatest": "max"}
 
 
@@ -209,8 +219,8 @@ def _ties(
     values: Floats,
 ) -> Iterator[tuple[str, str, str]]:
     """Extremes that the motion has twice, each with its part and why it has only one-sided derivatives."""
-    cycle = compiled.cycle
-    look = turn_angles(_LOOK, compiled.turns)[:-1]
+    cycle = compiled.cycle * motion.multiple
+    look = turn_angles(_LOOK, compiled.turns * motion.multiple)[:-1]
     first = motion.curves(look)
     masses = len(motion.speed.least)
     row = 0

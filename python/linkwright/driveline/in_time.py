@@ -21,8 +21,9 @@ from linkwright.drive.load_checks import require_half_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.driveline.chain import Chain, chain_of
-from linkwright.driveline.elastic_motion import ElasticMotion, require_flexible
+from linkwright.driveline.elastic_motion import ElasticMotion
 from linkwright.driveline.permitted import TorqueJudgement, in_motion
+from linkwright.driveline.solving import require_flexible
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
@@ -491,10 +492,7 @@ def _state(
     twists, speeds = np.zeros(masses - 1), np.full(masses, float(speed))
     if start is not None:
         angle = float(start.crank_angle[0])
-        joins = np.zeros((len(chain.shafts), masses))
-        rows = np.arange(len(joins))
-        joins[rows, chain.links["first"]], joins[rows, chain.links["second"]] = 1.0, -1.0
-        twists[:] = np.linalg.lstsq(joins[:, :-1], start.twist[:, 0] / chain.lead, rcond=None)[0]
+        twists[:] = np.linalg.lstsq(chain.joins[:, :-1], start.twist[:, 0] / chain.lead, rcond=None)[0]
         speeds[chain.mass] = start.speed[:, 0] / chain.ratio
     state: Floats = np.concatenate([twists, speeds[:-1] - speeds[-1], [speeds[-1], angle]])
     return state

@@ -15,11 +15,11 @@ import numpy as np
 from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import (
     SteadySolution,
-    require_flexible,
     solved_motion,
 )
 from linkwright.driveline.in_time import ElasticTransient, Followed, followed
 from linkwright.driveline.permitted import TorqueJudgement
+from linkwright.driveline.solving import require_flexible
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, StartError, SteadyStateError
 from linkwright.kernel.numerics.zeros import zeros

@@ -11,8 +11,9 @@ from linkwright.drive.obstacles import no_run_up, no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
 from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
-from linkwright.driveline.train_chain import driveline_chain
+from linkwright.driveline.parametric import parametric_zones
 from linkwright.driveline.run_up import ElasticRunUp, elastic_run_up, require_elastic_start
+from linkwright.driveline.train_chain import driveline_chain
 from linkwright.kernel.errors import FindingError, StartError
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.reader.numbers import number, quantity
@@ -59,7 +60,7 @@ def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | N
         is_driven = known.reduction is not None and has_motor(known.machine)
     if not is_driven:
         return None
-    return findings.of(elastic_motion, known.machine, n=INTERVALS)
+    return findings.of(elastic_motion, known.machine, n=INTERVALS, others=True)
 
 
 def no_elastic_run_up(machine: Machine) -> Obstacle | None:
@@ -119,6 +120,8 @@ def elastic_warnings(known: Results) -> Iterator[str]:
         return
     yield from _stability(motion)
     yield from _resonance(known.machine, motion)
+    yield from _parametric(known.machine, motion)
+    yield from _others(motion)
     yield from _reversals(motion)
     yield from _fluctuation(known, motion)
 
@@ -147,12 +150,45 @@ def _resonance(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
             )
 
 
+def _parametric(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
+    """Zones of parametric resonance by the linear modes, as long as links are linear."""
+    if machine.has_mounted_mechanisms or not chain_of(machine).is_linear:
+        return
+    for zone in parametric_zones(machine, motion.speed_mean_time):
+        low, high = zone.frequencies
+        modes = quantity(low, "Hz") if low == high else f"{quantity(low, 'Hz')} and {quantity(high, 'Hz')}"
+        yield (
+            f"Parametric resonance: order {number(zone.order)} of the reduced inertia J(φ) excites natural "
+            f"frequencies of {modes}; by the linear estimate a disturbance grows by "
+            f"{number(100 * (np.exp(zone.growth * motion.period) - 1), 2)} % per cycle"
+        )
+
+
+def _others(motion: ElasticMotion) -> Iterator[str]:
+    """Further steady motions, and beginnings from which the motion does not repeat."""
+    for other in motion.other_motions:
+        stable = "stable" if other.is_stable else "unstable"
+        peak = max(float(np.abs(torque).max()) for torque in (other.torque_min, other.torque_max))
+        yield (
+            f"The elastic driveline has another steady motion, {stable}, that repeats after "
+            f"{other.turns} revolutions, with torques up to {quantity(peak, 'N m')}; it is reached from "
+            f"{other.start}"
+        )
+    yield from (text for text in motion.not_periodic)
+
+
 def _reversals(motion: ElasticMotion) -> Iterator[str]:
-    for name, low, high in zip(motion.shafts, motion.torque_min, motion.torque_max, strict=True):
+    extremes = zip(motion.shafts, motion.torque_min, motion.torque_max, motion.backlash, strict=True)
+    for name, low, high, gap in extremes:
         if min(-low, high) > _REVERSED * max(-low, high):
+            backlash = (
+                "its backlash is crossed, and the flanks rattle"
+                if gap
+                else "backlash in gears and couplings would be crossed with impacts; give it as `backlash`"
+            )
             yield (
                 f"The torque of {name} changes sign, from {quantity(low, 'N m')} to {quantity(high, 'N m')}: "
-                "backlash in gears and couplings is crossed with impacts, which are not computed"
+                f"{backlash}"
             )
 
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.driveline.carried import require_carried
-from linkwright.driveline.chain import Chain, chain_of, Outside, Stand, links_of, order_of
+from linkwright.driveline.chain import Chain, Driven, Outside, Stand, chain_of, links_of, order_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
@@ -73,19 +73,11 @@ class _Mounted(NamedTuple):
         return self.ratio * torque
 
 
-class DrivenTrain(NamedTuple):
-    """A train with its mechanisms, ready for steady motion."""
-
-    compiled: CompiledMachine  # the first mechanism, over the cycle of all
-    chain: Chain
-    speed: float  # of the first crank, where mean torques balance [rad/s]
-
-
-def driven_train(machine: Machine) -> DrivenTrain:
-    """Masses, links, torques and mechanisms of a train."""
+def driven_train(machine: Machine) -> Driven:
+    """Masses, links, torques and mechanisms of a train; its mean torques balance at the speed."""
     chain, mounted = _chain(machine)
     compiled = mounted[0].compiled.over_turns(_turns(mounted))
-    return DrivenTrain(compiled, chain, _balance(machine, chain, mounted))
+    return Driven(compiled, chain, _balance(machine, chain, mounted))
 
 
 def driveline_chain(machine: Machine) -> Chain:
@@ -113,7 +105,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
     # Frequencies at which hysteresis counts are those with the mean inertia of the mechanisms.
     whole = replace(referred, inertia=mean[order] / n**2)
     damping, notes = shaft_damping(whole)
-    links = links_of(referred, n, order, list(range(len(referred.shafts))), damping)
+    links = links_of(train, referred, n, order, list(range(len(referred.shafts))), damping)
     place = {name: (int(mass[k]), float(ratio[k])) for k, name in enumerate(referred.discs)}
     drivers = dict(_drivers(machine, train, place))
     damped = np.empty(len(order))
@@ -124,9 +116,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
         "loads": [
             _power(place[load.on], -load.torque, load.speed, load.exponent) for load in train.loads.values()
         ],
-        "stations": [
-            Stand(int(mass[one.disc]), one.compiled, one.ratio, one.phase) for one in mounted[1:]
-        ],
+        "stations": [Stand(int(mass[one.disc]), one.compiled, one.ratio, one.phase) for one in mounted[1:]],
         "swing": (damped, mean / mean.sum()) if damped.any() else None,
     }
     on = [_on(train, name) for name in drivers]

@@ -21,9 +21,16 @@ _CRANK = Formula(
 _TORQUE = Formula("Torque of a flexible shaft with twist Δ", "T = k Δ + c frac(d Δ|d t)", _SOURCE)
 
 
+_BACKLASH = Formula(
+    "Torque of a shaft with backlash b: spring S behind the flank, damping in contact, which never pulls",
+    "|S| = k ( |Δ| − frac(b|2) ) , T = S + D , |D| ≤ |S|",
+    "Modelica Standard Library 4.0, Rotational.Components.ElastoBacklash",
+)
+
+
 def elastic_formulas(motion: ElasticMotion) -> list[Formula]:
     """Equations of motion and the torque of a shaft."""
-    return [_STATION, _CRANK, _TORQUE]
+    return [_STATION, _CRANK, _TORQUE, *([_BACKLASH] if motion.backlash.any() else [])]
 
 
 def elastic_papers(motion: ElasticMotion) -> tuple[str, ...]:
@@ -54,9 +61,9 @@ def _of_train() -> Iterator[str]:
 def _of_drive() -> Iterator[str]:
     """What is taken for granted of a driveline that [drive] describes."""
     yield (
-        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness and "
-        "viscous damping, and neither inertia nor backlash; the mechanism has its inertia and loads at every "
-        "crank angle and speed."
+        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness or a "
+        "torque curve, viscous damping and backlash as given, and no inertia; the mechanism has its inertia "
+        "and loads at every crank angle and speed."
     )
     yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."
 

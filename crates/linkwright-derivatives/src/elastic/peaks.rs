@@ -66,7 +66,7 @@ pub(super) fn read<R: Real>(
     match quantity {
         Quantity::Speed(mass) => chain.speed(mass, y),
         Quantity::Twist(link) => chain.twist(&chain.links[link], y)[0],
-        Quantity::Torque(link) => chain.torque(&chain.links[link], y),
+        Quantity::Torque(link) => chain.torque(&chain.links[link], y).value,
         Quantity::Acceleration(part) | Quantity::Drive(part) => out_of_line!(Dual<R>, {
             let mut rates = Rates::new(chain);
             equation.rates(&StageRow::new(equation, phi, m).row(), y, &mut rates);

@@ -196,7 +196,7 @@ impl<'s> Path<'s> {
             *largest = largest.max(y.abs());
         }
         let chain = system.equation.chain;
-        let torques = chain.links.iter().map(|link| chain.torque(link, &self.y).abs());
+        let torques = chain.links.iter().map(|link| chain.torque(link, &self.y).value.abs());
         self.torque = torques.fold(self.torque.max(system.drive.abs()), f64::max);
         self.work = self.y[system.layout.shaft..].iter().fold(self.work, |most, work| most.max(work.abs()));
     }

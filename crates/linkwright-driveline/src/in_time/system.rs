@@ -8,7 +8,7 @@
 //! losses of the gearbox. A step takes the torque of one direction, or holds the mass at rest.
 
 use super::start::Start;
-use crate::chain::{Chain, Link};
+use crate::chain::Chain;
 use crate::equation::Equation;
 use linkwright_core::drive::law::{LawGeometry, SpeedKink};
 use linkwright_core::drive::transient::reduced::{Reduced, ReducedCurves};
@@ -21,16 +21,6 @@ const WORKS: usize = 5;
 
 /// Share of the working speed at which laws are taken at rest.
 const SLOW: f64 = 1e-11;
-
-/// What a link stores at a twist \[J\].
-pub fn stored(link: &Link, twist: f64) -> f64 {
-    0.5 * link.stiffness * twist * twist
-}
-
-/// Power that a link turns into heat \[W\].
-pub fn heating(link: &Link, rate: f64) -> f64 {
-    link.damping * rate * rate
-}
 
 /// Places in a state.
 #[derive(Clone, Copy, Debug)]
@@ -191,7 +181,7 @@ impl<'a> System<'a> {
         self.evaluations += 1;
         self.net.fill(0.0);
         for link in &chain.links {
-            let torque = chain.torque(link, y);
+            let torque = chain.torque(link, y).value;
             self.net[link.first] -= torque;
             self.net[link.second] += torque;
         }
@@ -239,7 +229,7 @@ impl<'a> System<'a> {
         to[layout.brake] =
             (0..=layout.others).map(|mass| self.brakes[mass] * self.speed(mass, y).abs()).sum();
         for (to, link) in to[layout.heat..].iter_mut().zip(&chain.links) {
-            *to = heating(link, chain.twist(link, y)[1]);
+            *to = chain.torque(link, y).damper * chain.twist(link, y)[1];
         }
     }
 
@@ -251,11 +241,12 @@ impl<'a> System<'a> {
         to.fill(0.0);
         // First accelerations of all masses, in the rows of their speeds.
         for link in &chain.links {
+            let torque = chain.torque(link, y);
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
                 for (end, side) in [(link.first, sign), (link.second, -sign)] {
                     if end < others {
-                        to[(others + mass) * m + end] += side * link.stiffness;
-                        to[(others + mass) * m + others + end] += side * link.damping;
+                        to[(others + mass) * m + end] += side * torque.by_twist;
+                        to[(others + mass) * m + others + end] += side * torque.by_rate;
                     }
                 }
             }
@@ -325,7 +316,7 @@ impl<'a> System<'a> {
         let chain = self.equation.chain;
         let inertia = chain.inertia.iter().copied().chain([self.crank_inertia]).enumerate();
         let kinetic = inertia.map(|(mass, J)| 0.5 * J * self.speed(mass, y).powi(2)).sum();
-        let elastic = chain.links.iter().map(|link| stored(link, chain.twist(link, y)[0])).sum();
+        let elastic = chain.links.iter().map(|link| link.law.stored(chain.twist(link, y)[0])).sum();
         [kinetic, elastic]
     }
 

@@ -304,9 +304,7 @@ class CompiledMachine:
     def driveline_rows(self, chain: Mapping[str, Any], **asked: Any) -> _core.DrivelineRows:
         """Steady motion of every row behind a torsionally flexible driveline; see `_core.driveline_rows`."""
         require("driveline_rows")
-        return _core.driveline_rows(
-            self.plan, self.parameters, self.slots, self.values, chain, **asked
-        )
+        return _core.driveline_rows(self.plan, self.parameters, self.slots, self.values, chain, **asked)
 
     def least_inertias(self, angles: Floats) -> Floats:
         """Minimum inertia reduced to the crank at crank angles, of every row, (n,) [kg m²]."""
@@ -317,6 +315,11 @@ class CompiledMachine:
         """Crank speed from which steady motion is sought, of every row, (n,) [rad/s]."""
         at = np.flatnonzero(self.slots == self.speed_slot)
         return self.values[at[0]] if len(at) else np.full(self.n_rows, self.speed_guess)
+
+    def driveline_branch(self, **family: Any) -> tuple[list[tuple[float, bool, _core.DrivelineMotion]], str]:
+        """Steady motions over a parameter behind an elastic driveline; see `_core.driveline_branch`."""
+        require("driveline_branch")
+        return _core.driveline_branch(self.plan, **family)
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""

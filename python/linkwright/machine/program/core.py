@@ -8,7 +8,7 @@ from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 29
+FORMAT = 30
 
 
 def check_format(core: object) -> None:

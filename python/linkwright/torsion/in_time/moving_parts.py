@@ -40,9 +40,7 @@ def link_manner(expanded: Train, referred: ReferredTrain, name: str) -> Manner:
     return Manner(carrier=(place(gear.carrier), (parts[0], parts[1], parts[2])))
 
 
-def with_parts(
-    moving: MovingTrain, train: Train, expanded: Train, manoeuvre: TrainTransient
-) -> MovingTrain:
+def with_parts(moving: MovingTrain, train: Train, expanded: Train, manoeuvre: TrainTransient) -> MovingTrain:
     """A train in motion with its rigid stages that lose power, its pendulums and its controllers."""
     moving = _with_lossy_stages(moving, expanded)
     bobs = {name: moving.shafts.index(name) for name in train.pendulums}

@@ -41,10 +41,11 @@ from linkwright.torsion.excitation.engine_torques import cylinder_torques
 from linkwright.torsion.excitation.excited_train import highest_order
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.in_time.moving_parts import link_manner, with_parts
+from linkwright.torsion.model.drive_shaft import LooseShaft
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.ice_impacts import IceImpacts
-from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train import Train, TrainGear
 from linkwright.torsion.model.train_torques import (
     Excitation,
     Harmonic,
@@ -198,16 +199,32 @@ def _by_rayleigh(referred: ReferredTrain, omega: Floats, twist: Floats, shapes: 
 
 
 def _curve(train: Train, name: str) -> Curve | None:
-    """Torque over twist of a coupling that has a curve, or of an elastic mesh with backlash."""
-    coupling, gear = train.couplings.get(name), train.gears.get(name)
+    """Torque over twist of a coupling that has a curve, or of an elastic part with backlash."""
+    coupling = train.couplings.get(name)
     if coupling is not None and coupling.twist is not None:
         return odd(*coupling.curve())
-    if gear is not None and gear.backlash:
-        # Half of the backlash on either side: between its flanks a tooth carries nothing.
-        half = gear.backlash / 2
-        k = np.array([gear.stiffness, 0.0])
-        return Curve(np.array([-half, half]), np.zeros(2), before=k, after=k[::-1])
+    part = train.gears.get(name) or train.shafts.get(name)
+    if isinstance(part, LooseShaft) and part.twist is not None:
+        return _behind(part.backlash / 2, *part.points)
+    if isinstance(part, TrainGear | LooseShaft) and part.backlash:
+        assert part.stiffness is not None
+        return _behind(part.backlash / 2, np.zeros(1), np.zeros(1), np.array([part.stiffness]))
     return None
+
+
+def _behind(half: float, twist: Floats, torque: Floats, slope: Floats) -> Curve:
+    """A curve from zero behind half of the backlash on either side: between its flanks nothing is carried."""
+    if not half:
+        return odd(twist, torque, slope)
+    x, y = twist + half, np.asarray(torque, float)
+    after, before = np.array(slope, float), np.array(slope, float)
+    before[0] = 0.0
+    return Curve(
+        np.concatenate([-x[::-1], x]),
+        np.concatenate([-y[::-1], y]),
+        before=np.concatenate([after[::-1], before]),
+        after=np.concatenate([before[::-1], after]),
+    )
 
 
 def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -> list[TrainTorque]:
