@@ -33,6 +33,7 @@ CASES = (
     "cams_many",
     "topper_heads",
     "servo_choice",
+    "elastic_many",
     "torsion_modes",
     "torsion_forced",
     "trains_many",

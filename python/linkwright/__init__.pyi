@@ -49,7 +49,11 @@ from linkwright.drive.run_up import run_up as run_up
 from linkwright.drive.steady_state import steady_state as steady_state
 from linkwright.drive.step_method import step_method as step_method
 from linkwright.drive.transient import transient as transient
+from linkwright.driveline.branches import elastic_branches as elastic_branches
 from linkwright.driveline.elastic_motion import elastic_motion as elastic_motion
+from linkwright.driveline.in_time import DriveSwitch as DriveSwitch
+from linkwright.driveline.in_time import elastic_transient as elastic_transient
+from linkwright.driveline.run_up import elastic_run_up as elastic_run_up
 from linkwright.kernel.errors import AssemblyError as AssemblyError
 from linkwright.kernel.errors import CamError as CamError
 from linkwright.kernel.errors import ConvergenceError as ConvergenceError

@@ -4,8 +4,8 @@ Fields of elements, loads and the drive that are integers are indices of points,
 slots: places of numbers in the list of parameters. A compiled module has one stub, however long.
 """
 
-from collections.abc import Sequence
-from typing import Final, final
+from collections.abc import Mapping, Sequence
+from typing import Any, Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,12 @@ __all__ = [
     "Curve",
     "Drive",
     "DrivelineCurves",
+    "DrivelineExtremes",
+    "DrivelineGradient",
+    "DrivelineInTime",
+    "DrivelineInTimeCurves",
     "DrivelineMotion",
+    "DrivelineRows",
     "DrivelineStation",
     "DrivelineTorque",
     "Element",
@@ -83,7 +88,10 @@ __all__ = [
     "TorsionTorque",
     "What",
     "cam_crossings",
+    "driveline_branch",
+    "driveline_in_time",
     "driveline_motion",
+    "driveline_rows",
     "follow_group",
     "gaps",
     "in_line",
@@ -91,6 +99,7 @@ __all__ = [
     "kinks",
     "kinks_along",
     "law_torques",
+    "least_inertias",
     "motion_at",
     "motions",
     "motions_along",
@@ -1213,9 +1222,96 @@ class DrivelineMotion:
     accuracy: Final[float]
     steps: Final[int]
     cycles: Final[int]
+    multiple: Final[int]
+    start: Final[_Floats]
 
     def curves(self, phi: _Floats) -> DrivelineCurves:
         """Curves at crank angles of the cycle."""
+
+    def gradient(self, directions: _Floats) -> DrivelineGradient:
+        """Derivatives along directions of all numbers, of the plan and then of the driveline, (numbers, n).
+
+        The driveline's are inertias, what is apart, stiffness, damping, half of the backlash and points of
+        the curve of each link, numbers of drivers and loads, ratio and phase of each station, damping and
+        share of each mass in `swing`.
+        """
+
+    def curves_along(self, directions: _Floats, phi: _Floats) -> _Floats:
+        """Derivatives of speeds, accelerations, twists and torques, (parts · angles, n)."""
+
+@final
+class DrivelineGradient:
+    """Derivatives along n directions, (n,), or (masses, links or drivers, n), referred to the crank."""
+
+    period: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    speed_min: Final[_Floats]
+    speed_max: Final[_Floats]
+    acceleration_min: Final[_Floats]
+    acceleration_max: Final[_Floats]
+    twist_min: Final[_Floats]
+    twist_max: Final[_Floats]
+    torque_min: Final[_Floats]
+    torque_max: Final[_Floats]
+    torque_drive_min: Final[_Floats]
+    torque_drive_max: Final[_Floats]
+    torque_drive_mean: Final[_Floats]
+    monodromy: Final[_Floats]
+
+@final
+class DrivelineInTimeCurves:
+    """Curves of a driveline over time, (parts, n) each, all referred to the crank.
+
+    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads and
+    brakes, and the heat of the links; `impulse` is the integral of the motor's torque.
+    """
+
+    angle: Final[_Floats]
+    speed: Final[_Floats]
+    acceleration: Final[_Floats]
+    twist: Final[_Floats]
+    torque: Final[_Floats]
+    torque_drive: Final[_Floats]
+    torque_load: Final[_Floats]
+    energy_kinetic: Final[_Floats]
+    energy_elastic: Final[_Floats]
+    work_shaft: Final[_Floats]
+    impulse: Final[_Floats]
+    work_drive: Final[_Floats]
+    work_load: Final[_Floats]
+    work_brake: Final[_Floats]
+    heat: Final[_Floats]
+
+@final
+class DrivelineInTime:
+    """Motion in time of a driveline, with extremes over its masses or links; all referred to the crank.
+
+    `time`, `crank_angle`: at the ends of the steps; `state`: at the end; `end`: ``"time"``, ``"turns"``,
+    ``"rest"``, ``"does not close"`` or ``"inaccurate"``; `events`: number of the end of a step, what
+    happened there, and the mass of it; `energy_error`: largest gain of energy less works, over the largest.
+    """
+
+    time: Final[_Floats]
+    crank_angle: Final[_Floats]
+    state: Final[_Floats]
+    end: Final[str]
+    torque_drive_end: Final[float]
+    torque_load_end: Final[float]
+    speed: Final[Extremes]
+    acceleration: Final[Extremes]
+    twist: Final[Extremes]
+    torque: Final[Extremes]
+    energy_error: Final[float]
+    evaluations: Final[int]
+    implicit: Final[int]
+    events: Final[list[tuple[int, str, int | None]]]
+
+    def curves(self, time: _Floats) -> DrivelineInTimeCurves:
+        """Curves at times of the motion."""
 
 @final
 class NoDrivelineMotion:
@@ -1226,32 +1322,120 @@ class NoDrivelineMotion:
     speed: Final[float]
     accuracy: Final[float]
 
+def driveline_in_time(
+    plan: Plan,
+    q: _Floats,
+    chain: Mapping[str, Any],
+    *,
+    state: _Floats,
+    brakes: _Floats,
+    time: float,
+    motor: float,
+    speed: float,
+    until: float,
+    turns: float,
+    accuracy: float,
+) -> DrivelineInTime:
+    """Motion in time of masses with links as in `driveline_motion`.
+
+    `state`: twists and speeds of all masses against the crank, its speed and its angle, at `time`; `brakes`:
+    torque on every mass; `motor`: +1 or −1, the direction in which it drives; `speed`: about which the
+    machine works; `until`, `turns`: time and revolutions at the end at the latest.
+    """
+
 def driveline_motion(
     plan: Plan,
     q: _Floats,
+    chain: Mapping[str, Any],
     *,
-    inertia: _Floats,
-    apart: float,
-    first: _Ints,
-    second: _Ints,
-    stiffness: _Floats,
-    damping: _Floats,
-    drivers: Sequence[DrivelineTorque],
-    loads: Sequence[DrivelineTorque],
-    stations: Sequence[DrivelineStation],
-    swing: tuple[_Floats, _Floats] | None,
     accuracy: float,
     speed: float,
     fastest: float,
     cycles_first: int,
     cycles_max: int,
+    multiples: int,
+    start: _Floats | None,
 ) -> DrivelineMotion | NoDrivelineMotion:
     """Steady motion of masses, the last of which is the crank, with links between them.
 
-    `inertia`: of all but the crank; `apart`: what of the plan's inertia is not at the crank; `swing`: damping
-    of every mass against the rotation of all, and its share in that; `fastest`: size of the fastest
-    eigenvalue that lasts; followed for `cycles_first` cycles at first, for `cycles_max` at most.
+    `chain`: `inertia` of all masses but the crank; `apart`, what of the plan's inertia is not at the crank;
+    `first`, `second`, `stiffness`, `damping` and `gap`, half of the backlash, of links; `curves`, twists,
+    torques and slopes of those that are not straight, None of the others; lists `drivers` and `loads` of
+    `DrivelineTorque`, `stations` of `DrivelineStation`; `swing`, damping of every mass against the rotation
+    of all with its share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for
+    `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to `multiples` of them, from
+    a state `start` if given.
     """
+
+def driveline_branch(
+    plan: Plan,
+    *,
+    nodes: Sequence[float],
+    machines: Sequence[tuple[_Floats, Mapping[str, Any]]],
+    accuracy: float,
+    fastest: float,
+    parameter: float,
+    start: DrivelineMotion,
+    direction: float,
+    points_max: int,
+) -> tuple[list[tuple[float, bool, DrivelineMotion]], str]:
+    """A branch of steady motions over a parameter from one of them in a direction, to an end of its range.
+
+    `nodes`, `machines`: parameters, with numbers of the plan and masses and links of `driveline_motion`;
+    between them numbers are polynomials. Gives parameter, whether it turns back there, and motion of each;
+    why the branch ends: ``"range"``, ``"points"`` or ``"short"``, where steps became too short.
+    """
+
+@final
+class DrivelineExtremes:
+    """Extremes of masses, links or drivers of n machines, (parts, n)."""
+
+    least: Final[_Floats]
+    greatest: Final[_Floats]
+
+@final
+class DrivelineRows:
+    """Steady motion of n drivelines, (n,) or (parts, n), referred to the crank; NaN where not found.
+
+    `monodromy` is (numbers of the matrix, n).
+    """
+
+    period: Final[_Floats]
+    speed: Final[DrivelineExtremes]
+    acceleration: Final[DrivelineExtremes]
+    twist: Final[DrivelineExtremes]
+    torque: Final[DrivelineExtremes]
+    torque_drive: Final[DrivelineExtremes]
+    torque_drive_mean: Final[_Floats]
+    torque_mean: Final[_Floats]
+    torque_rms: Final[_Floats]
+    loss: Final[_Floats]
+    energy_drive: Final[_Floats]
+    energy_load: Final[_Floats]
+    monodromy: Final[_Floats]
+    accuracy: Final[_Floats]
+
+def driveline_rows(
+    plan: Plan,
+    q: _Floats,
+    slots: _Ints,
+    values: _Floats,
+    chain: Mapping[str, Any],
+    *,
+    numbers: _Floats,
+    accuracy: float,
+    speed: _Floats,
+    fastest: _Floats,
+    cycles_max: int,
+) -> DrivelineRows:
+    """Steady motion of n machines with the driveline of one, whose numbers vary.
+
+    `values` is (slots, n), `numbers` (n, numbers) in the order of `DrivelineMotion.gradient`; `speed` and
+    `fastest` are (n,); the others as in `driveline_motion`.
+    """
+
+def least_inertias(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, phi: _Floats) -> _Floats:
+    """Minimum inertia reduced to the crank at crank angles, of n machines, (n,)."""
 
 def steady_rows(plan: Plan, q: _Floats, slots: _Ints, values: _Floats, accuracy: float) -> SteadyRows:
     """Steady motion of n machines; `values` is (slots, n)."""

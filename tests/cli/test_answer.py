@@ -28,6 +28,7 @@ from linkwright.studies.sweep import begun
 ROOT = Path(__file__).parents[2]
 FILES = {path.stem: str(path) for path in (ROOT / "machines").glob("*.toml")} | {
     "undercut": str(ROOT / "examples" / "cam_roller_undercut" / "machine.toml"),
+    "coupling": str(ROOT / "examples" / "elastic_coupling_of_carts" / "machine.toml"),
     "engine": str(ROOT / "examples" / "weak_cylinder" / "machine.toml"),
 }
 
@@ -160,6 +161,11 @@ CASES = {
         "{roller_two_carts} --revolutions 1",
         "{roller_two_carts} --set loads.rolling1.force=1e5",
         "{roller_two_carts} --from-angle 30",
+    ),
+    "elastic": Case(
+        "{coupling} --over drive.crankshaft.stiffness --from 20000 --to 22000",
+        "{coupling} --set loads.rolling1.force=1e5",
+        "{coupling} --over drive.crankshaft.stiffness",
     ),
     "plot": Case(
         "{roller_two_carts} cart1.velocity",

@@ -101,3 +101,40 @@ def test_a_long_motion_has_a_short_table_of_events() -> None:
     assert table.count("jump of") == 22
     assert "end of the" in table
     assert "Events  " in run("--duration", "0.1 s").stdout
+
+
+CARTS = "elastic_coupling_of_carts"
+
+
+def test_an_elastic_driveline_is_followed_with_its_shafts() -> None:
+    """As `elastic_transient` has it, with a load step and a stop; `--rigid` has one crankshaft."""
+    machine = lw.read(CARTS)
+    switches = [
+        lw.DriveSwitch(1.5, machine=lw.replace(machine, {"loads.rolling1.force": 7000.0})),
+        lw.DriveSwitch(2.0, motor=False),
+    ]
+    motion = lw.elastic_transient(machine, duration=2.5, accuracy=1e-8, switches=switches)
+    by_hand = ("--switch", "1.5 s: loads.rolling1.force=7 kN", "--switch", "2 s: motor=off")
+    done = invoke("transient", CARTS, "--duration", "2.5 s", *by_hand, "--json")
+    assert done.exit_code == 1
+    found = json.loads(done.stdout)
+    assert found["results"]["elastic_transient"]["torque_max"]["crankshaft"] == motion.torque_max[0]
+    assert "permitted 3000 N m: limit exceeded" in found["findings"][0]
+    rigid = json.loads(invoke("transient", CARTS, "--duration", "2.5 s", "--rigid", "--json").stdout)
+    assert rigid["results"]["transient"]["duration"] == 2.5
+
+
+@pytest.mark.parametrize(
+    ("machine", "text", "words"),
+    [
+        (CARTS, "2 s", "expected TIME and what changes then"),
+        (CARTS, "2 s: motor=slow", 'motor: found "slow", expected on or off'),
+        (CARTS, "9 s: motor=off", "expected increasing times above 0"),
+        ("roller_two_carts", "2 s: motor=off", "found a rigid driveline"),
+    ],
+)
+def test_a_switch_that_cannot_be_is_refused(machine: str, text: str, words: str) -> None:
+    """Exit code 2 and what was expected."""
+    done = invoke("transient", machine, "--duration", "5 s", "--switch", text)
+    assert done.exit_code == 2
+    assert words in done.stderr

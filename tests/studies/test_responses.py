@@ -35,6 +35,7 @@ CASES = {
     "axis": ("servo_carriage", "bodies.carriage.mass", "torque_max"),
     "dc_bus": ("servo_carriage", "bodies.carriage.mass", "power_max"),
     "elastic_motion": ("elastic_coupling_of_carts", "drive.crankshaft.stiffness", "period"),
+    "elastic_run_up": ("elastic_coupling_of_carts", "drive.crankshaft.stiffness", "time"),
     "pumping_unit": (*ROTATOR, "stroke"),
     "rod_rotator": (*ROTATOR, "lever_swing"),
     "rod_string": ("rod_string", "rod_string.specific_gravity", "load_max"),
@@ -116,6 +117,10 @@ def test_one_shaft_of_a_train(tmp_path: Path) -> None:
 # File and entry → responses by the names that `linkwright sensitivity` has for them.
 SAME_NAMES = {
     ("pumping_unit_torque", "pumping_unit.R"): ["pumping_unit.gear.torque_net_rms", "pumping_unit.gear.work"],
+    ("elastic_coupling_of_carts", "drive.crankshaft.stiffness"): [
+        "elastic_motion.torque_max.crankshaft",
+        "elastic_motion.unevenness.crank",
+    ],
     TRAIN: [
         "free_vibration.natural_frequencies.2",
         "free_vibration.mode_shapes.2.front",

@@ -29,8 +29,8 @@ STANDS_ON: dict[str, set[str]] = {
     "topper": {"kernel"},
     "rods": {"kernel"},
     "plan": {"kernel", "linkage", "drive"},
-    "derivatives": {"kernel", "linkage", "drive"},
     "driveline": {"kernel", "linkage", "drive"},
+    "derivatives": {"kernel", "linkage", "drive", "driveline"},
 }
 
 # The border has no kernels: it converts what crosses it.

@@ -115,6 +115,9 @@ EDGES = {
     ("driveline", "torsion.core"),
     ("driveline", "torsion.excitation"),
     ("driveline", "torsion.in_time"),
+    # The motion in time of a drive is that of its driveline where this is flexible.
+    ("driveline.commands", "drive.commands"),
+    ("driveline.commands", "linkages"),
     # A machine without a motor has no forces in steady motion and no vibration of its driveline.
     ("kinetostatics.analyses", "drive"),
     ("torsion.analyses", "drive"),

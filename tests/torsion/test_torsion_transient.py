@@ -225,7 +225,7 @@ def test_hysteresis_as_viscous_damping() -> None:
     """c = ηk/ω loses 2πη of the largest energy in a cycle: the swing of two discs falls by e^(−πη) each."""
     J, k, eta = np.array([1.0, 3.0]), 5e4, 0.02
     omega = np.sqrt(k * J.sum() / J.prod())
-    train = chain(J, [k], damping=viscous([k], [eta], omega))
+    train = chain(J, [k], damping=viscous(np.array([k]), eta, omega))
     zeta = eta / 2
     period = 2 * np.pi / (omega * np.sqrt(1 - zeta**2))
     found = follow_train(train, duration=20 * period, angle=[0.01, 0.0], accuracy=1e-11, sample_time=period)

@@ -1,24 +1,30 @@
 //! Steady motion of torsionally flexible drivelines at the border.
 
-use linkwright_driveline::chain::{Chain, Link, Swing};
+use linkwright_derivatives::elastic::ElasticGradient;
+use linkwright_driveline::branch::{BranchPoint, End, Family, branch};
+use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
-use linkwright_driveline::reading::{Extremes as CoreExtremes, Reading};
-use linkwright_driveline::steady::{Failure, Request, Steady, steady};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use linkwright_driveline::reading::{Extremes as CoreExtremes, Measures, Reading};
+use linkwright_driveline::request::{Failure, Request};
+use linkwright_driveline::steady::{Steady, steady};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{as_indices, column};
+use crate::arrays::column;
 use crate::builder::Plan;
-use crate::builder::driveline::{DrivelineStation, DrivelineTorque};
+use crate::driveline_chain::Driveline;
+use crate::driveline_gradient::DrivelineGradient;
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
-use crate::{Floats, Ints};
+use crate::Floats;
 
-type Array = Py<PyArray1<f64>>;
-type Table = Py<PyArray2<f64>>;
+pub(crate) type Array = Py<PyArray1<f64>>;
+pub(crate) type Table = Py<PyArray2<f64>>;
+type Directions<'py> = PyReadonlyArray2<'py, f64>;
 
 const ANALYSIS: &str = "steady motion of the driveline";
+const DERIVATIVES: &str = "derivatives of the driveline";
 
 /// Curves of a driveline over crank angles, a row a part.
 #[pyclass(frozen, get_all, module = "linkwright._core")]
@@ -67,10 +73,13 @@ pub(crate) struct DrivelineMotion {
     steps: usize,
     #[pyo3(get)]
     cycles: usize,
+    #[pyo3(get)]
+    multiple: usize,
     plan: Py<Plan>,
     q: Vec<f64>,
     chain: Chain,
     steady: Steady,
+    measures: Measures,
 }
 
 /// Why a driveline has no steady motion.
@@ -89,20 +98,61 @@ pub(crate) enum DrivelineOutcome {
     None(NoDrivelineMotion),
 }
 
-fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
+pub(crate) fn extremes(py: Python<'_>, list: &[CoreExtremes]) -> PyResult<Py<Extremes>> {
     let of = |part: fn(&CoreExtremes) -> f64| column(py, list.iter().map(part).collect()).unbind();
     let (greatest, greatest_at) = (of(|each| each.max), of(|each| each.max_at));
     let (least, least_at) = (of(|each| each.min), of(|each| each.min_at));
     Py::new(py, Extremes { greatest, greatest_at, least, least_at })
 }
 
-fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
+pub(crate) fn rows(py: Python<'_>, list: Vec<f64>, rows: usize) -> PyResult<Table> {
     let columns = list.len() / rows.max(1);
     Ok(column(py, list).reshape([rows, columns])?.unbind())
 }
 
+impl DrivelineMotion {
+    fn new(
+        py: Python<'_>,
+        plan: &Py<Plan>,
+        (q, chain): (Vec<f64>, Chain),
+        steady: Steady,
+        measures: Measures,
+    ) -> PyResult<Self> {
+        Ok(DrivelineMotion {
+            period: measures.period,
+            speed: extremes(py, &measures.speed)?,
+            acceleration: extremes(py, &measures.acceleration)?,
+            twist: extremes(py, &measures.twist)?,
+            torque: extremes(py, &measures.torque)?,
+            torque_mean: column(py, measures.torque_mean.clone()).unbind(),
+            torque_rms: column(py, measures.torque_rms.clone()).unbind(),
+            loss: column(py, measures.loss.clone()).unbind(),
+            torque_drive: extremes(py, &measures.drive)?,
+            torque_drive_mean: column(py, measures.drive_mean.clone()).unbind(),
+            energy_drive: column(py, measures.drive_work.clone()).unbind(),
+            energy_load: measures.load_work,
+            monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
+            accuracy: steady.reached,
+            steps: steady.mesh.steps(),
+            cycles: steady.cycles,
+            multiple: steady.multiple,
+            plan: plan.clone_ref(py),
+            q,
+            chain,
+            steady,
+            measures,
+        })
+    }
+}
+
 #[pymethods]
 impl DrivelineMotion {
+    /// State at the start of the cycle.
+    #[getter]
+    fn start(&self, py: Python<'_>) -> Array {
+        column(py, self.steady.solution.start.clone()).unbind()
+    }
+
     fn curves(&self, py: Python<'_>, phi: Floats<'_>) -> PyResult<DrivelineCurves> {
         let (phi, n, links) = (phi.as_slice()?, self.chain.masses(), self.chain.links.len());
         let drivers = self.chain.drivers.len();
@@ -119,63 +169,70 @@ impl DrivelineMotion {
             torque_load: column(py, found.load).unbind(),
         })
     }
+
+    fn gradient(&self, py: Python<'_>, directions: Directions<'_>) -> PyResult<DrivelineGradient> {
+        let numbers = self.numbers();
+        let values = self.along(&directions, &numbers)?;
+        let found =
+            guarded(py, DERIVATIVES, || self.derivation(&numbers, &values).derivatives(&self.measures))?;
+        DrivelineGradient::new(py, found, &self.chain)
+    }
+
+    fn curves_along(&self, py: Python<'_>, directions: Directions<'_>, phi: Floats<'_>) -> PyResult<Table> {
+        let (numbers, phi) = (self.numbers(), phi.as_slice()?);
+        let values = self.along(&directions, &numbers)?;
+        let curves = 2 * (self.chain.masses() + self.chain.links.len()) + self.chain.drivers.len();
+        require_room(DERIVATIVES, [curves * phi.len(), values.len() / numbers.len()])?;
+        let found = guarded(py, DERIVATIVES, || self.derivation(&numbers, &values).curves(phi))?;
+        rows(py, found, curves * phi.len())
+    }
 }
 
-/// Links of a driveline from arrays over them.
-fn links(first: &Ints<'_>, second: &Ints<'_>, rates: [&Floats<'_>; 2], masses: usize) -> PyResult<Vec<Link>> {
-    let [first, second] = [as_indices(first.as_slice()?, masses)?, as_indices(second.as_slice()?, masses)?];
-    let [stiffness, damping] = [rates[0].as_slice()?, rates[1].as_slice()?];
-    if [first.len(), second.len(), stiffness.len()] != [damping.len(); 3] {
-        return Err(PyValueError::new_err("links: arrays of one length are needed"));
+impl DrivelineMotion {
+    /// Numbers of the machine, and behind them those of the driveline.
+    fn numbers(&self) -> Vec<f64> {
+        self.q.iter().copied().chain(self.chain.numbers()).collect()
     }
-    let link =
-        |i: usize| Link { first: first[i], second: second[i], stiffness: stiffness[i], damping: damping[i] };
-    Ok((0..first.len()).map(link).collect())
+
+    /// Directions of all numbers.
+    fn along(&self, directions: &Directions<'_>, numbers: &[f64]) -> PyResult<Vec<f64>> {
+        if directions.shape()[0] != numbers.len() || directions.shape()[1] == 0 {
+            return Err(PyValueError::new_err(
+                "directions: one or more are needed, with a row for every number",
+            ));
+        }
+        Ok(directions.as_slice()?.to_vec())
+    }
+
+    fn derivation<'a>(&'a self, numbers: &'a [f64], directions: &'a [f64]) -> ElasticGradient<'a> {
+        let (plan, chain, steady) = (&self.plan.get().0, &self.chain, &self.steady);
+        ElasticGradient { plan, numbers, chain, steady, directions }
+    }
 }
 
 #[pyfunction]
-#[pyo3(signature = (
-    plan, q, *, inertia, apart, first, second, stiffness, damping, drivers, loads, stations, swing, accuracy, speed, fastest,
-    cycles_first, cycles_max
-))]
+#[pyo3(signature = (plan, q, chain, *, accuracy, speed, fastest, cycles_first, cycles_max, multiples, start))]
 pub(crate) fn driveline_motion(
     py: Python<'_>,
     plan: Bound<'_, Plan>,
     q: Floats<'_>,
-    inertia: Floats<'_>,
-    apart: f64,
-    first: Ints<'_>,
-    second: Ints<'_>,
-    stiffness: Floats<'_>,
-    damping: Floats<'_>,
-    drivers: Vec<PyRef<'_, DrivelineTorque>>,
-    loads: Vec<PyRef<'_, DrivelineTorque>>,
-    stations: Vec<PyRef<'_, DrivelineStation>>,
-    swing: Option<(Floats<'_>, Floats<'_>)>,
+    chain: Driveline<'_>,
     accuracy: f64,
     speed: f64,
     fastest: f64,
     cycles_first: usize,
     cycles_max: usize,
+    multiples: usize,
+    start: Option<Floats<'_>>,
 ) -> PyResult<DrivelineOutcome> {
     let known = plan.unbind();
-    let q = known.get().parameters(&q)?.to_vec();
-    let inertia = inertia.as_slice()?.to_vec();
-    let links = links(&first, &second, [&stiffness, &damping], inertia.len() + 1)?;
-    let [drivers, loads] = [drivers, loads].map(|list| list.iter().map(|each| each.core()).collect());
-    let stations = stations.iter().map(|each| each.core()).collect();
-    let swing = match &swing {
-        None => None,
-        Some((damping, share)) => {
-            Some(Swing { damping: damping.as_slice()?.to_vec(), share: share.as_slice()?.to_vec() })
-        }
-    };
-    let chain = Chain { inertia, apart, links, drivers, loads, stations, swing };
-    if !chain.fits() {
-        return Err(PyIndexError::new_err("driveline: a link, a torque or a mechanism is at no mass"));
-    }
+    let (q, chain) = (known.get().parameters(&q)?.to_vec(), chain.chain()?);
     let plan = &known.get().0;
-    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max };
+    let start = start.map(|start| start.as_slice().map(<[f64]>::to_vec)).transpose()?;
+    if start.as_ref().is_some_and(|start| start.len() != chain.states()) {
+        return Err(PyValueError::new_err("driveline: a start has a number for each of the state"));
+    }
+    let request = Request { accuracy, speed, fastest, cycles_first, cycles_max, multiples, start };
     let solved = guarded(py, ANALYSIS, || {
         let found = steady(plan, &q, &chain, &request)?;
         let equation = Equation { plan, q: &q, chain: &chain };
@@ -187,32 +244,65 @@ pub(crate) fn driveline_motion(
     };
     match solved {
         Err(Failure::Stops(stop)) => none("stops", stop.phi, stop.omega, f64::NAN),
-        Err(Failure::NotFound) => none("not found", f64::NAN, f64::NAN, f64::NAN),
+        Err(Failure::NotFound(off)) => none("not found", f64::NAN, f64::NAN, off),
         Err(Failure::Inaccurate(reached)) => none("inaccurate", f64::NAN, f64::NAN, reached),
         Ok((steady, measures)) => {
-            let motion = DrivelineMotion {
-                period: measures.period,
-                speed: extremes(py, &measures.speed)?,
-                acceleration: extremes(py, &measures.acceleration)?,
-                twist: extremes(py, &measures.twist)?,
-                torque: extremes(py, &measures.torque)?,
-                torque_mean: column(py, measures.torque_mean).unbind(),
-                torque_rms: column(py, measures.torque_rms).unbind(),
-                loss: column(py, measures.loss).unbind(),
-                torque_drive: extremes(py, &measures.drive)?,
-                torque_drive_mean: column(py, measures.drive_mean).unbind(),
-                energy_drive: column(py, measures.drive_work).unbind(),
-                energy_load: measures.load_work,
-                monodromy: rows(py, steady.monodromy.clone(), chain.states())?,
-                accuracy: steady.reached,
-                steps: steady.mesh.steps(),
-                cycles: steady.cycles,
-                plan: known.clone_ref(py),
-                q,
-                chain,
-                steady,
-            };
+            let motion = DrivelineMotion::new(py, &known, (q, chain), steady, measures)?;
             Ok(DrivelineOutcome::Motion(Py::new(py, motion)?))
         }
     }
+}
+
+/// A branch of steady motions over a parameter: parameter, whether it turns back there, and the motion; and why it ends.
+type Branch = (Vec<(f64, bool, Py<DrivelineMotion>)>, &'static str);
+
+#[pyfunction]
+#[pyo3(signature = (plan, *, nodes, machines, accuracy, fastest, parameter, start, direction, points_max))]
+pub(crate) fn driveline_branch(
+    py: Python<'_>,
+    plan: Bound<'_, Plan>,
+    nodes: Vec<f64>,
+    machines: Vec<(Vec<f64>, Driveline<'_>)>,
+    accuracy: f64,
+    fastest: f64,
+    parameter: f64,
+    start: Py<DrivelineMotion>,
+    direction: f64,
+    points_max: usize,
+) -> PyResult<Branch> {
+    let known = plan.unbind();
+    let chains: PyResult<Vec<_>> =
+        machines.into_iter().map(|(q, driveline)| Ok((q, driveline.chain()?))).collect();
+    let machines = chains?;
+    let alike = |(q, chain): &(Vec<f64>, Chain)| {
+        let (first, own) = &machines[0];
+        [q.len(), chain.states(), chain.numbers().len()] == [first.len(), own.states(), own.numbers().len()]
+    };
+    if machines.is_empty() || machines.len() != nodes.len() || !machines.iter().all(alike) {
+        return Err(PyValueError::new_err("driveline: machines of one structure, one for each parameter"));
+    }
+    let family = Family { plan: &known.get().0, nodes, machines };
+    let request =
+        Request { accuracy, speed: 1.0, fastest, cycles_first: 0, cycles_max: 0, multiples: 1, start: None };
+    let first = start.get().steady.clone();
+    let (points, end) = guarded(py, ANALYSIS, || {
+        let (points, end) = branch(&family, &request, (first, parameter), direction, points_max);
+        let read = |point: BranchPoint| {
+            let equation = Equation { plan: family.plan, q: &point.q, chain: &point.chain };
+            let measures = Reading { equation, steady: &point.steady }.measures();
+            (point, measures)
+        };
+        (points.into_iter().map(read).collect::<Vec<_>>(), end)
+    })?;
+    let listed = points.into_iter().map(|(point, measures)| {
+        let BranchPoint { parameter, q, chain, steady, is_fold } = point;
+        let motion = DrivelineMotion::new(py, &known, (q, chain), steady, measures)?;
+        Ok((parameter, is_fold, Py::new(py, motion)?))
+    });
+    let end = match end {
+        End::Range => "range",
+        End::Points => "points",
+        End::Short => "short",
+    };
+    Ok((listed.collect::<PyResult<_>>()?, end))
 }

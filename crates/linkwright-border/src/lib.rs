@@ -8,6 +8,10 @@ mod builder;
 mod cam;
 mod drive;
 mod driveline;
+mod driveline_chain;
+mod driveline_gradient;
+mod driveline_in_time;
+mod driveline_rows;
 mod equations;
 mod errors;
 mod guard;
@@ -78,7 +82,15 @@ pub mod _core {
         transient_along,
     };
     #[pymodule_export]
-    use super::driveline::{DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_motion};
+    use super::driveline::{
+        DrivelineCurves, DrivelineMotion, NoDrivelineMotion, driveline_branch, driveline_motion,
+    };
+    #[pymodule_export]
+    use super::driveline_gradient::DrivelineGradient;
+    #[pymodule_export]
+    use super::driveline_in_time::{DrivelineInTime, DrivelineInTimeCurves, driveline_in_time};
+    #[pymodule_export]
+    use super::driveline_rows::{DrivelineExtremes, DrivelineRows, driveline_rows, least_inertias};
     #[pymodule_export]
     use super::equations::solve_systems;
     #[pymodule_export]

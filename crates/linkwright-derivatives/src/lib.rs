@@ -3,6 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`along`] | derivatives of motions, inertias and kinks at given angles |
+//! | [`elastic`] | derivatives of the steady motion of an elastic driveline |
 //! | [`gradient`] | derivatives of steady motion |
 //! | `layers` | steps in which derivatives are as exact as the motion |
 //! | `peaks` | where an extreme of the acceleration is |
@@ -10,6 +11,7 @@
 //! | [`variation`] | derivatives of a motion in time |
 
 pub mod along;
+pub mod elastic;
 pub mod gradient;
 mod layers;
 mod moving_kinks;

@@ -13,7 +13,12 @@ use linkwright_kernel::call::poll;
 use linkwright_kernel::radau::{A, S};
 
 /// Sweeps of Newton's method at most.
-const SWEEPS_MAX: usize = 25;
+pub(crate) const SWEEPS_MAX: usize = 40;
+
+/// Sweeps without damping, and the smallest share of a correction that is taken.
+const UNDAMPED: usize = 5;
+/// See [`UNDAMPED`].
+const DAMPED_MOST: f64 = 0.125;
 
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
@@ -26,6 +31,11 @@ const SPEED_LEFT: f64 = 0.3;
 
 /// Largest correction, as a share of what it corrects, at which sweeps still come near.
 const FAR: f64 = 1e6;
+
+/// Parts of a step that is not solved at once, and the length \[rad\] below which it is not solved at all.
+const PARTS: usize = 4;
+/// See [`PARTS`].
+const SHORTEST: f64 = 1e-4;
 
 /// Where a motion ends that does not go on.
 #[derive(Clone, Copy, Debug)]
@@ -62,17 +72,25 @@ impl<'a> Cycle<'a> {
         }
     }
 
-    /// Makes a step linear about its stages: corrections of the stages for the start as it is, and by that of the start where
-    /// `sides` has room for them, in the last columns of the table.
-    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool) {
+    /// Makes a step linear about its stages: corrections of the stages for the start as it is, by that of the start if asked for,
+    /// and by that of a parameter of which the rates at all stages have these derivatives, in the last columns of the table.
+    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool, by_parameter: &[f64]) {
         let m = y.len();
         let (h, n) = (self.mesh.length(k), S * m);
         for i in 0..S {
-            self.equation.rates(&self.mesh.rows.row(k * S + i), &stages[i * m..][..m], &mut self.rates);
+            // The last stage lies on the kink at which the step ends.
+            let like = (i == S - 1 && self.mesh.at_kink[k]).then(|| &stages[(i - 1) * m..][..m]);
+            let (row, y) = (self.mesh.rows.row(k * S + i), &stages[i * m..][..m]);
+            if i == S - 1 {
+                self.equation.rates_before(&row, y, like, &mut self.rates);
+            } else {
+                self.equation.rates(&row, y, &mut self.rates);
+            }
             self.f[i * m..][..m].copy_from_slice(&self.rates.rate);
             self.jacobians[i * m * m..][..m * m].copy_from_slice(&self.rates.jacobian);
         }
-        let width = n + if with_start { 1 + m } else { 1 };
+        let (starts, own) = (if with_start { m } else { 0 }, usize::from(!by_parameter.is_empty()));
+        let width = n + 1 + starts + own;
         self.table.clear();
         self.table.resize(n * width, 0.0);
         for i in 0..S {
@@ -92,86 +110,55 @@ impl<'a> Cycle<'a> {
                 if with_start {
                     row[n + 1 + r] = 1.0;
                 }
+                if own > 0 {
+                    let slopes = &by_parameter[k * n..][..n];
+                    row[width - 1] = (0..S).map(|j| h * A[i][j] * slopes[j * m + r]).sum();
+                }
             }
         }
         solve(&mut self.table, n, width - n);
+    }
+
+    /// Makes the cycle linear about a solution: rows of corrections of all stages by what each step begins with, and of the end of the
+    /// cycle by its start. Columns: for what they are as they are, by the numbers of the start, and by a parameter if asked for.
+    pub(crate) fn linear(&mut self, solution: &Solution, by_parameter: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let m = solution.states();
+        let (n, columns) = (S * m, 1 + m + usize::from(!by_parameter.is_empty()));
+        let mut solved = vec![0.0; self.mesh.steps() * n * columns];
+        let mut end = vec![0.0; m * columns];
+        for r in 0..m {
+            end[r * columns + 1 + r] = 1.0;
+        }
+        for k in 0..self.mesh.steps() {
+            self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true, by_parameter);
+            let kept = &mut solved[k * n * columns..][..n * columns];
+            for (to, row) in kept.chunks_exact_mut(columns).zip(self.table.chunks_exact(n + columns)) {
+                to.copy_from_slice(&row[n..]);
+            }
+            end = chained(&kept[(n - m) * columns..], &end, m);
+        }
+        (solved, end)
     }
 
     /// Newton's method for the periodic solution, from a guess. Gives the monodromy matrix, row by row, or nothing where it does
     /// not converge.
     pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
         let m = solution.states();
-        let (n, width, steps) = (S * m, S * m + 1 + m, self.mesh.steps());
-        let mut solved = vec![0.0; steps * n * (1 + m)];
-        let mut last = f64::INFINITY;
-        for _ in 0..SWEEPS_MAX {
+        let (mut last, mut damped) = (f64::INFINITY, 1.0);
+        for sweep in 0..SWEEPS_MAX {
             poll();
-            // End of the cycle over its start: columns of p and U.
-            let mut end = vec![0.0; m * (1 + m)];
-            for r in 0..m {
-                end[r * (1 + m) + 1 + r] = 1.0;
-            }
-            for k in 0..steps {
-                self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true);
-                let kept = &mut solved[k * n * (1 + m)..][..n * (1 + m)];
-                for (to, row) in kept.chunks_exact_mut(1 + m).zip(self.table.chunks_exact(width)) {
-                    to.copy_from_slice(&row[n..]);
-                }
-                end = chained(&kept[(n - m) * (1 + m)..], &end, m);
-            }
-            // (1 − U) δ = p + what the end is beside the start.
-            let close = solution.stage(steps - 1, S - 1);
-            let mut table = vec![0.0; m * (m + 1)];
-            for r in 0..m {
-                for c in 0..m {
-                    table[r * (m + 1) + c] = f64::from(u8::from(r == c)) - end[r * (1 + m) + 1 + c];
-                }
-                table[r * (m + 1) + m] = end[r * (1 + m)] + close[r] - solution.start[r];
-            }
+            let (solved, end) = self.linear(solution, &[]);
+            let mut table = closure(&end, solution, 0);
             solve(&mut table, m, 1);
             let start: Vec<f64> = (0..m).map(|r| table[r * (m + 1) + m]).collect();
-            let size = self.correct(solution, &solved, &start, scale)?;
-            if size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL {
-                let monodromy = (0..m).flat_map(|r| end[r * (1 + m) + 1..][..m].to_vec()).collect();
-                return Some(monodromy);
+            let [size, _] = correct(solution, &solved, &start, scale, damped)?;
+            if is_last(size, last) {
+                return Some(monodromy(&end, m));
             }
+            damped = damping(damped, sweep, size / last);
             last = size;
         }
         None
-    }
-
-    /// Corrects start and stages; the largest correction over what it corrects, if sweeps may come near.
-    fn correct(&self, solution: &mut Solution, solved: &[f64], start: &[f64], scale: &[f64]) -> Option<f64> {
-        let m = solution.states();
-        let n = S * m;
-        let mut corrections = Vec::with_capacity(solution.stages.len());
-        let mut before = start.to_vec();
-        for rows in solved.chunks_exact(n * (1 + m)) {
-            for row in rows.chunks_exact(1 + m) {
-                corrections.push(row[0] + row[1..].iter().zip(&before).map(|(u, d)| u * d).sum::<f64>());
-            }
-            before.copy_from_slice(&corrections[corrections.len() - m..]);
-        }
-        let (mut size, mut share) = (0.0_f64, 1.0_f64);
-        for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
-            for r in 0..m {
-                size = size.max(d[r].abs() / scale[r]);
-            }
-            if d[m - 1] < 0.0 {
-                share = share.min((1.0 - SPEED_LEFT) * y[m - 1] / -d[m - 1]);
-            }
-        }
-        if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
-            return None;
-        }
-        let share = share.min(1.0);
-        for (y, d) in solution.stages.iter_mut().zip(&corrections) {
-            *y += share * d;
-        }
-        for (y, d) in solution.start.iter_mut().zip(start) {
-            *y += share * d;
-        }
-        Some(if share < 1.0 { size.max(1.0) } else { size })
     }
 
     /// Follows the motion over one cycle, step by step, from the start of a solution.
@@ -185,11 +172,35 @@ impl<'a> Cycle<'a> {
             let y = solution.start_of(k).to_vec();
             let mut stages = y.repeat(S);
             if !self.solved_step(k, &y, &mut stages, scale) {
-                return Err(Stop { phi: self.mesh.edges[k], omega: y[m - 1] });
+                let pair = [self.mesh.edges[k], self.mesh.edges[k + 1]];
+                stages = self.in_parts(pair, &y, scale).ok_or(Stop { phi: pair[0], omega: y[m - 1] })?;
             }
             solution.stages[k * n..][..n].copy_from_slice(&stages);
         }
         Ok(())
+    }
+
+    /// Stages of a step that Newton's method does not solve at once, such as one with kinks inside: by parts.
+    fn in_parts(&self, [low, high]: [f64; 2], y: &[f64], scale: &[f64]) -> Option<Vec<f64>> {
+        let m = y.len();
+        let at = |i: usize| low + (high - low) * (i as f64 / PARTS as f64);
+        let parts = Mesh::new(&self.equation, (0..=PARTS).map(at).collect());
+        let mut followed = Solution::constant(&parts, y);
+        let mut cycle = Cycle::new(self.equation, &parts);
+        for k in 0..PARTS {
+            let start = followed.start_of(k).to_vec();
+            let mut stages = start.repeat(S);
+            if !cycle.solved_step(k, &start, &mut stages, scale) {
+                // A speed that falls to zero ends the motion.
+                if parts.length(k) < SHORTEST {
+                    return None;
+                }
+                stages = self.in_parts([parts.edges[k], parts.edges[k + 1]], &start, scale)?;
+            }
+            followed.stages[k * S * m..][..S * m].copy_from_slice(&stages);
+        }
+        let one = Mesh::new(&self.equation, vec![low, high]);
+        Some(followed.on(&parts, &one).stages)
     }
 
     fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
@@ -197,7 +208,7 @@ impl<'a> Cycle<'a> {
         let n = S * m;
         for _ in 0..SWEEPS_MAX {
             poll();
-            self.linear_step(k, y, stages, false);
+            self.linear_step(k, y, stages, false, &[]);
             let (mut size, mut share) = (0.0_f64, 1.0_f64);
             for (i, row) in self.table.chunks_exact(n + 1).enumerate() {
                 let d = row[n];
@@ -220,12 +231,91 @@ impl<'a> Cycle<'a> {
     }
 }
 
-/// p and U of a step behind those of what is before it.
+/// Share of the next correction that is taken: between two forms of a law Newton's method may alternate, which shorter steps
+/// end.
+pub(crate) fn damping(damped: f64, sweep: usize, left: f64) -> f64 {
+    if sweep > UNDAMPED && left > 1.0 - 0.5 * damped {
+        (0.5 * damped).max(DAMPED_MOST)
+    } else {
+        (2.0 * damped).min(1.0)
+    }
+}
+
+/// Whether the last sweep has been, by its correction and the one before.
+pub(crate) fn is_last(size: f64, last: f64) -> bool {
+    size <= ROUNDING || (size <= SMALL && size >= 0.1 * last) || last <= SMALL
+}
+
+/// Derivative of the end of a cycle by its start, row by row.
+pub(crate) fn monodromy(end: &[f64], m: usize) -> Vec<f64> {
+    end.chunks_exact(end.len() / m).flat_map(|row| row[1..=m].to_vec()).collect()
+}
+
+/// Rows of (1 − U) δ − g δλ = p + what the end is beside the start, with `more` columns and rows of a parameter.
+pub(crate) fn closure(end: &[f64], solution: &Solution, more: usize) -> Vec<f64> {
+    let m = solution.states();
+    let (columns, width) = (end.len() / m, m + more + 1);
+    let close = &solution.stages[solution.stages.len() - m..];
+    let mut table = vec![0.0; (m + more) * width];
+    for (r, row) in end.chunks_exact(columns).enumerate() {
+        let to = &mut table[r * width..][..width];
+        for c in 0..m {
+            to[c] = f64::from(u8::from(r == c)) - row[1 + c];
+        }
+        (0..more).for_each(|j| to[m + j] = -row[1 + m + j]);
+        to[width - 1] = row[0] + close[r] - solution.start[r];
+    }
+    table
+}
+
+/// Corrects start and stages by that of the start, and of a parameter behind it; the largest correction over what it corrects, and the
+/// share of it that was taken, if sweeps may come near.
+pub(crate) fn correct(
+    solution: &mut Solution,
+    solved: &[f64],
+    by: &[f64],
+    scale: &[f64],
+    damped: f64,
+) -> Option<[f64; 2]> {
+    let m = solution.states();
+    let columns = 1 + by.len();
+    let mut corrections = Vec::with_capacity(solution.stages.len());
+    let mut before = by.to_vec();
+    for rows in solved.chunks_exact(S * m * columns) {
+        for row in rows.chunks_exact(columns) {
+            corrections.push(row[0] + row[1..].iter().zip(&before).map(|(u, d)| u * d).sum::<f64>());
+        }
+        before[..m].copy_from_slice(&corrections[corrections.len() - m..]);
+    }
+    let (mut size, mut share) = (0.0_f64, damped);
+    for (y, d) in solution.stages.chunks_exact(m).zip(corrections.chunks_exact(m)) {
+        for r in 0..m {
+            size = size.max(d[r].abs() / scale[r]);
+        }
+        if d[m - 1] < 0.0 {
+            share = share.min((1.0 - SPEED_LEFT) * y[m - 1] / -d[m - 1]);
+        }
+    }
+    if !size.is_finite() || size > FAR || corrections.iter().any(|d| d.is_nan()) {
+        return None;
+    }
+    for (y, d) in solution.stages.iter_mut().zip(&corrections) {
+        *y += share * d;
+    }
+    for (y, d) in solution.start.iter_mut().zip(by) {
+        *y += share * d;
+    }
+    Some([if share < damped { size.max(1.0) } else { size }, share])
+}
+
+/// p, U and g of a step behind those of what is before it.
 fn chained(step: &[f64], before: &[f64], m: usize) -> Vec<f64> {
-    let mut found = vec![0.0; m * (1 + m)];
-    for (row, to) in step.chunks_exact(1 + m).zip(found.chunks_exact_mut(1 + m)) {
+    let columns = before.len() / m;
+    let mut found = vec![0.0; m * columns];
+    for (row, to) in step.chunks_exact(columns).zip(found.chunks_exact_mut(columns)) {
         to[0] = row[0];
-        for (u, before) in row[1..].iter().zip(before.chunks_exact(1 + m)) {
+        to[1 + m..].copy_from_slice(&row[1 + m..]);
+        for (u, before) in row[1..=m].iter().zip(before.chunks_exact(columns)) {
             for (to, x) in to.iter_mut().zip(before) {
                 *to += u * x;
             }

@@ -10,13 +10,13 @@ use crate::mesh::{Mesh, Rows, Solution};
 use linkwright_kernel::radau::{C, S, slope_and_bend, value};
 
 /// Shares of a step at which the defect is taken, far from the stages.
-const WATCHED: [f64; 2] = [0.43, 0.73];
+pub(crate) const WATCHED: [f64; 2] = [0.43, 0.73];
 
 /// The largest error of a quintic over h times the defect at the places watched: max |∫Π| / |Π(θ*)|.
-const ERROR_OF_DEFECT: [f64; 2] = error_of_defect();
+pub(crate) const ERROR_OF_DEFECT: [f64; 2] = error_of_defect();
 
 /// The real eigenvalue of the weights of the method.
-const GAMMA: f64 = 1.0 / 6.286_704_751_729_317;
+pub(crate) const GAMMA: f64 = 1.0 / 6.286_704_751_729_317;
 
 const fn product(at: f64) -> f64 {
     let (mut product, mut i) = (1.0, 0);

@@ -7,10 +7,8 @@ use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
 use linkwright_kernel::radau::{C, N, S, through, value};
 
-/// Distance \[rad\] within which a kink lies on the end of a step.
-const NEAR: f64 = 1e-7;
-
 /// Places of a step from one end to the other, and the mechanism there.
+#[derive(Clone)]
 pub struct Rows {
     /// Inertia and loads.
     pub reduced: Vec<Reduction<f64>>,
@@ -42,11 +40,14 @@ impl Rows {
 }
 
 /// Ends of the steps of a cycle, and the mechanism at the stages.
+#[derive(Clone)]
 pub struct Mesh {
     /// From 0 to the end of the cycle \[rad\].
     pub edges: Vec<f64>,
     /// At all stages of all steps.
     pub rows: Rows,
+    /// Whether a step ends where a law of a link has a kink.
+    pub at_kink: Vec<bool>,
 }
 
 /// A solution on a mesh.
@@ -63,7 +64,15 @@ impl Mesh {
     pub fn new(equation: &Equation<'_>, edges: Vec<f64>) -> Self {
         let at_stages = |pair: &[f64]| C.map(|c| pair[0] + c * (pair[1] - pair[0]));
         let angles: Vec<f64> = edges.windows(2).flat_map(at_stages).collect();
-        Mesh { rows: Rows::at(equation, &angles), edges }
+        Mesh { rows: Rows::at(equation, &angles), at_kink: vec![false; edges.len() - 1], edges }
+    }
+
+    /// The same with some ends at kinks of laws.
+    pub fn with_kinks(mut self, kinks: &[f64]) -> Self {
+        for (at_kink, end) in self.at_kink.iter_mut().zip(&self.edges[1..]) {
+            *at_kink = kinks.contains(end);
+        }
+        self
     }
 
     /// Number of steps.
@@ -71,11 +80,11 @@ impl Mesh {
         self.edges.len() - 1
     }
 
-    /// Whether a step ends at an angle.
-    pub fn has_edge(&self, phi: f64) -> bool {
+    /// Distance of an angle from the nearest end of a step \[rad\].
+    pub fn to_edge(&self, phi: f64) -> f64 {
         let behind = self.edges.partition_point(|&edge| edge < phi);
         let beside = [behind.saturating_sub(1), behind.min(self.steps())];
-        beside.iter().any(|&i| (self.edges[i] - phi).abs() < NEAR)
+        beside.map(|i| (self.edges[i] - phi).abs()).into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Length of a step \[rad\].

@@ -3,6 +3,7 @@
 use crate::equation::{Equation, Rates, Row};
 use crate::mesh::Rows;
 use crate::steady::Steady;
+use crate::work::Work;
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
@@ -15,7 +16,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 const NARROWINGS: usize = 36;
 
 /// Share of the range of a quantity by which a peak of its samples may lie below the highest and still be the highest.
-const LOWER: f64 = 0.05;
+pub(crate) const LOWER: f64 = 0.05;
 
 /// How far inside a step its ends are read, as a share of it: kinks lie on them.
 const INSIDE: f64 = 1e-9;
@@ -102,51 +103,42 @@ impl<'a> Reading<'a> {
         // Of accelerations, then drivers, what stages have.
         let drivers = chain.drivers.len();
         let mut at_stages = vec![0.0; (n + drivers) * steps * S];
-        let (mut period, mut load_work) = (0.0, 0.0);
-        let (mut drives, mut sums) = (vec![[0.0; 2]; drivers], vec![0.0; 3 * links.len()]);
+        let mut work = Work::new(chain);
         for k in 0..steps {
             let h = steady.mesh.length(k);
             for i in 0..S {
                 let (y, row) = (steady.solution.stage(k, i), steady.mesh.rows.row(k * S + i));
-                self.equation.rates(&row, y, &mut rates);
+                if i == S - 1 {
+                    self.equation.rates_before(&row, y, None, &mut rates);
+                } else {
+                    self.equation.rates(&row, y, &mut rates);
+                }
                 for (part, &x) in rates.acceleration.iter().chain(&rates.drive).enumerate() {
                     at_stages[(part * steps + k) * S + i] = x;
                 }
-                let dt = h * B[i] / chain.speed(n - 1, y);
-                period += dt;
-                load_work += dt * rates.load_power;
-                for ((sums, torque), driver) in drives.iter_mut().zip(&rates.drive).zip(&chain.drivers) {
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * chain.speed(driver.mass, y);
-                }
-                for (link, sums) in links.iter().zip(sums.chunks_exact_mut(3)) {
-                    let (torque, rate) = (chain.torque(link, y), chain.twist(link, y)[1]);
-                    sums[0] += dt * torque;
-                    sums[1] += dt * torque * torque;
-                    sums[2] += dt * link.damping * rate * rate;
-                }
+                work.add(chain, &rates, y, h * B[i]);
             }
         }
         let of = |at: &dyn Fn(&[f64]) -> f64| self.of_state(at);
-        let part = |k: usize| sums.iter().skip(k).step_by(3).copied();
+        let torques = |which: usize| (0..links.len()).map(|link| work.torques(link)[which]).collect();
         let stages = |part: usize| &at_stages[part * steps * S..][..steps * S];
         Measures {
-            period,
+            period: work.period,
             speed: (0..n).map(|mass| of(&|y| chain.speed(mass, y))).collect(),
             acceleration: (0..n)
                 .map(|mass| self.of_rates(stages(mass), &|rates| rates.acceleration[mass]))
                 .collect(),
             twist: links.iter().map(|link| of(&|y| chain.twist(link, y)[0])).collect(),
-            torque: links.iter().map(|link| of(&|y| chain.torque(link, y))).collect(),
-            torque_mean: part(0).map(|sum| sum / period).collect(),
-            torque_rms: part(1).map(|sum| (sum / period).sqrt()).collect(),
-            loss: part(2).collect(),
+            torque: links.iter().map(|link| of(&|y| chain.torque(link, y).value)).collect(),
+            torque_mean: torques(0),
+            torque_rms: torques(1),
+            loss: work.links.iter().map(|sums| sums[2]).collect(),
             drive: (0..drivers)
                 .map(|driver| self.of_rates(stages(n + driver), &|rates| rates.drive[driver]))
                 .collect(),
-            drive_mean: drives.iter().map(|sums| sums[0] / period).collect(),
-            drive_work: drives.iter().map(|sums| sums[1]).collect(),
-            load_work,
+            drive_mean: (0..drivers).map(|driver| work.mean_drive(driver)).collect(),
+            drive_work: work.drivers.iter().map(|sums| sums[1]).collect(),
+            load_work: work.load,
         }
     }
 
@@ -242,7 +234,9 @@ impl<'a> Reading<'a> {
             }
             found.load.push(rates.load);
             masses.extend((0..chain.masses()).map(|mass| [chain.speed(mass, &y), rates.acceleration[mass]]));
-            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y)]));
+            links.extend(
+                chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]),
+            );
         }
         let by_part = |list: &[[f64; 2]], parts: usize, which: usize| -> Vec<f64> {
             (0..parts)
@@ -275,7 +269,7 @@ impl<'a> Reading<'a> {
 }
 
 /// Place and value of a peak between two shares, by golden section; the ends count too.
-fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+pub(crate) fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
     let mut best = [low, high].map(|share| (share, at(share)));
     let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
     let mut values = inner.map(&mut *at);

@@ -8,8 +8,8 @@ use linkwright_kernel::radau::value;
 /// Halvings of a step in which a kink is.
 const HALVINGS: usize = 50;
 
-/// Crank angles at which further mechanisms pass kinks of their own.
-pub fn station_kinks(chain: &Chain, mesh: &Mesh, solution: &Solution) -> Vec<f64> {
+/// Steps with the crank angles at which further mechanisms pass kinks of their own.
+pub fn station_kinks(chain: &Chain, mesh: &Mesh, solution: &Solution) -> Vec<(usize, f64)> {
     let mut found = Vec::new();
     for station in &chain.stations {
         let own = kinks(&station.part.plan, &station.part.q);
@@ -26,7 +26,7 @@ pub fn station_kinks(chain: &Chain, mesh: &Mesh, solution: &Solution) -> Vec<f64
             for turn in (first / cycle).floor() as i64..=(last / cycle).floor() as i64 {
                 let passed = own[1..].iter().map(|kink| kink + cycle * turn as f64);
                 for kink in passed.filter(|kink| (first..last).contains(kink)) {
-                    found.push(low + h * share_of(|share| psi(share) - kink));
+                    found.push((k, low + h * share_of(|share| psi(share) - kink)));
                 }
             }
         }

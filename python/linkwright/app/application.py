@@ -46,7 +46,8 @@ COMMANDS = {
     "motion": Place(
         "Positions, velocities and accelerations of points and links.", "linkages.commands:motion"
     ),
-    "transient": Place("Compute the motion in time.", "drive.commands:transient"),
+    "transient": Place("Compute the motion in time.", "driveline.commands:transient"),
+    "elastic": Place("Steady motion of an elastic driveline.", "driveline.commands:elastic"),
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "draw": Place("Draw a mechanism, still or in motion.", "app.commands.draw:draw", False),
     "forces": Place("Compute joint reactions and shaking force.", "kinetostatics.commands:forces"),

@@ -19,7 +19,7 @@ ANALYSES = (
     *(cam.CAM, cam.SIZES, cam.CHECK),
     *(pumping.UNIT, pumping.GEARBOX, pumping.ROTATOR),
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
-    *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC),
+    *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC, driveline.RUN_UP),
     rods.STRING,
     *(kinetostatics.FORCES, kinetostatics.CYLINDER),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),

@@ -186,7 +186,7 @@ def steady_states(
             "motion to solve for; a batch needs a drive.motor of another kind"
         )
     require_same_turns(machine)
-    arrays = _columns(machine, entries)
+    arrays = columns_of(machine, entries)
     compiled = compile_machine(replace(machine, arrays))
     if not len(compiled.slots):
         raise InputError(
@@ -214,7 +214,11 @@ def _solved_rows(compiled: CompiledMachine, accuracy: float) -> dict[str, Any]:
     return {"status": status, "fast_starts": fast, "turns_swept": swept, "turns": turns, **columns}
 
 
-def _columns(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+def columns_of(machine: Machine, entries: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+    """Entries of many machines as arrays of one length.
+
+    Raises `ShapeError` where they are not, and `MachineError` for values that are not possible.
+    """
     arrays = {
         address: np.atleast_1d(array(address, value, finite=False)) for address, value in entries.items()
     }

@@ -1,4 +1,4 @@
-"""The analysis of a torsionally flexible driveline with its mechanism."""
+"""The analyses of a torsionally flexible driveline with its mechanism."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ ELASTIC = Analysis(
     obstacle=of("driveline.study:no_elastic_motion"),
     make=of("driveline.study:made_elastic_motion"),
     warnings=of("driveline.study:elastic_warnings"),
+    tangents=of("driveline.gradient:elastic_tangents"),
     check=of("driveline.study:check_driveline"),
     summary=of("driveline.study:driveline_summary"),
     tables=of("driveline.tables:elastic_tables", "elastic_motion"),
@@ -21,4 +22,17 @@ ELASTIC = Analysis(
     formulas=of("driveline.words:elastic_formulas", "elastic_motion"),
     papers=of("driveline.words:elastic_papers", "elastic_motion"),
     assumptions=of("driveline.words:elastic_assumptions", "machine", "elastic_motion"),
+)
+
+RUN_UP = Analysis(
+    name="elastic_run_up",
+    words="Run-up of the elastic driveline",
+    function=of("driveline.run_up:elastic_run_up"),
+    applies=has_elastic_drive,
+    obstacle=of("driveline.study:no_elastic_run_up"),
+    make=of("driveline.study:made_elastic_run_up"),
+    tables=of("driveline.tables:run_up_tables", "elastic_run_up"),
+    figures=of("driveline.figures_in_time:run_up_figures", "elastic_run_up"),
+    headline=of("driveline.tables:run_up_headline", "elastic_run_up"),
+    assumptions=of("driveline.words:run_up_assumptions", "elastic_run_up"),
 )

@@ -8,6 +8,7 @@ mechanisms is in `train_chain`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,13 +16,16 @@ import numpy as np
 from linkwright.drive.model.drive import Drive
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.kernel.arrays import Floats, Integers
+from linkwright.kernel.numerics.tangent import numbers, primal
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.core import DrivelineTorque
+from linkwright.machine.program.compiled import CompiledMachine
+from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
 from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mean_inertia
 from linkwright.torsion.in_time.moving_train import shaft_damping
 from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
+from linkwright.torsion.model.train import Train
 
 # Share of a disturbance below which it is gone.
 _GONE = 1e-8
@@ -30,15 +34,50 @@ _GONE = 1e-8
 _ANY = 1.0
 
 
+class Outside(NamedTuple):
+    """A torque on a mass from outside. Its numbers, which may be tangents, are those of the core."""
+
+    mass: int
+    kind: str = "own"  # "own": by the machine's own motor; or "held", "motor", "power"
+    numbers: Any = ()  # "held": speed; "power": torque, speed, exponent; "motor": those of its program
+    program: CompiledMachine | None = None  # of a "motor"
+
+    def core(self) -> DrivelineTorque:
+        """For the core."""
+        if self.program is not None:
+            return DrivelineTorque.motor(self.mass, self.program.plan, np.ascontiguousarray(self.numbers))
+        values = [float(x) for x in self.numbers]
+        if self.kind == "power":
+            torque, speed, exponent = values
+            return DrivelineTorque.power(self.mass, torque=torque, speed=speed, exponent=exponent)
+        return DrivelineTorque.held(self.mass, values[0]) if values else DrivelineTorque.own(self.mass)
+
+
+class Stand(NamedTuple):
+    """A further mechanism on a mass."""
+
+    mass: int
+    compiled: CompiledMachine
+    ratio: Any  # speed of its crank over that of the mass
+    phase: Any  # its crank angle where that of the mass is zero [rad]
+
+    def core(self) -> DrivelineStation:
+        """For the core."""
+        compiled = self.compiled
+        return DrivelineStation(
+            self.mass, compiled.plan, compiled.one, ratio=float(self.ratio), phase=float(self.phase)
+        )
+
+
 class Chain(NamedTuple):
-    """Masses and links of a driveline."""
+    """Masses and links of a driveline; but for places all numbers may be tangents."""
 
     stations: tuple[str, ...]  # what turns, from the motor on
     ratio: Floats  # (stations,) speed over that of the crank
     mass: Integers  # (stations,) mass that each belongs to
     shafts: tuple[str, ...]  # what twists
     lead: Floats  # (shafts,) speed at which their torque counts, over that of the crank
-    links: dict[str, Any]  # masses, links and torques as the core takes them
+    links: dict[str, Any]  # masses, links, torques from outside, further mechanisms
     crank: str  # station whose crank angle counts
     motors: tuple[str, ...]  # what drives
     motor_ratio: Floats  # (motors,) speed of what it drives over that of the crank
@@ -46,13 +85,54 @@ class Chain(NamedTuple):
     held: int | None  # mass that keeps its speed
     notes: tuple[str, ...]  # what was assumed
 
+    @property
+    def is_linear(self) -> bool:
+        """Whether no link has backlash or a curve."""
+        return not primal(self.links["gap"]).any() and all(curve is None for curve in self.links["curves"])
 
-def chain_of(machine: Machine) -> Chain:
-    """Masses and links of the driveline of a machine that a [drive] describes."""
+    @property
+    def speed_held(self) -> float | None:
+        """Speed of the crank where a driver keeps its own [rad/s]."""
+        kept = [each.numbers[0] for each in self.links["drivers"] if each.kind == "held"]
+        return float(kept[0]) if kept else None
+
+    @property
+    def joins(self) -> Floats:
+        """Twists of the links by angles of the masses, (shafts, masses)."""
+        rows = np.arange(len(self.shafts))
+        joins = np.zeros((len(rows), len(self.links["inertia"]) + 1))
+        joins[rows, self.links["first"]], joins[rows, self.links["second"]] = 1.0, -1.0
+        return joins
+
+    @property
+    def core(self) -> dict[str, Any]:
+        """Masses, links, torques and mechanisms as the core takes them."""
+        made = {name: [each.core() for each in self.links[name]] for name in _MADE}
+        return self.links | made
+
+
+_MADE = ("drivers", "loads", "stations")
+
+
+class Driven(NamedTuple):
+    """A driveline with its mechanisms, ready for steady motion."""
+
+    compiled: CompiledMachine  # the mechanism at the crank, over the cycle of all
+    chain: Chain
+    speed: float  # of the crank, with which the search begins [rad/s]
+
+
+def chain_of(machine: Machine, mechanism: Any = None) -> Chain:
+    """Masses and links of the driveline of a machine that a [drive] describes; tangents go through.
+
+    `mechanism`: its mean inertia, where that is known already [kg m²].
+    """
     drive = machine.drive
     assert drive is not None
-    mechanism = mean_inertia(machine) if _has_hysteresis(drive) else _ANY
-    referred = refer(drive_train(drive, mechanism))
+    if mechanism is None:
+        mechanism = mean_inertia(machine) if has_hysteresis(drive) else _ANY
+    train = drive_train(drive, mechanism)
+    referred = refer(train)
     crank = referred.discs.index(CRANK)
     # All was referred to the first disc.
     n = 1.0 / referred.speed[crank]
@@ -64,20 +144,19 @@ def chain_of(machine: Machine) -> Chain:
         referred.shafts.index(name) for name in (MOTOR_SHAFT, GEARS, CRANKSHAFT) if name in referred.shafts
     ]
     own = inertia[referred.mass[crank]] - mechanism
-    links = links_of(referred, n, order, row, damping)
-    links["apart"] = float(drive_inertia(drive)) - own
-    driven, held = int(order[referred.mass[_driven(referred)]]), None
+    links = links_of(train, referred, n, order, row, damping)
+    links["apart"] = drive_inertia(drive) - own
+    held = None
+    driver = Outside(int(order[referred.mass[_driven(referred)]]))
     shafts, lead = tuple(referred.shafts[k] for k in row), referred.lead[row] * n
     stations, ratio, mass = referred.discs, referred.speed * n, order[referred.mass]
     if isinstance(drive.motor, ConstantSpeedMotor):
         links |= _held(links)
         # The motor is the mass before the crank, which moves on by one.
-        held = driven = len(links["inertia"]) - 1
+        held = len(links["inertia"]) - 1
         mass = np.append(held, np.where(mass == held, held + 1, mass))
-        stations, ratio = (MOTOR, *stations), np.append(drive.gearbox.ratio, ratio)
-        driver = DrivelineTorque.held(held, float(drive.motor.speed) / drive.gearbox.ratio)
-    else:
-        driver = DrivelineTorque.own(driven)
+        stations, ratio = (MOTOR, *stations), np.concatenate([numbers([drive.gearbox.ratio]), ratio])
+        driver = Outside(held, "held", (drive.motor.speed / drive.gearbox.ratio,))
     links |= {"drivers": [driver], "loads": [], "stations": [], "swing": None}
     return Chain(
         stations,
@@ -88,7 +167,7 @@ def chain_of(machine: Machine) -> Chain:
         links,
         crank=CRANK,
         motors=(MOTOR,),
-        motor_ratio=np.array([drive.gearbox.ratio]),
+        motor_ratio=numbers([drive.gearbox.ratio]),
         felt=np.zeros(len(links["inertia"]) + 1),
         held=held,
         notes=tuple(notes),
@@ -96,27 +175,46 @@ def chain_of(machine: Machine) -> Chain:
 
 
 def links_of(
-    referred: ReferredTrain, n: float, order: Integers, row: list[int], damping: Floats
+    train: Train, referred: ReferredTrain, n: Any, order: Integers, row: list[int], damping: Any
 ) -> dict[str, Any]:
-    """Masses but the crank, and links, as the core takes them.
+    """Masses but the crank, and links, as the core takes them; tangents go through.
 
     `n`: speed of the first disc over that of the crank; `order`: new number of each mass; `row`: which
     shafts; `damping`: of all, at their own speeds [N m s/rad].
     """
-    inertia, last = referred.inertia * n**2, len(order)
-    ends = np.where(referred.ends == HELD, last, np.append(order, 0)[referred.ends])[row]
-    others = np.empty(last - 1)
-    others[order[order < last - 1]] = inertia[order < last - 1]
+    names = [referred.shafts[k] for k in row]
+    ends = np.where(referred.ends == HELD, len(order), np.append(order, 0)[referred.ends])[row]
     return {
-        "inertia": others,
+        "inertia": (referred.inertia * n**2)[np.argsort(order)[:-1]],
         "first": np.ascontiguousarray(ends[:, 0], dtype=np.int32),
         "second": np.ascontiguousarray(ends[:, 1], dtype=np.int32),
-        "stiffness": referred.stiffness[row] * n**2,
         "damping": damping[row] * (referred.lead[row] * n) ** 2,
+        **_laws(train, names, referred.stiffness[row] * n**2, referred.lead[row] * n),
     }
 
 
-def _has_hysteresis(drive: Drive) -> bool:
+def _laws(train: Train, names: list[str], stiffness: Any, lead: Any) -> dict[str, Any]:
+    """Stiffness of each link, half of its backlash, and its curve, with the steepest slope as stiffness."""
+    parts = [train.gears.get(name) or train.couplings.get(name) or train.shafts[name] for name in names]
+    gaps = [getattr(part, "backlash", 0.0) / 2 for part in parts]
+    slopes, curves = list(stiffness), list[Any]()
+    for k, (part, n) in enumerate(zip(parts, lead, strict=True)):
+        curves.append(None)
+        if getattr(part, "twist", None) is not None:
+            twist, torque, slope = part.points
+            curves[k] = (twist / n, torque * n, slope * n**2)
+            slopes[k] = _steepest(*(primal(points) for points in curves[k]))
+    return {"stiffness": numbers(slopes), "gap": numbers(gaps) / lead, "curves": curves}
+
+
+def _steepest(twist: Floats, torque: Floats, slope: Floats) -> float:
+    """A bound of the slope of the cubics through points [N m/rad]."""
+    chord = np.diff(torque) / np.diff(twist)
+    return float(max(slope.max(), 1.5 * chord.max()))
+
+
+def has_hysteresis(drive: Drive) -> bool:
+    """Whether a loss factor stands for viscous damping, by the mean inertia of the mechanism."""
     return any(shaft is not None and shaft.loss_factor for shaft in (drive.motor_shaft, drive.crankshaft))
 
 
@@ -142,7 +240,26 @@ def _held(links: dict[str, Any]) -> dict[str, Any]:
         )
         for end in ("first", "second")
     }
-    return {**ends, "inertia": np.append(links["inertia"], 1.0)}
+    return {**ends, "inertia": np.concatenate([links["inertia"], [1.0]])}
+
+
+def listed(chain: Chain) -> Any:
+    """Numbers of a driveline in the core's order, which may be tangents: see `Chain::numbers` there."""
+    links = chain.links
+    of_links = list(_of_links(links))
+    outside = [x for each in (*links["drivers"], *links["loads"]) for x in each.numbers]
+    stations = [x for each in links["stations"] for x in (each.ratio, each.phase)]
+    swing = [] if links["swing"] is None else [x for part in links["swing"] for x in part]
+    return numbers([*links["inertia"], links["apart"], *of_links, *outside, *stations, *swing])
+
+
+def _of_links(links: dict[str, Any]) -> Iterator[Any]:
+    """Stiffness, damping, half of the backlash and points of the curve of every link."""
+    names = ("stiffness", "damping", "gap", "curves")
+    for *rates, curve in zip(*(links[name] for name in names), strict=True):
+        yield from rates
+        for point in zip(*(curve or ()), strict=True):
+            yield from point
 
 
 def fastest(chain: Chain, inertia: float, period: float) -> float:
@@ -150,17 +267,27 @@ def fastest(chain: Chain, inertia: float, period: float) -> float:
 
     `inertia`: all that the crank feels, also of the drive [kg m²]; `period`: of a cycle [s].
     """
-    links, n = chain.links, len(chain.links["inertia"]) + 1
-    joins = np.zeros((len(chain.shafts), n))
-    rows = np.arange(len(joins))
-    joins[rows, links["first"]], joins[rows, links["second"]] = 1.0, -1.0
-    J = np.append(links["inertia"], max(inertia - links["apart"], 0.0)) + chain.felt
+    one = fastest_of(chain, np.asarray(listed(chain))[None], np.array([inertia]), np.array([period]))
+    return float(one[0])
+
+
+def fastest_of(chain: Chain, rows: Floats, inertia: Floats, period: Floats) -> Floats:
+    """The same of drivelines of one form, (n,). `rows`: their numbers as `listed` has them, (n, numbers)."""
+    links, others = chain.links, len(chain.links["inertia"])
+    apart = rows[:, others]
+    sizes = [3 + (0 if curve is None else 3 * len(curve[0])) for curve in links["curves"]]
+    at = others + 1 + np.cumsum([0, *sizes[:-1]])
+    stiffness, damping = rows[:, at], rows[:, at + 1]
+    joins = chain.joins
+    J = np.column_stack([rows[:, :others], np.maximum(inertia - apart, 0.0)]) + chain.felt
     if chain.held is not None:
         joins[:, chain.held] = 0.0
-    if not J.min() > 0:
-        return 0.0
-    K, C = (-(joins.T * links[name]) @ joins / J[:, None] for name in ("stiffness", "damping"))
-    system = np.block([[np.zeros((n, n)), np.eye(n)], [K, C]])
+    has_inertia = np.asarray((J > 0).all(axis=1))
+    size = np.where(has_inertia[:, None], J, 1.0)[:, :, None]
+    K, C = (-np.einsum("sa,ns,sb->nab", joins, rates, joins) / size for rates in (stiffness, damping))
+    unit = np.broadcast_to(np.eye(others + 1), K.shape)
+    system = np.block([[np.zeros_like(K), unit], [K, C]])
     found = np.linalg.eigvals(system)
-    lasting = found[found.real * period > np.log(_GONE)]
-    return float(np.abs(lasting).max(initial=0.0))
+    lasting = np.asarray(found.real * period[:, None] > np.log(_GONE))
+    fastest: Floats = np.where(lasting & has_inertia[:, None], np.abs(found), 0.0).max(axis=1, initial=0.0)
+    return fastest

@@ -15,37 +15,24 @@ multipliers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from linkwright.drive.load_checks import require_same_turns, require_sound_loads
-from linkwright.drive.reduction import NO_INERTIA
 from linkwright.drive.steady_state import require_accuracy
-from linkwright.driveline.chain import Chain, chain_of, fastest
+from linkwright.driveline.chain import Chain, Driven
+from linkwright.driveline.coexisting import FOLLOWED, Followed, OtherMotion, followed_motions, is_same
 from linkwright.driveline.permitted import TorqueJudgement, judged
-from linkwright.driveline.train_chain import driven_train
+from linkwright.driveline.solving import AWAY, multipliers_of, ready, search, solved
 from linkwright.kernel.arrays import Complexes, Floats
-from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label, declared
+from linkwright.kernel.reader.numbers import number
 from linkwright.kernel.result import Result
-from linkwright.linkages.closure import require_full_turn, turn_angles
-from linkwright.linkages.whole_cycle import over_whole_cycle
+from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
-from linkwright.machine.program.core import DrivelineMotion, NoDrivelineMotion
-from linkwright.torsion.model.drive_train import STIFFNESS_KEYS
-
-# Cycles of the crank that the motion is followed, at most, where Newton's method alone does not converge.
-_CYCLES = 300
-
-# Cycles that it is followed before where the motion found is unstable: another may be stable.
-_AWAY = 100
-
-# Angles of a revolution at which the minimum inertia is looked for.
-_ANGLES = 36
+from linkwright.machine.program.core import DrivelineMotion
 
 _OWN = "At its own speed."
 
@@ -126,6 +113,7 @@ class ElasticMotion(Result):
     ]
     twist_min: Annotated[Floats, Label("minimum twist", "Δ_min", "rad", _OWN, shape="(shafts,)")]
     twist_max: Annotated[Floats, Label("maximum twist", "Δ_max", "rad", _OWN, shape="(shafts,)")]
+    backlash: Annotated[Floats, Label("backlash of each shaft", "b", "rad", _OWN, shape="(shafts,)")]
     power_dissipated: Annotated[
         Floats,
         Label(
@@ -158,6 +146,15 @@ class ElasticMotion(Result):
     ]
     judgements: Annotated[tuple[TorqueJudgement, ...], About("Torques against what is permitted.")] = ()
     notes: Annotated[tuple[str, ...], About("What was assumed.")] = ()
+    start: Annotated[
+        str, About("From where the machine comes to this motion; empty where it was not looked for.")
+    ] = ""
+    other_motions: Annotated[
+        tuple[OtherMotion, ...], About("Further steady motions, from other beginnings, if asked for.")
+    ] = ()
+    not_periodic: Annotated[
+        tuple[str, ...], About("Beginnings from which the motion does not repeat, in sentences.")
+    ] = ()
 
     @property
     def findings(self) -> list[str]:
@@ -224,6 +221,8 @@ class ElasticMotion(Result):
         results["multipliers"] = [[float(each.real), float(each.imag)] for each in self.multipliers]
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
         names = {"(shafts,)": self.shafts, "(stations,)": self.stations, "(motors,)": self.motors}
+        results["other_motions"] = [other.to_dict() for other in self.other_motions]
+        results["not_periodic"] = list(self.not_periodic)
         for name, (_, mark) in declared(type(self)).items():
             if isinstance(mark, Label) and mark.shape in names:
                 values = getattr(self, name)
@@ -236,7 +235,12 @@ class ElasticMotion(Result):
 
 @public
 def elastic_motion(
-    machine: Machine, *, accuracy: float = 1e-9, n: int = 360, angles: Floats | None = None
+    machine: Machine,
+    *,
+    accuracy: float = 1e-9,
+    n: int = 360,
+    angles: Floats | None = None,
+    others: bool = False,
 ) -> ElasticMotion:
     """Find the steady motion of a torsionally flexible driveline with its mechanism.
 
@@ -251,6 +255,8 @@ def elastic_motion(
         Intervals of a revolution for the curves; extremes and means do not depend on it.
     angles : ndarray, shape (m,), optional
         Crank angles of the curves instead, within the cycle [rad].
+    others : bool
+        Whether to look for other steady motions, from other beginnings, where links have backlash or curves.
 
     Returns
     -------
@@ -275,98 +281,76 @@ def elastic_motion(
     .. [1] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
     require_accuracy(accuracy)
-    compiled, chain, speed = driven_chain(machine)
-    motion = _solved(compiled, chain, accuracy, speed)
-    multipliers = _multipliers(motion, chain)
-    if abs(multipliers[0]) >= 1:
+    found = solved_motion(machine, accuracy)
+    (compiled, chain, _), motion, rest = found
+    if others and not chain.is_linear and not rest:
+        rest = list(followed_motions(compiled, chain, motion, accuracy, search(found.driven, 0)))
+    phi = turn_angles(n, found.turns) if angles is None else angles
+    result = result_of(machine, motion, chain, phi, found.turns)
+    return _with_others(result, motion, chain, rest, compiled.turns) if others else result
+
+
+class SteadySolution(NamedTuple):
+    """Steady motion as the core has it, of which curves are read."""
+
+    driven: Driven
+    motion: DrivelineMotion
+    rest: list[Followed]  # what was found from other beginnings, if these had to be asked
+
+    @property
+    def chain(self) -> Chain:
+        """The driveline."""
+        return self.driven.chain
+
+    @property
+    def turns(self) -> int:
+        """Revolutions of a cycle."""
+        return self.driven.compiled.turns * self.motion.multiple
+
+
+def solved_motion(machine: Machine, accuracy: float) -> SteadySolution:
+    """Steady motion of an elastic driveline; raises as `elastic_motion`."""
+    driven = ready(machine)
+    motion, rest = solved(driven, accuracy)
+    if abs(multipliers_of(motion, driven.chain)[0]) >= 1 and not motion.cycles:
         # Unstable: the motion that the machine comes to in time may be another one.
-        other = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, _AWAY))
+        compiled, chain, _ = driven
+        other = compiled.driveline(chain.core, accuracy=accuracy, **search(driven, AWAY))
         if isinstance(other, DrivelineMotion):
-            motion, multipliers = other, _multipliers(other, chain)
-    phi = turn_angles(n, compiled.turns) if angles is None else angles
-    return _result(machine, motion, chain, phi, compiled.turns, multipliers)
+            motion = other
+    return SteadySolution(driven, motion, rest)
 
 
-def driven_chain(machine: Machine) -> tuple[CompiledMachine, Chain, float]:
-    """The mechanism at the crank over a cycle, the driveline, and the speed with which the search begins."""
-    if machine.has_mounted_mechanisms:
-        return driven_train(machine)
-    drive = machine.drive
-    if drive is None or not drive.twists:
-        raise InputError(
-            f"{machine.name}: the driveline is rigid; expected one of {', '.join(STIFFNESS_KEYS)}, or "
-            "[train.mechanisms] and [train.motors]"
-        )
-    if drive.motor is None:
-        raise InputError(f"{machine.name}: steady motion needs a motor; add [drive.motor]")
-    compiled = compile_machine(machine)
-    require_full_turn(compiled, machine)
-    compiled = over_whole_cycle(compiled)
-    require_same_turns(machine)
-    require_sound_loads(compiled, machine)
-    return compiled, chain_of(machine), compiled.speed_guess
-
-
-def _search(compiled: CompiledMachine, chain: Chain, speed: float, cycles: int) -> dict[str, Any]:
-    """Where the search begins, and for how long it follows the motion."""
-    period = compiled.cycle / speed
-    inertia = compiled.reductions(turn_angles(_ANGLES, compiled.turns)).inertia.min()
-    return {
-        "speed": speed,
-        "fastest": fastest(chain, float(inertia), period),
-        "cycles_first": cycles,
-        "cycles_max": _CYCLES,
-    }
-
-
-def _solved(compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float) -> DrivelineMotion:
-    motion = compiled.driveline(accuracy, **chain.links, **_search(compiled, chain, speed, 0))
-    if isinstance(motion, NoDrivelineMotion):
-        raise _failure(motion, compiled, chain, accuracy, speed)
-    return motion
-
-
-def _failure(
-    motion: NoDrivelineMotion, compiled: CompiledMachine, chain: Chain, accuracy: float, speed: float
-) -> Exception:
-    angles = turn_angles(360, compiled.turns)
-    if not (compiled.reductions(angles).inertia - chain.links["apart"]).min() > 0:
-        return SteadyStateError(NO_INERTIA)
-    if motion.reason == "stops":
-        turned = motion.crank_angle / (2 * np.pi)
-        return SteadyStateError(
-            f"no steady motion of the elastic driveline: started at {speed:.4g} rad/s, the "
-            f"crank comes to rest or turns back after {turned:.4g} revolutions, at φ = "
-            f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
-            "larger flywheel or motor, or follow the motion in time (torsion_transient)"
-        )
-    if motion.reason == "not found":
-        return ConvergenceError(
-            f"no periodic motion of the elastic driveline was found: in {_CYCLES} cycles the motion does not "
-            "come to one that Newton's method converges to; follow it in time (torsion_transient)",
-            method="Newton's method",
-            iterations=_CYCLES,
-        )
-    return ConvergenceError(
-        "steady motion of the elastic driveline was found to a relative accuracy of "
-        f"{motion.accuracy:.1e} only, {accuracy:g} is required, with at most 20 000 steps per cycle: leave "
-        "out a stiffness that is rigid at this speed, give its shaft damping, smooth jumps of loads, or "
-        "reduce the accuracy",
-        method="collocation",
-    )
-
-
-def _multipliers(motion: DrivelineMotion, chain: Chain) -> Complexes:
-    """From the largest on; without that by which a motor of constant speed keeps its speed."""
-    found: Complexes = np.linalg.eigvals(motion.monodromy).astype(complex)
-    found = found[np.argsort(-np.abs(found), kind="stable")]
-    multipliers: Complexes = found if chain.held is None else found[:-1]
-    return multipliers
-
-
-def _result(
-    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int, multipliers: Complexes
+def _with_others(
+    found: ElasticMotion, motion: DrivelineMotion, chain: Chain, rest: list[Followed], turns: int
 ) -> ElasticMotion:
+    """The motion with what the machine comes to from other beginnings."""
+    known, listed = [motion], []
+    start, chaotic = "", []
+    for words, other, off in rest:
+        if other is None:
+            if off > 0:
+                chaotic.append(
+                    f"From {words} the motion does not repeat within {2 * FOLLOWED} cycles: the last ones "
+                    f"differ by {number(100 * off, 2)} % at best; it is chaotic, or settles very slowly"
+                )
+        elif is_same(motion, other):
+            start = start or words
+        elif not any(is_same(one, other) for one in known):
+            known.append(other)
+            lead = chain.lead
+            multiplier = float(np.abs(multipliers_of(other, chain)[0]))
+            least, greatest = other.torque.least / lead, other.torque.greatest / lead
+            listed.append(
+                OtherMotion(turns * other.multiple, other.period, least, greatest, multiplier, words)
+            )
+    return replace(found, start=start, other_motions=tuple(listed), not_periodic=tuple(chaotic))
+
+
+def result_of(
+    machine: Machine, motion: DrivelineMotion, chain: Chain, phi: Floats, turns: int
+) -> ElasticMotion:
+    """The motion at crank angles [rad], with its torques judged."""
     curves = motion.curves(np.ascontiguousarray(phi, dtype=np.float64))
     at, ratio, lead, of_motor = chain.mass, chain.ratio, chain.lead, chain.motor_ratio
     found = ElasticMotion(
@@ -383,34 +367,43 @@ def _result(
         twist=curves.twist * lead[:, None],
         torque_drive=curves.torque_drive.sum(axis=0),
         torque_motor=curves.torque_drive / of_motor[:, None],
-        torque_motor_min=motion.torque_drive.least / of_motor,
-        torque_motor_max=motion.torque_drive.greatest / of_motor,
-        torque_motor_mean=motion.torque_drive_mean / of_motor,
-        power_motor=motion.energy_drive / motion.period,
         torque_load=curves.torque_load,
-        speed_min=ratio * motion.speed.least[at],
-        speed_max=ratio * motion.speed.greatest[at],
         speed_min_angle=motion.speed.least_at[at],
         speed_max_angle=motion.speed.greatest_at[at],
-        acceleration_min=ratio * motion.acceleration.least[at],
-        acceleration_max=ratio * motion.acceleration.greatest[at],
-        torque_min=motion.torque.least / lead,
-        torque_max=motion.torque.greatest / lead,
         torque_min_angle=motion.torque.least_at,
         torque_max_angle=motion.torque.greatest_at,
-        torque_mean=motion.torque_mean / lead,
-        torque_rms=motion.torque_rms / lead,
-        twist_min=motion.twist.least * lead,
-        twist_max=motion.twist.greatest * lead,
-        power_dissipated=motion.loss / motion.period,
-        period=motion.period,
-        multipliers=multipliers,
-        energy_drive=float(motion.energy_drive.sum()) / turns,
-        energy_load=motion.energy_load / turns,
+        backlash=2 * chain.links["gap"] * lead,
+        multipliers=multipliers_of(motion, chain),
         accuracy=motion.accuracy,
         steps=motion.steps,
         turns=turns,
         cycles_followed=motion.cycles,
         notes=chain.notes,
+        **measures(motion, chain, turns),
     )
     return judged(machine, found)
+
+
+def measures(motion: Any, chain: Any, turns: int) -> dict[str, Any]:
+    """Extremes, means and work of stations and shafts at their own speeds; tangents go through."""
+    at, ratio, lead, of_motor = chain.mass, chain.ratio, chain.lead, chain.motor_ratio
+    return {
+        "speed_min": ratio * motion.speed.least[at],
+        "speed_max": ratio * motion.speed.greatest[at],
+        "acceleration_min": ratio * motion.acceleration.least[at],
+        "acceleration_max": ratio * motion.acceleration.greatest[at],
+        "torque_min": motion.torque.least / lead,
+        "torque_max": motion.torque.greatest / lead,
+        "torque_mean": motion.torque_mean / lead,
+        "torque_rms": motion.torque_rms / lead,
+        "twist_min": motion.twist.least * lead,
+        "twist_max": motion.twist.greatest * lead,
+        "power_dissipated": motion.loss / motion.period,
+        "period": motion.period,
+        "torque_motor_min": motion.torque_drive.least / of_motor,
+        "torque_motor_max": motion.torque_drive.greatest / of_motor,
+        "torque_motor_mean": motion.torque_drive_mean / of_motor,
+        "power_motor": motion.energy_drive / motion.period,
+        "energy_drive": motion.energy_drive.sum(axis=0) / turns,
+        "energy_load": motion.energy_load / turns,
+    }

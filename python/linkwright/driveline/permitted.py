@@ -1,9 +1,9 @@
-"""Torques of flexible shafts and couplings in steady motion against what is permitted.
+"""Torques of flexible shafts and couplings against what is permitted.
 
 | limit | against |
 | --- | --- |
 | `torque_permitted` | largest torque either way |
-| `vibratory_torque_permitted` | half the peak-to-peak torque |
+| `vibratory_torque_permitted` | half the peak-to-peak torque, in steady motion alone |
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from linkwright.torsion.model.drive_train import CRANKSHAFT, MOTOR_SHAFT
 
 if TYPE_CHECKING:
     from linkwright.driveline.elastic_motion import ElasticMotion
+    from linkwright.driveline.in_time import ElasticTransient
 
 
 @dataclass(frozen=True)
 class TorqueJudgement:
-    """One limit, and whether the steady motion keeps it.
+    """One limit, and whether the motion keeps it.
 
     Attributes
     ----------
@@ -32,12 +33,15 @@ class TorqueJudgement:
         What is limited, in words.
     found, permitted : float
         [N m].
+    motion : str
+        Which motion is judged, in words.
     """
 
     part: str
     what: str
     found: float
     permitted: float
+    motion: str = "in steady motion"
 
     @property
     def is_kept(self) -> bool:
@@ -49,7 +53,7 @@ class TorqueJudgement:
         """The judgement as a sentence."""
         verdict = "within limit" if self.is_kept else "limit exceeded"
         return (
-            f"{self.part}: {self.what} {quantity(self.found, 'N m')} in steady motion, permitted "
+            f"{self.part}: {self.what} {quantity(self.found, 'N m')} {self.motion}, permitted "
             f"{quantity(self.permitted, 'N m')}: {verdict}"
         )
 
@@ -65,12 +69,21 @@ def judged(machine: Machine, motion: ElasticMotion) -> ElasticMotion:
     return replace(motion, judgements=tuple(_judgements(machine, motion)))
 
 
-def _judgements(machine: Machine, motion: ElasticMotion) -> Iterator[TorqueJudgement]:
+def in_motion(machine: Machine, motion: ElasticTransient, words: str) -> ElasticTransient:
+    """A motion in time with its torques judged: it has no vibratory torque that might be permitted."""
+    found = (replace(each, motion=words) for each in _judgements(machine, motion) if each.what == "torque")
+    return replace(motion, judgements=tuple(found))
+
+
+def _judgements(machine: Machine, motion: ElasticMotion | ElasticTransient) -> Iterator[TorqueJudgement]:
     for name, part in _limited(machine):
         if name not in motion.shafts:
             continue
         at = motion.shafts.index(name)
-        peak, vibratory = float(motion.torque_peak[at]), float(motion.torque_vibratory[at])
+        peak, vibratory = (
+            float(motion.torque_peak[at]),
+            float(0.5 * (motion.torque_max[at] - motion.torque_min[at])),
+        )
         permitted = getattr(part, "torque_permitted", None)
         if permitted is not None:
             yield TorqueJudgement(name, "torque", peak, permitted)

@@ -6,11 +6,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.drive.obstacles import no_shaft
+from linkwright.drive.model.motor import ConstantSpeedMotor
+from linkwright.drive.obstacles import no_run_up, no_shaft
 from linkwright.drive.study import INTERVALS, has_motor
 from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion, elastic_motion
-from linkwright.driveline.train_chain import train_chain
+from linkwright.driveline.parametric import parametric_zones
+from linkwright.driveline.run_up import ElasticRunUp, elastic_run_up, require_elastic_start
+from linkwright.driveline.train_chain import driveline_chain
+from linkwright.kernel.errors import FindingError, StartError
 from linkwright.kernel.findings import Findings
 from linkwright.kernel.reader.numbers import number, quantity
 from linkwright.machine.analysis import Obstacle, Results
@@ -56,17 +60,46 @@ def made_elastic_motion(known: Results, findings: Findings) -> ElasticMotion | N
         is_driven = known.reduction is not None and has_motor(known.machine)
     if not is_driven:
         return None
-    return findings.of(elastic_motion, known.machine, n=INTERVALS)
+    return findings.of(elastic_motion, known.machine, n=INTERVALS, others=True)
+
+
+def no_elastic_run_up(machine: Machine) -> Obstacle | None:
+    """A machine whose driveline is rigid, or whose motor does not run up."""
+    return no_shaft(machine) or no_run_up(machine)
+
+
+def made_elastic_run_up(known: Results, findings: Findings) -> ElasticRunUp | None:
+    """Run-up of an elastic driveline; that it settles late says nothing against the machine."""
+    machine = known.machine
+    if known.reduction is None or not has_motor(machine) or _never_runs_up(machine):
+        return None
+    if known.elastic_motion is None:
+        # Without steady motion nothing says when it has run up, but it may be that it cannot even start.
+        findings.of(require_elastic_start, machine)
+        return None
+    try:
+        found = elastic_run_up(machine)
+    except StartError as error:
+        findings.add([str(error)])
+        return None
+    except FindingError as error:
+        findings.warn([f"run-up of the elastic driveline: {error}"])
+        return None
+    findings.add(found.findings)
+    return found
+
+
+def _never_runs_up(machine: Machine) -> bool:
+    drive = machine.drive
+    return drive is None or isinstance(drive.motor, ConstantSpeedMotor) or drive.gearbox.locks
 
 
 def check_driveline(machine: Machine, findings: Findings) -> Iterator[str]:
     """Whether every station of the driveline has an inertia, and every mechanism a full revolution."""
-    if not machine.has_mounted_mechanisms:
-        findings.of(chain_of, machine)
-        yield "driveline: inertia of every station"
-        return
-    findings.of(train_chain, machine)
-    yield "driveline: mechanisms of the train close over the full revolution"
+    findings.of(driveline_chain, machine)
+    mounted = "mechanisms of the train close over the full revolution"
+    what = mounted if machine.has_mounted_mechanisms else "inertia of every station"
+    yield f"driveline: {what}"
 
 
 def driveline_summary(machine: Machine) -> Iterator[tuple[str, str]]:
@@ -87,6 +120,8 @@ def elastic_warnings(known: Results) -> Iterator[str]:
         return
     yield from _stability(motion)
     yield from _resonance(known.machine, motion)
+    yield from _parametric(known.machine, motion)
+    yield from _others(motion)
     yield from _reversals(motion)
     yield from _fluctuation(known, motion)
 
@@ -115,12 +150,45 @@ def _resonance(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
             )
 
 
+def _parametric(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
+    """Zones of parametric resonance by the linear modes, as long as links are linear."""
+    if machine.has_mounted_mechanisms or not chain_of(machine).is_linear:
+        return
+    for zone in parametric_zones(machine, motion.speed_mean_time):
+        low, high = zone.frequencies
+        modes = quantity(low, "Hz") if low == high else f"{quantity(low, 'Hz')} and {quantity(high, 'Hz')}"
+        yield (
+            f"Parametric resonance: order {number(zone.order)} of the reduced inertia J(φ) excites natural "
+            f"frequencies of {modes}; by the linear estimate a disturbance grows by "
+            f"{number(100 * (np.exp(zone.growth * motion.period) - 1), 2)} % per cycle"
+        )
+
+
+def _others(motion: ElasticMotion) -> Iterator[str]:
+    """Further steady motions, and beginnings from which the motion does not repeat."""
+    for other in motion.other_motions:
+        stable = "stable" if other.is_stable else "unstable"
+        peak = max(float(np.abs(torque).max()) for torque in (other.torque_min, other.torque_max))
+        yield (
+            f"The elastic driveline has another steady motion, {stable}, that repeats after "
+            f"{other.turns} revolutions, with torques up to {quantity(peak, 'N m')}; it is reached from "
+            f"{other.start}"
+        )
+    yield from (text for text in motion.not_periodic)
+
+
 def _reversals(motion: ElasticMotion) -> Iterator[str]:
-    for name, low, high in zip(motion.shafts, motion.torque_min, motion.torque_max, strict=True):
+    extremes = zip(motion.shafts, motion.torque_min, motion.torque_max, motion.backlash, strict=True)
+    for name, low, high, gap in extremes:
         if min(-low, high) > _REVERSED * max(-low, high):
+            backlash = (
+                "its backlash is crossed, and the flanks rattle"
+                if gap
+                else "backlash in gears and couplings would be crossed with impacts; give it as `backlash`"
+            )
             yield (
                 f"The torque of {name} changes sign, from {quantity(low, 'N m')} to {quantity(high, 'N m')}: "
-                "backlash in gears and couplings is crossed with impacts, which are not computed"
+                f"{backlash}"
             )
 
 

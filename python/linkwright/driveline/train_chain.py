@@ -22,13 +22,12 @@ import numpy as np
 
 from linkwright.drive.model.motor import ConstantSpeedMotor
 from linkwright.driveline.carried import require_carried
-from linkwright.driveline.chain import Chain, links_of, order_of
+from linkwright.driveline.chain import Chain, Driven, Outside, Stand, chain_of, links_of, order_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
-from linkwright.machine.program.core import DrivelineStation, DrivelineTorque
 from linkwright.torsion.core.torque import motor_program
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mounted_mechanism
@@ -74,24 +73,16 @@ class _Mounted(NamedTuple):
         return self.ratio * torque
 
 
-class DrivenTrain(NamedTuple):
-    """A train with its mechanisms, ready for steady motion."""
-
-    compiled: CompiledMachine  # the first mechanism, over the cycle of all
-    chain: Chain
-    speed: float  # of the first crank, where mean torques balance [rad/s]
-
-
-def driven_train(machine: Machine) -> DrivenTrain:
-    """Masses, links, torques and mechanisms of a train."""
+def driven_train(machine: Machine) -> Driven:
+    """Masses, links, torques and mechanisms of a train; its mean torques balance at the speed."""
     chain, mounted = _chain(machine)
     compiled = mounted[0].compiled.over_turns(_turns(mounted))
-    return DrivenTrain(compiled, chain, _balance(machine, chain, mounted))
+    return Driven(compiled, chain, _balance(machine, chain, mounted))
 
 
-def train_chain(machine: Machine) -> Chain:
-    """Masses and links of a train with mechanisms."""
-    return _chain(machine)[0]
+def driveline_chain(machine: Machine) -> Chain:
+    """Masses and links of a train with mechanisms, or of the driveline that [drive] describes."""
+    return _chain(machine)[0] if machine.has_mounted_mechanisms else chain_of(machine)
 
 
 def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
@@ -114,7 +105,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
     # Frequencies at which hysteresis counts are those with the mean inertia of the mechanisms.
     whole = replace(referred, inertia=mean[order] / n**2)
     damping, notes = shaft_damping(whole)
-    links = links_of(referred, n, order, list(range(len(referred.shafts))), damping)
+    links = links_of(train, referred, n, order, list(range(len(referred.shafts))), damping)
     place = {name: (int(mass[k]), float(ratio[k])) for k, name in enumerate(referred.discs)}
     drivers = dict(_drivers(machine, train, place))
     damped = np.empty(len(order))
@@ -125,12 +116,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
         "loads": [
             _power(place[load.on], -load.torque, load.speed, load.exponent) for load in train.loads.values()
         ],
-        "stations": [
-            DrivelineStation(
-                int(mass[one.disc]), one.compiled.plan, one.compiled.one, ratio=one.ratio, phase=one.phase
-            )
-            for one in mounted[1:]
-        ],
+        "stations": [Stand(int(mass[one.disc]), one.compiled, one.ratio, one.phase) for one in mounted[1:]],
         "swing": (damped, mean / mean.sum()) if damped.any() else None,
     }
     on = [_on(train, name) for name in drivers]
@@ -184,7 +170,7 @@ def _turns(mounted: list[_Mounted]) -> int:
 
 def _drivers(
     machine: Machine, train: Train, place: dict[str, tuple[int, float]]
-) -> Iterator[tuple[str, DrivelineTorque]]:
+) -> Iterator[tuple[str, Outside]]:
     for name, motor in train.motors.items():
         yield name, _motor(motor.motor, *place[motor.on])
     for name, driver in train.drivers.items():
@@ -203,17 +189,17 @@ def _on(train: Train, name: str) -> str:
     return train.motors[name].on if name in train.motors else train.drivers[name].on
 
 
-def _motor(motor: Any, mass: int, ratio: float) -> DrivelineTorque:
+def _motor(motor: Any, mass: int, ratio: float) -> Outside:
     """A motor whose disc turns at a ratio to the crank, which stands for its gears."""
     if isinstance(motor, ConstantSpeedMotor):
-        return DrivelineTorque.held(mass, float(motor.speed) / ratio)
+        return Outside(mass, "held", (motor.speed / ratio,))
     compiled = motor_program(motor, ratio)
-    return DrivelineTorque.motor(mass, compiled.plan, compiled.one)
+    return Outside(mass, "motor", compiled.one, compiled)
 
 
-def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> DrivelineTorque:
+def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> Outside:
     mass, ratio = place
-    return DrivelineTorque.power(mass, torque=torque * ratio, speed=speed / ratio, exponent=exponent)
+    return Outside(mass, "power", (torque * ratio, speed / ratio, exponent))
 
 
 def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:

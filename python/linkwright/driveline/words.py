@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.driveline.elastic_motion import ElasticMotion
+from linkwright.driveline.run_up import ElasticRunUp
 from linkwright.kernel.page.formulas import Formula
 from linkwright.kernel.reader.numbers import number
 from linkwright.machine.machine import Machine
@@ -20,9 +21,16 @@ _CRANK = Formula(
 _TORQUE = Formula("Torque of a flexible shaft with twist Δ", "T = k Δ + c frac(d Δ|d t)", _SOURCE)
 
 
+_BACKLASH = Formula(
+    "Torque of a shaft with backlash b: spring S behind the flank, damping in contact, which never pulls",
+    "|S| = k ( |Δ| − frac(b|2) ) , T = S + D , |D| ≤ |S|",
+    "Modelica Standard Library 4.0, Rotational.Components.ElastoBacklash",
+)
+
+
 def elastic_formulas(motion: ElasticMotion) -> list[Formula]:
     """Equations of motion and the torque of a shaft."""
-    return [_STATION, _CRANK, _TORQUE]
+    return [_STATION, _CRANK, _TORQUE, *([_BACKLASH] if motion.backlash.any() else [])]
 
 
 def elastic_papers(motion: ElasticMotion) -> tuple[str, ...]:
@@ -53,8 +61,18 @@ def _of_train() -> Iterator[str]:
 def _of_drive() -> Iterator[str]:
     """What is taken for granted of a driveline that [drive] describes."""
     yield (
-        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness and "
-        "viscous damping, and neither inertia nor backlash; the mechanism has its inertia and loads at every "
-        "crank angle and speed."
+        "Elastic driveline: motor, gearbox and crank are rigid; the shafts between them have stiffness or a "
+        "torque curve, viscous damping and backlash as given, and no inertia; the mechanism has its inertia "
+        "and loads at every crank angle and speed."
     )
     yield "Elastic driveline: the losses of the gearbox are taken from the torque of the motor."
+
+
+def run_up_assumptions(run_up: ElasticRunUp) -> Iterator[str]:
+    """How the run-up was integrated, and how well its energy balances."""
+    motion = run_up.motion
+    explicit = motion.steps - motion.steps_implicit
+    yield (
+        f"The run-up of the elastic driveline is integrated in time, {explicit} steps by DOP853 and "
+        f"{motion.steps_implicit} by Radau IIA: energy-balance residual {number(motion.energy_error, 1)}."
+    )

@@ -4,6 +4,7 @@
 | --- | --- |
 | ``steady_state.…`` | Newton's step in dual numbers at the solution (`linkwright.drive.gradient`) |
 | ``run_up.…``, ``run_down.…`` | the variational equation (`linkwright.drive.gradient_in_time`) |
+| ``elastic_motion.…`` | the linearised collocation in dual numbers (`linkwright.driveline.gradient`) |
 | ``free_vibration.natural_frequencies.1`` | Rayleigh's quotient (`linkwright.torsion.gradient.modes`) |
 | ``free_vibration.mode_shapes.1.DISC`` | all modes, or the dynamic stiffness (there too) |
 | ``forced_vibration.shaft_torque_vibratory.SHAFT`` | the adjoint (`linkwright.torsion.gradient.forced`) |

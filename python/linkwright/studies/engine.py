@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.drive.batch import STATUS, fast_starts, steady_states
+from linkwright.driveline.batch import elastic_motions
 from linkwright.kernel.arrays import Floats, Indices
 from linkwright.kernel.description.formula import NUMBERS
 from linkwright.kernel.errors import FindingError, InputError
@@ -137,7 +138,12 @@ def _solve(plan: StudyPlan, part: _Members) -> None:
         return
     batch = [asked for asked in plan.asked if asked.is_batch and part.entries]
     single = [asked for asked in plan.asked if asked not in batch]
-    solved = ((("steady_state",), part.steady), ((MOTION, PATH), part.points), ((ENTRY,), part.entry_numbers))
+    solved = (
+        (("steady_state",), part.steady),
+        (("elastic_motion",), part.elastic),
+        ((MOTION, PATH), part.points),
+        ((ENTRY,), part.entry_numbers),
+    )
     for names, solve in solved:
         wanted = [asked for asked in batch if asked.analysis in names]
         if wanted:
@@ -179,6 +185,17 @@ class _Members:
             self.rows.columns[asked.name][self.members] = getattr(states, asked.quantity)[1:]
         for code in np.unique(status[status != 0]):
             self.rows.fail(self.members[status == code], FAILED, STATUS[int(code)])
+
+    def elastic(self, wanted: list[StudyResponse]) -> None:
+        """Elastic drivelines; one whose motion was not found with the others says alone why it has none."""
+        motions = elastic_motions(self.machine, _with_first(self.machine, self.entries))
+        numbers = [motions.number(asked.quantity, *asked.of)[1:] for asked in wanted]
+        for asked, values in zip(wanted, numbers, strict=True):
+            self.rows.columns[asked.name][self.members] = values
+        alone = ~np.isfinite(numbers).all(axis=0)
+        if alone.any():
+            own = {address: column[alone] for address, column in self.entries.items()}
+            _Members(self.machine, own, self.rows, self.members[alone]).one_by_one(wanted)
 
     def points(self, wanted: list[StudyResponse]) -> None:
         """Points of all rows at once, in blocks that fit into memory."""

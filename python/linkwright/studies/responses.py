@@ -20,6 +20,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from linkwright.app.subjects import ANALYSES as SUBJECTS
+from linkwright.driveline.train_chain import driveline_chain
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import FindingError, LinkwrightError, MachineError
 from linkwright.kernel.quantities import Label, declared, is_array
@@ -97,7 +98,9 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
         of_result = ".".join(filter(None, (first, inner)))
         remedy = suggestion(quantity, known) or f"such as {of_result}.{next(iter(known))}"
         raise wrong(name, key, text, f"a quantity of {of_result}", remedy)
-    if is_array(owner, quantity) and not wants_curve:
+    axes = _axes(known[quantity])
+    is_part = bool(of) and len(axes) == 1 and axes[0] in PARTS
+    if is_array(owner, quantity) and not wants_curve and not is_part:
         remedy = f'{{ curve = "{text}", extreme = "max" }}'
         raise wrong(name, key, f"{text}, which is a curve", "one number", remedy)
     if wants_curve and not is_array(owner, quantity):
@@ -106,7 +109,7 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
     of_part = ANALYSES[first].mark
     if of_part is not None and not inner:
         mark = of_part(machine, ".".join(of) or None, mark)
-    axes = tuple(axis.strip() for axis in mark.shape.strip("()").split(",") if axis.strip())
+    axes = _axes(mark)
     _require_part(
         machine, first, of, axes, lambda remedy: wrong(name, key, text, "a name that there is", remedy)
     )
@@ -131,6 +134,12 @@ def asked(machine: Machine, name: str, response: Response, paths: Mapping[str, S
 _OF_SHAFTS = ("forced_vibration.shaft_torque_vibratory", "forced_vibration.shaft_torque_max")
 
 
+def _axes(mark: Any) -> tuple[str, ...]:
+    """What the axes of a quantity run over, by its shape."""
+    shape = mark.shape if isinstance(mark, Label) else ""
+    return tuple(axis.strip() for axis in shape.strip("()").split(",") if axis.strip())
+
+
 class _AskedFor(NamedTuple):
     """What the name of a response refers to in a result."""
 
@@ -146,11 +155,13 @@ def _asked_for(first: str, owner: type, rest: list[str], response: Response) -> 
     head, *place = rest
     picked, is_curve = (response.extreme, response.index), response.curve is not None
     *of, quantity = rest
-    marks = declared(owner)
+    marks = {name: mark for name, mark in declared(owner).items() if isinstance(mark[1], Label)}
     if not place or quantity in marks or head not in marks or not is_array(owner, head):
         return _AskedFor(of, quantity, *picked, is_curve)
     if is_curve:
         return _AskedFor(place, head, *picked, True)
+    if _axes(marks[head][1]) in [(parts,) for parts in PARTS] and not place[0].isdecimal():
+        return _AskedFor(place, head, *picked, is_curve)
     if f"{first}.{head}" in _OF_SHAFTS:
         return _AskedFor(place, head, "max", None, True)
     if place[0].isdecimal():
@@ -196,6 +207,8 @@ def _require_part(
         return
     elif first == "shaft_stress" and machine.train is not None:
         known = [*stressed(whole_train(machine.train).shafts)]
+    elif first == "elastic_motion" and place is not None:
+        known = [*getattr(driveline_chain(machine), place)]
     elif machine.train is not None and place is not None:
         known = [*getattr(analysis("free_vibration")(machine), place)]
     else:

@@ -214,7 +214,7 @@ def _address(asked: StudyResponse) -> str:
     """The name of a response among the results that have derivatives."""
     place = (str(asked.index),) if asked.index is not None else ()
     inner = (asked.inner,) if asked.inner else ()
-    if asked.analysis in ("forces", "free_vibration", "forced_vibration"):
+    if asked.analysis in ("forces", "free_vibration", "forced_vibration", "elastic_motion"):
         return ".".join((asked.analysis, asked.quantity, *place, *asked.of))
     return ".".join((_analysis(asked), *asked.of, *inner, asked.quantity, *place))
 

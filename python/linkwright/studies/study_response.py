@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.drive.batch import SteadyStates
+from linkwright.driveline.batch import QUANTITIES as OF_ELASTIC
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, MachineError, Problem, show
 from linkwright.kernel.quantities import declared
@@ -30,7 +31,7 @@ CYCLE = "cycle_motion"
 OF_ONE_PART = ("cam", "cam_check", "cam_force", "cylinder", "axis")
 
 # Parts of a train that a list of curves has a row for.
-PARTS = ("discs", "shafts")
+PARTS = ("discs", "shafts", "stations", "motors")
 
 # What the core gives of the steady motion of many machines.
 _OF_BATCH = frozenset(declared(SteadyStates))
@@ -85,9 +86,15 @@ class StudyResponse:
     def is_batch(self) -> bool:
         """Whether the core computes it for many machines at once."""
         is_scalar = self.extreme is None and self.index is None and self.otherwise is None
+        known = {"steady_state": _OF_BATCH, "elastic_motion": OF_ELASTIC}
         return self.analysis in (MOTION, PATH, ENTRY) or (
-            self.analysis == "steady_state" and is_scalar and self.quantity in _OF_BATCH
+            is_scalar and self.quantity in known.get(self.analysis, ())
         )
+
+    @property
+    def is_of_part(self) -> bool:
+        """Whether it is the number of a part in a list of those of all."""
+        return bool(self.of) and not self.arguments and len(self.axes) == 1 and self.axes[0] in PARTS
 
     def number(self, result: Any) -> float:
         """The number that is asked for, out of a result; a `FindingError` if the machine has none."""
@@ -98,7 +105,7 @@ class StudyResponse:
         value = None if result is None else getattr(result, self.quantity)
         if isinstance(value, Mapping):
             value = value.get(*self.of)
-        if value is not None and (self.extreme is not None or self.index is not None):
+        if value is not None and (self.extreme is not None or self.index is not None or self.is_of_part):
             value = self._picked(result, np.asarray(value))
         if value is None or not math.isfinite(float(value)):
             if self.otherwise is not None:
@@ -114,6 +121,8 @@ class StudyResponse:
             values = np.take(values, getattr(result, self.axes[axis]).index(self.of[0]), axis=axis)
         if self.extreme is not None:
             return taken(values.ravel(), self.extreme)
+        if self.index is None:
+            return values
         assert self.index is not None
         if self.index >= len(values):
             message = f"{self.analysis}.{self.quantity} has {len(values)} values, none of number {self.index}"

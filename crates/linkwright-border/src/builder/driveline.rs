@@ -2,6 +2,7 @@
 
 use linkwright_driveline::chain::{Part, Source, Station, Torque};
 use pyo3::prelude::*;
+use std::sync::Arc;
 
 use super::Plan;
 use crate::Floats;
@@ -27,7 +28,7 @@ impl DrivelineTorque {
     /// The motor of another plan, through its gearbox.
     #[staticmethod]
     fn motor(mass: usize, plan: PyRef<'_, Plan>, q: Floats<'_>) -> PyResult<Self> {
-        Ok(DrivelineTorque(Torque { mass, source: Source::Motor(Box::new(part(&plan, &q)?)) }))
+        Ok(DrivelineTorque(Torque { mass, source: Source::Motor(part(&plan, &q)?) }))
     }
 
     /// A power of the speed.
@@ -64,5 +65,5 @@ impl DrivelineStation {
 }
 
 fn part(plan: &Plan, q: &Floats<'_>) -> PyResult<Part> {
-    Ok(Part { q: plan.parameters(q)?.to_vec(), plan: plan.0.clone() })
+    Ok(Part { q: plan.parameters(q)?.to_vec(), plan: Arc::new(plan.0.clone()) })
 }

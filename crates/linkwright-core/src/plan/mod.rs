@@ -21,4 +21,4 @@ pub mod loads;
 /// Number of the language in which machines, cams and trains cross the border: names of classes and of their fields,
 /// order of lists and of results. It goes up with every change of what was there, here and in
 /// `linkwright.machine.program.core`, whose `require` asks for what is new.
-pub const FORMAT: u32 = 29;
+pub const FORMAT: u32 = 30;

@@ -18,15 +18,15 @@ from linkwright.kernel.description.base import CheckedDescription, Description, 
 from linkwright.kernel.description.cycle import ONE_TURN
 from linkwright.kernel.description.deferred_model import deferred_model
 from linkwright.kernel.errors import show
-from linkwright.kernel.units.kinds import INERTIA, RATIO, SPEED, TORQUE
+from linkwright.kernel.units.kinds import ANGLE, INERTIA, RATIO, SPEED, TORQUE
 from linkwright.kernel.units.marks import FRACTION, Quantity, not_negative, positive
 from linkwright.kernel.units.reading import is_number
-from linkwright.torsion.model.train_base import PositiveStiffness
+from linkwright.torsion.model.train_base import Damping, PositiveStiffness
 
 if TYPE_CHECKING:
-    from linkwright.torsion.model.train import ElasticShaft
+    from linkwright.torsion.model.drive_shaft import DriveShaft
 else:
-    ElasticShaft = deferred_model("torsion.model.train", "ElasticShaft")
+    DriveShaft = deferred_model("torsion.model.drive_shaft", "DriveShaft")
 
 Shaft = Literal["motor", "crank"]
 End = Literal["motor", "gearbox", "crank"]
@@ -70,7 +70,7 @@ class Gears(Description):
         return is_number(self.reverse) and float(self.reverse) == 0
 
 
-class Gearbox(Gears):
+class Gearbox(Gears, CheckedDescription):
     """Gears between the motor and the crankshaft."""
 
     wheel_inertia: Annotated[float, not_negative(INERTIA)] = Field(
@@ -83,6 +83,20 @@ class Gearbox(Gears):
         description="Stiffness of teeth or belt, referred to the motor shaft: torque per angle. Default: "
         "rigid.",
     )
+    damping: Damping = Field(
+        0.0, description="Damping of elastic teeth, referred to the motor shaft: torque per angular velocity."
+    )
+    backlash: Annotated[float, not_negative(ANGLE)] = Field(
+        0.0,
+        description="Backlash of elastic teeth, from flank to flank, as angle of the motor shaft; damping "
+        "acts in contact only.",
+    )
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        for name in ("damping", "backlash"):
+            if self.stiffness is None and getattr(self, name):
+                remedy = "give the stiffness of the teeth"
+                yield fault(name, found=getattr(self, name), expected="none with rigid teeth", remedy=remedy)
 
 
 class Coupling(Description):
@@ -145,10 +159,10 @@ class Drive(Description):
     coupling: Coupling | None = Field(None, description="Coupling at the motor shaft.")
     flywheel: Flywheel | None = Field(None, description="Flywheel.")
     brake: Brake | None = Field(None, description="Brake.")
-    motor_shaft: ElasticShaft | None = Field(
+    motor_shaft: DriveShaft | None = Field(
         None, description="Flexible shaft and coupling between motor and gearbox."
     )
-    crankshaft: ElasticShaft | None = Field(None, description="Flexible shaft between gearbox and mechanism.")
+    crankshaft: DriveShaft | None = Field(None, description="Flexible shaft between gearbox and mechanism.")
 
     @property
     def twists(self) -> bool:

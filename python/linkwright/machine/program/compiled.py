@@ -111,6 +111,7 @@ class CompiledMachine:
     # Whether all motions repeat after one revolution of the crank by the kinds of the elements alone.
     one_turn: bool
     speed_guess: float  # crank speed from which steady motion is sought [rad/s]
+    speed_slot: int  # which parameter that is
     gear_slots: tuple[int, int, int]  # which parameters `gear_factors` are
     # Ratio, and the factor on torque times ratio while the motor drives and while the load does.
     gear_factors: tuple[float, float, float]
@@ -288,10 +289,37 @@ class CompiledMachine:
         """Steady motion with curves at crank angles within the cycle; see `_core.steady_state`."""
         return _core.steady_state(self.plan, self.one, accuracy, angles)
 
-    def driveline(self, accuracy: float, **chain: Any) -> _core.DrivelineMotion | _core.NoDrivelineMotion:
+    def driveline(
+        self, chain: Mapping[str, Any], **search: Any
+    ) -> _core.DrivelineMotion | _core.NoDrivelineMotion:
         """Steady motion behind a torsionally flexible driveline; see `_core.driveline_motion`."""
         require("driveline_motion")
-        return _core.driveline_motion(self.plan, self.one, accuracy=accuracy, **chain)
+        return _core.driveline_motion(self.plan, self.one, chain, **search)
+
+    def driveline_in_time(self, chain: Mapping[str, Any], **motion: Any) -> _core.DrivelineInTime:
+        """Motion in time behind a torsionally flexible driveline; see `_core.driveline_in_time`."""
+        require("driveline_in_time")
+        return _core.driveline_in_time(self.plan, self.one, chain, **motion)
+
+    def driveline_rows(self, chain: Mapping[str, Any], **asked: Any) -> _core.DrivelineRows:
+        """Steady motion of every row behind a torsionally flexible driveline; see `_core.driveline_rows`."""
+        require("driveline_rows")
+        return _core.driveline_rows(self.plan, self.parameters, self.slots, self.values, chain, **asked)
+
+    def least_inertias(self, angles: Floats) -> Floats:
+        """Minimum inertia reduced to the crank at crank angles, of every row, (n,) [kg m²]."""
+        return _core.least_inertias(self.plan, self.parameters, self.slots, self.values, angles)
+
+    @property
+    def speed_guesses(self) -> Floats:
+        """Crank speed from which steady motion is sought, of every row, (n,) [rad/s]."""
+        at = np.flatnonzero(self.slots == self.speed_slot)
+        return self.values[at[0]] if len(at) else np.full(self.n_rows, self.speed_guess)
+
+    def driveline_branch(self, **family: Any) -> tuple[list[tuple[float, bool, _core.DrivelineMotion]], str]:
+        """Steady motions over a parameter behind an elastic driveline; see `_core.driveline_branch`."""
+        require("driveline_branch")
+        return _core.driveline_branch(self.plan, **family)
 
     def steady_rows(self, accuracy: float) -> _core.SteadyRows:
         """Steady motion of every row; see `_core.steady_rows`."""
@@ -383,6 +411,7 @@ def _translate(machine: Machine, *, motor: bool, brake: bool) -> CompiledMachine
             assembly.odd.any() or any(isinstance(element, _RUNNING) for element in program.elements)
         ),
         speed_guess=float(parameters[drive.speed_start]),
+        speed_slot=int(drive.speed_start),
         gear_slots=factors,
         gear_factors=(ratio, forward, reverse),
         speed_tables=tuple(

@@ -8,7 +8,7 @@ from linkwright import _core
 from linkwright.kernel.errors import CoreError
 
 # As `FORMAT` in `crates/linkwright-core/src/plan/mod.rs`: the two change together.
-FORMAT = 29
+FORMAT = 30
 
 
 def check_format(core: object) -> None:
@@ -49,7 +49,10 @@ SteadySolution = _core.SteadySolution
 SteadyCurves = _core.SteadyCurves
 SteadyGradient = _core.SteadyGradient
 NoSteadyMotion = _core.NoSteadyMotion
+DrivelineGradient = _core.DrivelineGradient
 DrivelineMotion = _core.DrivelineMotion
+DrivelineInTime = _core.DrivelineInTime
+DrivelineRows = _core.DrivelineRows
 NoDrivelineMotion = _core.NoDrivelineMotion
 DrivelineTorque = _core.DrivelineTorque
 DrivelineStation = _core.DrivelineStation

@@ -395,14 +395,13 @@ def moving(
     )
 
 
-def viscous(stiffness: ArrayLike, loss_factor: ArrayLike, omega: ArrayLike) -> Floats:
+def viscous(stiffness: Any, loss_factor: Any, omega: Any) -> Any:
     """Viscous damping that loses as much at one frequency as hysteresis does: c = ηk/ω.
 
-    Of the same shape [N m s/rad]. `stiffness`: k, of any shape [N m/rad]; `loss_factor`: η; `omega`: [rad/s].
+    Of the same shape [N m s/rad]. `stiffness`: k, of any shape [N m/rad]; `loss_factor`: η; `omega`: [rad/s];
+    arrays, which may be tangents, or numbers.
     """
-    k, eta = np.asarray(stiffness, dtype=float), np.asarray(loss_factor, dtype=float)
-    damping: Floats = k * eta / np.asarray(omega, dtype=float)
-    return damping
+    return stiffness * loss_factor / omega
 
 
 def core_system(train: MovingTrain) -> _core.TorsionSystem:

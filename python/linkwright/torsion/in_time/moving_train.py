@@ -14,6 +14,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from linkwright.kernel.core.curve import smooth as smooth_curve
 from linkwright.kernel.core.periodic_table import PeriodicTable, smooth, waves
 from linkwright.kernel.errors import InputError, MachineError, Problem
 from linkwright.kernel.limits import SAMPLES
+from linkwright.kernel.numerics.tangent import primal, variables_of
 from linkwright.torsion.core.torque import (
     DecayingTorque,
     GovernorTorque,
@@ -39,10 +41,11 @@ from linkwright.torsion.excitation.engine_torques import cylinder_torques
 from linkwright.torsion.excitation.excited_train import highest_order
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.in_time.moving_parts import link_manner, with_parts
+from linkwright.torsion.model.drive_shaft import LooseShaft
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
 from linkwright.torsion.model.ice_impacts import IceImpacts
-from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train import Train, TrainGear
 from linkwright.torsion.model.train_torques import (
     Excitation,
     Harmonic,
@@ -150,11 +153,12 @@ def shaft_damping(referred: ReferredTrain, mode: int | None = None) -> tuple[Flo
     """
     lead = referred.lead
     own: Floats = referred.damping / lead**2
-    if not referred.loss_factor.any():
+    if not primal(referred.loss_factor).any():
         return own, []
     omega, where = _loss_frequencies(referred, mode)
     lossy = referred.loss_factor > 0
-    low, high = (float(frequency) / (2 * np.pi) for frequency in (omega[lossy].min(), omega[lossy].max()))
+    at = primal(omega)[lossy]
+    low, high = (float(frequency) / (2 * np.pi) for frequency in (at.min(), at.max()))
     span = f"{low:.4g} Hz" if low == high else f"{low:.4g} to {high:.4g} Hz"
     note = (
         f"hysteresis of shafts is replaced by viscous damping of equal loss at {span}, {where}: damping is "
@@ -163,9 +167,11 @@ def shaft_damping(referred: ReferredTrain, mode: int | None = None) -> tuple[Flo
     return own + viscous(referred.stiffness / lead**2, referred.loss_factor, omega), [note]
 
 
-def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats, str]:
+def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Any, str]:
     """Frequency at which viscous damping equals the hysteresis of each shaft [rad/s], and in words."""
-    omega, shapes = referred.modes()
+    omega, shapes = replace(
+        referred, stiffness=primal(referred.stiffness), inertia=primal(referred.inertia)
+    ).modes()
     twisting = omega > 1e-6 * omega[-1]
     omega, shapes = omega[twisting], shapes[twisting]
     if mode is not None:
@@ -177,23 +183,48 @@ def _loss_frequencies(referred: ReferredTrain, mode: int | None) -> tuple[Floats
     # The last is the ground, HELD = −1.
     held = np.column_stack([shapes, np.zeros(len(shapes))])
     twist = held[:, referred.ends[:, 0]] - held[:, referred.ends[:, 1]]
-    shares = referred.stiffness * twist**2 / omega[:, None] ** 2
+    shares = primal(referred.stiffness) * twist**2 / omega[:, None] ** 2
     counts = shares >= _COUNTS
     chosen = np.where(counts.any(axis=0), counts.argmax(axis=0), shares.argmax(axis=0))
-    return omega[chosen], "for each shaft the lowest mode that twists it considerably"
+    where = "for each shaft the lowest mode that twists it considerably"
+    return _by_rayleigh(referred, omega[chosen], twist[chosen], shapes[chosen]), where
+
+
+def _by_rayleigh(referred: ReferredTrain, omega: Floats, twist: Floats, shapes: Floats) -> Any:
+    """Natural frequencies with their derivatives: of Rayleigh's quotient, the shapes held [rad/s]."""
+    if variables_of((referred.stiffness, referred.inertia)) is None:
+        return omega
+    strain = np.einsum("rs,s->r", twist**2, referred.stiffness)
+    return (strain / np.einsum("rm,m->r", shapes**2, referred.inertia)) ** 0.5
 
 
 def _curve(train: Train, name: str) -> Curve | None:
-    """Torque over twist of a coupling that has a curve, or of an elastic mesh with backlash."""
-    coupling, gear = train.couplings.get(name), train.gears.get(name)
+    """Torque over twist of a coupling that has a curve, or of an elastic part with backlash."""
+    coupling = train.couplings.get(name)
     if coupling is not None and coupling.twist is not None:
         return odd(*coupling.curve())
-    if gear is not None and gear.backlash:
-        # Half of the backlash on either side: between its flanks a tooth carries nothing.
-        half = gear.backlash / 2
-        k = np.array([gear.stiffness, 0.0])
-        return Curve(np.array([-half, half]), np.zeros(2), before=k, after=k[::-1])
+    part = train.gears.get(name) or train.shafts.get(name)
+    if isinstance(part, LooseShaft) and part.twist is not None:
+        return _behind(part.backlash / 2, *part.points)
+    if isinstance(part, TrainGear | LooseShaft) and part.backlash:
+        assert part.stiffness is not None
+        return _behind(part.backlash / 2, np.zeros(1), np.zeros(1), np.array([part.stiffness]))
     return None
+
+
+def _behind(half: float, twist: Floats, torque: Floats, slope: Floats) -> Curve:
+    """A curve from zero behind half of the backlash on either side: between its flanks nothing is carried."""
+    if not half:
+        return odd(twist, torque, slope)
+    x, y = twist + half, np.asarray(torque, float)
+    after, before = np.array(slope, float), np.array(slope, float)
+    before[0] = 0.0
+    return Curve(
+        np.concatenate([-x[::-1], x]),
+        np.concatenate([-y[::-1], y]),
+        before=np.concatenate([after[::-1], before]),
+        after=np.concatenate([before[::-1], after]),
+    )
 
 
 def _engines(train: Train, manoeuvre: TrainTransient, referred: ReferredTrain) -> list[TrainTorque]:

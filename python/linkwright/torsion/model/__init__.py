@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `coupling` | Elastic couplings, torsional dampers and centrifugal pendulums |
+| `drive_shaft` | Shafts of a drive: linear, by a torque curve, with backlash |
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |
 | `engine/` | Reciprocating engines: descriptions of their parts, and what follows from them in closed form |
 | `ice_impacts` | Ice impacts on a propeller, by ice classes |

@@ -77,21 +77,7 @@ class Coupling(CheckedDescription):
             yield fault(found=found, expected="either stiffness, or twist and torque")
         if not curve:
             return
-        for name, other in (("twist", "torque"), ("torque", "twist")):
-            if getattr(self, name) is None:
-                yield fault(name, expected=f"a list, one value for each {other}")
-                return
-        yield from curve_faults(self, "twist", ("torque",))
-        yield from self._curve_faults()
-
-    def _curve_faults(self) -> Iterator[InitErrorDetails]:
-        for name in ("twist", "torque"):
-            points = getattr(self, name)
-            if points and points[0] != 0.0:
-                yield fault(name, 0, found=points[0], expected="0, where the coupling is at rest")
-        for n, (before, here) in enumerate(pairwise(self.torque or ()), start=1):
-            if here <= before:
-                yield not_rising(self, "torque", n, before, here)
+        yield from torque_curve_faults(self)
 
     def slope(self, torque: Floats | float = 0.0) -> Floats:
         """Stiffness at a mean torque.
@@ -126,16 +112,35 @@ class Coupling(CheckedDescription):
         [rad], [N m], [N m/rad]; between the points it is a cubic with these slopes, which rises everywhere
         (Fritsch and Butland 1984).
         """
-        assert self.twist is not None
-        assert self.torque is not None
-        x, y = numbers(self.twist), numbers(self.torque)
-        h = x[1:] - x[:-1]
-        s = (y[1:] - y[:-1]) / h
-        w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
-        inside = s[:-1] * s[1:] / (w * s[1:] + (1 - w) * s[:-1])
-        # Odd about zero: the piece before the first is the same again.
-        ends = (_end_slope(s[0], inside[0]), _end_slope(s[-1], inside[-1])) if len(s) > 1 else (s[0], s[0])
-        return x, y, numbers([ends[0], *inside, ends[1]])
+        return rising_curve(self.twist, self.torque)
+
+
+def torque_curve_faults(owner: Any) -> Iterator[InitErrorDetails]:
+    """What is wrong with the curve of a part with entries `twist` and `torque`, of which one is given."""
+    for name, other in (("twist", "torque"), ("torque", "twist")):
+        if getattr(owner, name) is None:
+            yield fault(name, expected=f"a list, one value for each {other}")
+            return
+    yield from curve_faults(owner, "twist", ("torque",))
+    for name in ("twist", "torque"):
+        points = getattr(owner, name)
+        if points and points[0] != 0.0:
+            yield fault(name, 0, found=points[0], expected="0, where the coupling is at rest")
+    for n, (before, here) in enumerate(pairwise(owner.torque), start=1):
+        if here <= before:
+            yield not_rising(owner, "torque", n, before, here)
+
+
+def rising_curve(twist: Any, torque: Any) -> tuple[Floats, Floats, Floats]:
+    """Twists, torques and slopes of an odd curve through points from zero, which rises everywhere."""
+    x, y = numbers(twist), numbers(torque)
+    h = x[1:] - x[:-1]
+    s = (y[1:] - y[:-1]) / h
+    w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
+    inside = s[:-1] * s[1:] / (w * s[1:] + (1 - w) * s[:-1])
+    # Odd about zero: the piece before the first is the same again.
+    ends = (_end_slope(s[0], inside[0]), _end_slope(s[-1], inside[-1])) if len(s) > 1 else (s[0], s[0])
+    return x, y, numbers([ends[0], *inside, ends[1]])
 
 
 def _end_slope(chord: float, inside: float) -> float:

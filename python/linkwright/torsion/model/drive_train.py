@@ -28,7 +28,8 @@ from linkwright.kernel.description.base import fault
 from linkwright.kernel.description.place import look
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.kernel.numerics.tangent import primal
-from linkwright.torsion.model.train import GROUND, Disc, ElasticShaft, Shaft, Train, TrainGear
+from linkwright.torsion.model.drive_shaft import DriveShaft, LooseShaft
+from linkwright.torsion.model.train import GROUND, Disc, Shaft, Train, TrainGear
 
 MOTOR, GEARBOX, WHEEL, CRANK = "motor", "gearbox", "wheel", "crank"
 MOTOR_SHAFT, GEARS, CRANKSHAFT = "motor_shaft", "gears", "crankshaft"
@@ -80,6 +81,15 @@ def station_inertias(drive: Drive, inertia: float) -> dict[str, float]:
         if part is not None and not (part.on == CRANK and part.beside == GEARBOX):
             J[part.beside or part.on] += part.inertia
     return J
+
+
+def brake_disc(drive: Drive) -> str:
+    """Disc on which the brake acts."""
+    assert drive.brake is not None
+    on = drive.brake.on
+    return _places(drive)[
+        WHEEL if on == CRANK and drive.brake.beside == GEARBOX else drive.brake.beside or on
+    ]
 
 
 def two_trains(machine: object) -> Iterator[InitErrorDetails]:
@@ -135,7 +145,11 @@ def _is_idle(drive: Drive) -> bool:
 def _gears(drive: Drive, at: dict[str, str]) -> TrainGear:
     box = drive.gearbox
     return TrainGear.model_construct(
-        between=(at[GEARBOX], at[WHEEL]), ratio=box.ratio, stiffness=box.stiffness
+        between=(at[GEARBOX], at[WHEEL]),
+        ratio=box.ratio,
+        stiffness=box.stiffness,
+        damping=box.damping,
+        backlash=box.backlash,
     )
 
 
@@ -145,17 +159,23 @@ def _shafts(drive: Drive, at: dict[str, str]) -> dict[str, Shaft]:
         shafts[MOTOR_SHAFT] = _between(drive.motor_shaft, (at[MOTOR], at[GEARBOX]))
     if box.stiffness is not None and at[GEARBOX] == GROUND:
         # Teeth whose first side is held are a spring at the other.
-        shafts[GEARS] = Shaft.model_construct(
-            between=(GROUND, at[WHEEL]), stiffness=box.stiffness * box.ratio**2
+        shafts[GEARS] = LooseShaft.model_construct(
+            between=(GROUND, at[WHEEL]),
+            stiffness=box.stiffness * box.ratio**2,
+            damping=box.damping * box.ratio**2,
+            backlash=box.backlash / box.ratio,
         )
     if drive.crankshaft is not None:
         shafts[CRANKSHAFT] = _between(drive.crankshaft, (at[WHEEL], at[CRANK]))
     return shafts
 
 
-def _between(shaft: ElasticShaft, ends: tuple[str, str]) -> Shaft:
-    entries = {name: getattr(shaft, name) for name in ElasticShaft.model_fields}
-    return Shaft.model_construct(between=ends, **entries)
+def _between(shaft: DriveShaft, ends: tuple[str, str]) -> Shaft:
+    entries = {name: getattr(shaft, name) for name in DriveShaft.model_fields}
+    if shaft.twist is not None:
+        # What vibrates about rest twists by the slope there.
+        entries["stiffness"] = shaft.rate
+    return LooseShaft.model_construct(between=ends, **entries)
 
 
 def _require_numbers(drive: Drive) -> None:

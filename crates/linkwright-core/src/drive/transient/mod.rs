@@ -16,12 +16,12 @@
 //! | [`equation`] | the equation of motion, and which way the machine goes from rest |
 //! | [`attempt`] | steps of any length from one instant, by the explicit method |
 //! | [`stiff`] | the same by the implicit one |
-//! | `reduced` | inertia and loads as polynomials over the angle |
+//! | [`reduced`] | inertia and loads as polynomials over the angle |
 //! | `unseen` | pulses of formulas between the stages of a step |
 
 pub mod attempt;
 pub mod equation;
-mod reduced;
+pub mod reduced;
 pub mod stiff;
 mod unseen;
 

@@ -55,9 +55,15 @@ const SHARE: f64 = 0.01;
 /// See [`SHARE`].
 const LEAST: f64 = 1e-13;
 
+/// How far inside an interval the piece at its end is looked for \[rad\].
+const INSIDE: f64 = 1e-9;
+
+/// Share of half a piece up to which its polynomials are continued.
+const BEYOND: f64 = 1.5;
+
 /// Inertia J \[kg m²\], J′ \[kg m²/rad\], load torque that resists whatever the speed \[N m\], viscous coefficient
 /// \[N m s/rad\], as the crank turns.
-pub(super) type Reduced = [f64; 4];
+pub type Reduced = [f64; 4];
 
 /// What is known of a piece.
 #[derive(Clone, Copy)]
@@ -71,7 +77,7 @@ enum Piece {
 }
 
 /// The machine over the angle, piece by piece.
-pub(super) struct ReducedCurves {
+pub struct ReducedCurves {
     /// Ends of the pieces, from 0 to the end of the cycle \[rad\].
     edges: Vec<f64>,
     pieces: Vec<Piece>,
@@ -134,7 +140,7 @@ fn times(matrix: &[[f64; N]; N], rows: &[Reduced]) -> [Reduced; N] {
 
 impl ReducedCurves {
     /// Of a machine with kinks at given angles of its cycle; `None` where polynomials cannot do.
-    pub(super) fn new(plan: &Plan, kinks: &[f64], sense: f64, accuracy: f64) -> Option<Self> {
+    pub fn new(plan: &Plan, kinks: &[f64], sense: f64, accuracy: f64) -> Option<Self> {
         let tolerance = accuracy * SHARE;
         if !plan.laws.is_empty() || tolerance < LEAST {
             return None;
@@ -153,21 +159,32 @@ impl ReducedCurves {
     }
 
     /// The machine at a crank angle; `None` where it is to be evaluated itself.
-    pub(super) fn at(&mut self, plan: &Plan, q: &[f64], phi: f64) -> Option<Reduced> {
+    pub fn at(&mut self, plan: &Plan, q: &[f64], phi: f64) -> Option<Reduced> {
+        self.by_piece_at(plan, q, phi, phi)
+    }
+
+    /// The same within an interval between two kinks, and beyond its ends by the polynomials before them: a step that ends on a
+    /// kink sees nothing of what lies behind it.
+    pub fn at_between(&mut self, plan: &Plan, q: &[f64], phi: f64, [low, high]: [f64; 2]) -> Option<Reduced> {
+        self.by_piece_at(plan, q, phi.max(low + INSIDE).min(high - INSIDE), phi)
+    }
+
+    /// The polynomials of the piece at `inside`, at a crank angle.
+    fn by_piece_at(&mut self, plan: &Plan, q: &[f64], inside: f64, phi: f64) -> Option<Reduced> {
         loop {
             let (k, start) = self.last;
             let (low, high) = (self.edges[k], self.edges[k + 1]);
-            let local = phi - start;
+            let local = inside - start;
             if !(low..=high).contains(&local) {
                 if !phi.is_finite() {
                     return None;
                 }
-                let start = (phi / self.cycle).floor() * self.cycle;
-                let after = self.edges.partition_point(|&edge| edge <= phi - start);
+                let start = (inside / self.cycle).floor() * self.cycle;
+                let after = self.edges.partition_point(|&edge| edge <= inside - start);
                 self.last = (after.clamp(1, self.pieces.len()) - 1, start);
                 let (k, _) = self.last;
                 // Rounding may leave an angle a little outside the cycle.
-                if !(self.edges[k]..=self.edges[k + 1]).contains(&(phi - start)) {
+                if !(self.edges[k]..=self.edges[k + 1]).contains(&(inside - start)) {
                     return None;
                 }
                 continue;
@@ -175,8 +192,8 @@ impl ReducedCurves {
             match self.pieces[k] {
                 Piece::Exact => return None,
                 Piece::Polynomials(number) => {
-                    let share = (2.0 * local - low - high) / (high - low);
-                    return Some(value(&self.polynomials[number], share));
+                    let share = (2.0 * (phi - start) - low - high) / (high - low);
+                    return Some(value(&self.polynomials[number], share.clamp(-BEYOND, BEYOND)));
                 }
                 Piece::Unknown => self.make(plan, q, k),
             }
