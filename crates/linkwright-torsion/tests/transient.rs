@@ -27,6 +27,7 @@ fn chain(inertia: &[f64], stiffness: &[f64]) -> System {
         links: stiffness.iter().enumerate().map(link).collect(),
         rotors: Vec::new(),
         torques: Vec::new(),
+        frictions: Vec::new(),
         tables: Vec::new(),
         curves: Vec::new(),
     }

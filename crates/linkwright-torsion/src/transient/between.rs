@@ -168,6 +168,7 @@ mod tests {
             links: (0..n - 1).map(|i| link(i, i + 1)).chain([link(4, 9)]).collect(),
             rotors: Vec::new(),
             torques: Vec::new(),
+            frictions: Vec::new(),
             tables: Vec::new(),
             curves: Vec::new(),
         };

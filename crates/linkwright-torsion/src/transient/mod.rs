@@ -8,6 +8,10 @@
 //! | [`bank`] | functions of the angles of many masses, in lanes |
 //! | [`between`] | errors between the ends of a step |
 //! | [`chains`] | links that follow each other, in lanes |
+//! | [`friction`] | clutches, brakes, freewheels: elements with dry friction, and what they do |
+//! | [`contacts`] | masses that they hold together, and the torques that hold them |
+//! | [`settle`] | states that agree with the motion at an event |
+//! | [`watch`] | when an element sticks or slips in a step |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
@@ -20,15 +24,19 @@
 pub mod bank;
 pub mod between;
 pub mod chains;
+pub mod contacts;
 pub mod course;
 pub mod curve;
 pub mod equilibrium;
 pub mod explicit;
 pub mod extremes;
+pub mod friction;
 pub mod implicit;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;
+pub mod settle;
 pub mod stepper;
 pub mod system;
 pub mod torque;
+pub mod watch;

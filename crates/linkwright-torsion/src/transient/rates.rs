@@ -18,16 +18,24 @@
 
 use super::bank::{Bank, OfAngle, WIDEST};
 use super::chains::{Links, Twists};
+use super::contacts::{Break, Contacts, slide};
+use super::friction::Friction;
 use super::system::{Link, Rotor, System};
 use super::torque::{Law, Pull, Shape, Stretch, Torque};
 use linkwright_kernel::lanes::{Job, in_single_lanes};
 use linkwright_kernel::real::Real;
+
+/// Share of the accelerations of its ends below which that of an element's slip is rounding.
+const RATE_ROUNDING: f64 = 1e-9;
 
 /// A system at one instant, with room for what the equations need.
 #[derive(Clone, Debug)]
 pub struct Rates<'a> {
     pub system: &'a System,
     stretch: Stretch,
+    /// Elements with dry friction, and how far each is engaged at the instant last evaluated.
+    pub contacts: Contacts,
+    engaged: Vec<f64>,
     links: Links,
     /// Whether angles of the state are counted from that of the first mass.
     relative: bool,
@@ -38,8 +46,10 @@ pub struct Rates<'a> {
     /// Angles and speeds for twists: a place before the first mass, the masses, the ground.
     aside: Vec<f64>,
     aside_speed: Vec<f64>,
-    /// Shares of the masses in the inertia of the whole.
+    /// Shares of the masses in the inertia of the whole, or of their parts; the first mass of each part; speed of the whole.
     shares: Vec<f64>,
+    parts: Vec<usize>,
+    whole: Vec<f64>,
     /// What the masses have of inertia and damping anyway.
     constant: Vec<f64>,
     damping: Vec<f64>,
@@ -57,7 +67,7 @@ pub struct Rates<'a> {
     /// Torques from outside and of links that are no chain, on each mass and on the ground.
     outer: Vec<f64>,
     /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, losses in other
-    /// links \[W\]: [`Rates::in_order`].
+    /// links, losses by friction \[W\]: [`Rates::in_order`].
     pub powers: Vec<f64>,
     /// A state and its derivative, with places for whole registers.
     room: [Vec<f64>; 2],
@@ -89,6 +99,8 @@ impl<'a> Rates<'a> {
         Rates {
             system,
             stretch: Stretch::default(),
+            contacts: Contacts::new(&system.frictions, n),
+            engaged: vec![0.0; system.frictions.len()],
             relative,
             beside,
             theta: none.clone(),
@@ -96,6 +108,8 @@ impl<'a> Rates<'a> {
             aside: vec![0.0; places + 2],
             aside_speed: vec![0.0; places + 2],
             shares: system.shares(),
+            parts: system.parts(),
+            whole: none.clone(),
             constant: filled(&system.inertia, f64::INFINITY),
             damping: filled(&system.damping, 0.0),
             swing_damping: filled(&system.swing_damping, 0.0),
@@ -105,7 +119,13 @@ impl<'a> Rates<'a> {
             inertias: Bank::several(rotors, places, &system.tables),
             acceleration: none.clone(),
             outer: vec![0.0; places + 1],
-            powers: vec![0.0; places * (2 + shapes.len()) + alone.len() + links.others.len()],
+            powers: vec![
+                0.0;
+                places * (2 + shapes.len())
+                    + alone.len()
+                    + links.others.len()
+                    + system.frictions.len()
+            ],
             shapes,
             alone,
             links,
@@ -197,9 +217,13 @@ impl<'a> Rates<'a> {
         }
         self.push(t);
         self.twist();
-        let whole = self.whole_speed();
+        self.rub(t);
+        self.whole_speed();
         for at in (0..places).step_by(R::LANES) {
-            self.accelerate::<R>(at, whole);
+            self.accelerate::<R>(at);
+        }
+        if self.contacts.any() {
+            self.contacts.hold(&mut self.acceleration, &self.inertia);
         }
         let lead = if self.relative { self.acceleration[0] } else { 0.0 };
         let (angle_rates, speed_rates) = to.split_at_mut(places);
@@ -210,9 +234,9 @@ impl<'a> Rates<'a> {
         }
     }
 
-    /// Accelerations of some masses, with the speed of the train as a whole.
+    /// Accelerations of some masses.
     #[inline(always)]
-    fn accelerate<R: Real>(&mut self, at: usize, whole: f64) {
+    fn accelerate<R: Real>(&mut self, at: usize) {
         let places = self.theta.len();
         let (theta, omega) = (R::load(&self.theta[at..]), R::load(&self.omega[at..]));
         let (mut inertia, mut bend) = (R::load(&self.constant[at..]), R::splat(0.0));
@@ -233,8 +257,8 @@ impl<'a> Rates<'a> {
             }
         }
         let Twists { torque, loss } = self.links.chain.twists::<R>(at, &self.aside, &self.aside_speed);
-        let swing =
-            (R::load(&self.aside_speed[at + 1..]) - R::splat(whole)) * R::load(&self.swing_damping[at..]);
+        let swing = (R::load(&self.aside_speed[at + 1..]) - R::load(&self.whole[at..]))
+            * R::load(&self.swing_damping[at..]);
         let drag = R::load(&self.damping[at..]) * omega + swing;
         let gyration = bend * 0.5 * omega * omega;
         let net = ((torque - drag) + R::load(&self.outer[at..])) + (shaped - gyration);
@@ -255,12 +279,92 @@ impl<'a> Rates<'a> {
         R::splat(0.0).store(&mut self.outer[at..]);
     }
 
-    /// Speed of the train as a whole beside its first mass; zero where nothing asks for it.
-    fn whole_speed(&self) -> f64 {
+    /// Speed of the train as a whole, or of each of its parts, beside its first mass; zero where nothing asks for it.
+    fn whole_speed(&mut self) {
         if !self.damps_swings {
-            return 0.0;
+            return;
         }
-        self.shares.iter().zip(&self.aside_speed[1..]).map(|(share, w)| share * w).sum()
+        let n = self.system.len();
+        for part in 0..n {
+            if self.parts[part] != part {
+                continue;
+            }
+            let moved = self.shares.iter().zip(&self.aside_speed[1..]).zip(&self.parts);
+            let whole = moved.filter(|(_, of)| **of == part).map(|((share, w), _)| share * w).sum();
+            let of_part = self.whole.iter_mut().zip(&self.parts).filter(|(_, of)| **of == part);
+            of_part.for_each(|(speed, _)| *speed = whole);
+        }
+    }
+
+    /// Torques of elements that slide.
+    #[inline(always)]
+    fn rub(&mut self, t: f64) {
+        let system = self.system;
+        let first = self.powers.len() - system.frictions.len();
+        for (e, friction) in system.frictions.iter().enumerate() {
+            let engaged = friction.engaged(&system.curves, &self.stretch, t);
+            let slip = self.slip(friction);
+            let sliding = slide(friction, self.contacts.states[e], &system.curves, engaged, slip);
+            let torque = sliding.map_or(0.0, |(torque, _)| torque);
+            let [a, b] = friction.ends;
+            self.outer[a] -= friction.ratio * torque;
+            self.outer[b] += friction.ratio * torque;
+            self.powers[first + e] = torque * slip;
+            self.contacts.torques[e] = torque;
+            self.engaged[e] = engaged;
+        }
+    }
+
+    /// Slip of an element at the instant last evaluated.
+    pub fn slip(&self, friction: &Friction) -> f64 {
+        let n = self.system.len();
+        if friction.is_brake(n) {
+            friction.slip(|i| if i == n { 0.0 } else { self.omega[i] })
+        } else {
+            friction.slip(|i| self.aside_speed[i + 1])
+        }
+    }
+
+    /// Slip of an element from components of a state.
+    pub fn slip_at(&self, friction: &Friction, state: impl Fn(usize) -> f64) -> f64 {
+        let n = self.system.len();
+        let aside = |i: usize| if i == n || (i == 0 && self.relative) { 0.0 } else { state(n + i) };
+        let lead = if self.relative && friction.is_brake(n) { state(n) } else { 0.0 };
+        friction.slip(|i| if i == n { 0.0 } else { aside(i) + lead })
+    }
+
+    /// How fast the slip of an element grows at the instant last evaluated.
+    pub fn slip_rate(&self, friction: &Friction) -> f64 {
+        friction.slip(|i| if i == self.system.len() { 0.0 } else { self.acceleration[i] })
+    }
+
+    /// Whether an element is engaged, at a time or later on the stretch.
+    pub fn is_engaged(&self, friction: &Friction, t: f64) -> bool {
+        [t, self.stretch.middle]
+            .iter()
+            .any(|&t| friction.engaged(&self.system.curves, &self.stretch, t) > 0.0)
+    }
+
+    /// Finds the torques of stuck elements at the instant last evaluated: the smallest margin to a bound, below zero where one
+    /// does not hold, and which.
+    pub fn carry(&mut self) -> (f64, Option<Break>) {
+        let motion = (&self.acceleration[..], &self.inertia[..]);
+        self.contacts.carry(&self.system.frictions, &self.engaged, motion)
+    }
+
+    /// Accelerations below which a sliding element neither gains nor loses slip: rounding of what acts on its ends.
+    pub fn slip_rate_rounding(&self, e: usize) -> f64 {
+        let Friction { ends, ratio, .. } = self.system.frictions[e];
+        let of = |&i: &usize| {
+            let inverse = ratio.abs() / self.inertia[i];
+            inverse * (self.contacts.net(i).abs() + (ratio * self.contacts.torques[e]).abs())
+        };
+        RATE_ROUNDING * ends.iter().filter(|&&i| i < self.system.len()).map(of).sum::<f64>()
+    }
+
+    /// Inertias of the masses at the instant last evaluated.
+    pub fn inertias(&self) -> &[f64] {
+        &self.inertia[..self.system.len()]
     }
 
     /// Torques from outside that are more than functions of the angle.
@@ -296,13 +400,14 @@ impl<'a> Rates<'a> {
         }
     }
 
-    /// Powers, or their works: of each torque, then in each link, then at each mass.
+    /// Powers, or their works: of each torque, then in each link, then at each mass, then by friction.
     pub fn in_order(&self, powers: &[f64]) -> Vec<f64> {
         let (n, places) = (self.system.len(), self.theta.len());
         let (drags, powers) = powers.split_at(places);
         let (behind, powers) = powers.split_at(places);
         let (banks, powers) = powers.split_at(places * self.shapes.len());
-        let (alone, others) = powers.split_at(self.alone.len());
+        let (alone, powers) = powers.split_at(self.alone.len());
+        let (others, rubbing) = powers.split_at(self.links.others.len());
         let mut torques = vec![0.0; self.system.torques.len()];
         self.alone.iter().zip(alone).for_each(|(&place, &power)| torques[place] = power);
         for (bank, powers) in self.shapes.iter().zip(banks.chunks_exact(places)) {
@@ -310,7 +415,7 @@ impl<'a> Rates<'a> {
                 place.iter().for_each(|&place| torques[place] = power);
             }
         }
-        [torques, self.links.losses(behind, others), drags[..n].to_vec()].concat()
+        [torques, self.links.losses(behind, others), drags[..n].to_vec(), rubbing.to_vec()].concat()
     }
 
     /// Torque in a link at its own speed, and how fast it changes, at the instant last evaluated.
@@ -388,6 +493,10 @@ impl<'a> Rates<'a> {
                 damping[i] += square * link.damping;
             }
         }
+        for friction in &system.frictions {
+            let slope = friction.ratio * friction.ratio * friction.steepest(&system.curves);
+            friction.ends.into_iter().for_each(|i| damping[i] += slope);
+        }
         let each = (0..n).map(|i| {
             let inverse = 2.0 / self.inertia[i];
             (stiffness[i] * inverse).sqrt().max(damping[i] * inverse)
@@ -421,7 +530,8 @@ impl<'a> Rates<'a> {
             let (d1, d2) = (self.bends[i], d2[i]);
             by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
             by_speed[i * n + i] = -d1 * omega - system.damping[i] - system.swing_damping[i];
-            for (j, share) in self.shares.iter().enumerate() {
+            for (j, share) in self.shares.iter().enumerate().filter(|&(j, _)| self.parts[j] == self.parts[i])
+            {
                 by_speed[i * n + j] += system.swing_damping[i] * share;
             }
         }
@@ -440,11 +550,20 @@ impl<'a> Rates<'a> {
             couple(by_angle, n, [a, b], square * slope);
             couple(by_speed, n, [a, b], square * link.damping);
         }
+        for (e, friction) in system.frictions.iter().enumerate() {
+            let slip = self.slip(friction);
+            let sliding = slide(friction, self.contacts.states[e], &system.curves, self.engaged[e], slip);
+            let slope = sliding.map_or(0.0, |(_, slope)| slope);
+            couple(by_speed, n, friction.ends, friction.ratio * friction.ratio * slope);
+        }
         for i in 0..n {
             let inverse = 1.0 / self.inertia[i];
             for list in [&mut *by_angle, &mut *by_speed] {
                 list[i * n..(i + 1) * n].iter_mut().for_each(|x| *x *= inverse);
             }
+        }
+        for list in [by_angle, by_speed] {
+            self.contacts.hold_rows(list, &self.inertia);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A train in motion: masses, links between them, inertias that change with the angle, torques.
 
 use super::curve::Curve;
+use super::friction::Friction;
 use super::periodic::Periodic;
 use super::torque::Torque;
 use linkwright_kernel::error::PlanError;
@@ -41,6 +42,7 @@ pub struct System {
     pub links: Vec<Link>,
     pub rotors: Vec<Rotor>,
     pub torques: Vec<Torque>,
+    pub frictions: Vec<Friction>,
     pub tables: Vec<Periodic>,
     pub curves: Vec<Curve>,
 }
@@ -69,18 +71,35 @@ impl System {
         self.links.iter().all(|link| !link.ends.contains(&self.len()))
     }
 
-    /// Share of each mass in the mean inertia: weights of the speeds whose sum is that of the train as a whole. None of a
-    /// train that is held, which as a whole stands.
-    pub fn shares(&self) -> Vec<f64> {
-        if !self.is_free() {
-            return vec![0.0; self.len()];
+    /// First mass of the part that each mass belongs to, and of the ground at the end: links join parts, and friction does not.
+    /// Without friction the train is one.
+    pub fn parts(&self) -> Vec<usize> {
+        let n = self.len();
+        if self.frictions.is_empty() {
+            return vec![0; n + usize::from(!self.is_free())];
         }
+        let mut parts: Vec<usize> = (0..=n).collect();
+        for link in &self.links {
+            let [a, b] = link.ends.map(|end| parts[end]);
+            parts.iter_mut().filter(|part| **part == a.max(b)).for_each(|part| *part = a.min(b));
+        }
+        parts
+    }
+
+    /// Share of each mass in the mean inertia of its part: weights of the speeds whose sum is that of the part as a whole. None
+    /// of a part that is held, which as a whole stands.
+    pub fn shares(&self) -> Vec<f64> {
+        let (n, parts) = (self.len(), self.parts());
+        let held = parts.get(n).copied();
         let mut shares = self.inertia.clone();
         for rotor in &self.rotors {
             shares[rotor.mass] += rotor.ratio * rotor.ratio * self.tables[rotor.table].mean();
         }
-        let sum: f64 = shares.iter().sum();
-        shares.iter_mut().for_each(|share| *share /= sum);
+        let mut sums = vec![0.0; n + 1];
+        (0..n).for_each(|i| sums[parts[i]] += shares[i]);
+        for (share, &part) in shares.iter_mut().zip(&parts) {
+            *share = if held == Some(part) { 0.0 } else { *share / sums[part] };
+        }
         shares
     }
 
@@ -110,6 +129,14 @@ impl System {
             curve(torque.weight)?;
             curve(torque.law.curve())?;
             torque.shape.map_or(Ok(()), |shape| below("table", shape.table, self.tables.len()))?;
+        }
+        for friction in &self.frictions {
+            friction.ends.into_iter().try_for_each(|end| below("mass", end, n + 1))?;
+            curve(friction.engagement)?;
+            [friction.forward, friction.backward]
+                .into_iter()
+                .flatten()
+                .try_for_each(|grip| curve(grip.curve))?;
         }
         Ok(())
     }

@@ -65,7 +65,7 @@ pub struct Torque {
 #[derive(Clone, Debug, Default)]
 pub struct Stretch {
     pieces: Vec<usize>,
-    middle: f64,
+    pub middle: f64,
 }
 
 impl Stretch {
@@ -78,7 +78,7 @@ impl Stretch {
 
     /// A curve over time, on from this stretch beyond its ends.
     #[inline(always)]
-    fn at(&self, curves: &[Curve], curve: usize, t: f64) -> f64 {
+    pub fn at(&self, curves: &[Curve], curve: usize, t: f64) -> f64 {
         curves[curve].of_piece(self.pieces[curve], t).0
     }
 }
