@@ -59,7 +59,8 @@ pub mod _core {
     use super::builder::parts::{Bar, BarPoint, ChangePoint, Condition, Line, Sum, Term};
     #[pymodule_export]
     use super::builder::train::{
-        Curve, Periodic, TorqueLaw, TorqueShape, TorsionLink, TorsionMass, TorsionRotor, TorsionTorque,
+        Curve, Periodic, TorqueLaw, TorqueShape, TorsionFriction, TorsionGrip, TorsionLink, TorsionMass,
+        TorsionRotor, TorsionTorque,
     };
     #[pymodule_export]
     use super::cam::{

@@ -204,8 +204,11 @@ def lead_speeds(tip: Integers, speed: Floats) -> Floats:
     return lead
 
 
-def refer(train: Train) -> ReferredTrain:
-    """A train referred to the speed of its first disc."""
+def refer(train: Train, *, slips: bool = False) -> ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Engaged clutches and freewheels are rigid; with `slips` they connect nothing.
+    """
     _require_numbers(train)
     train = whole_train(train)
     signed = speeds(train).discs
@@ -213,6 +216,7 @@ def refer(train: Train) -> ReferredTrain:
     # What rests swings as it is.
     scale = {name: speed if primal(speed) else 1.0 for name, speed in n.items()}
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
+    rigid += [] if slips else train.engaged
     masses = parts_of(train.discs, rigid)
     place = {name: k for k, part in enumerate(masses) for name in part}
     elastic = {name: gear for name, gear in train.gears.items() if gear.stiffness is not None}

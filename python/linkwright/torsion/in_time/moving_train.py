@@ -36,6 +36,7 @@ from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, moving, variable_inertia, viscous
 from linkwright.torsion.excitation.engine_torques import cylinder_torques
 from linkwright.torsion.excitation.excited_train import highest_order
+from linkwright.torsion.in_time.friction_parts import friction_elements
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine, firing_angles
 from linkwright.torsion.model.engine.engine_motion import reduced_throw
@@ -71,7 +72,7 @@ _TURNS_MAX = 8
 
 def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
-    expanded, referred = whole_train(train), refer(train)
+    expanded, referred = whole_train(train), refer(train, slips=True)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
     for name, shaft in train.shafts.items():
         if shaft.joint_angle is not None:
@@ -111,6 +112,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
             *_events(manoeuvre, place, ice or {}),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
+        frictions=friction_elements(train, manoeuvre, place),
         notes=notes,
     )
 

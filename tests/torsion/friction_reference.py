@@ -1,0 +1,149 @@
+"""Trains with dry friction, integrated by SciPy from event to event, with states found by trying all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from linkwright.kernel.arrays import Floats
+
+STUCK, FORWARD, BACKWARD = 0, 1, -1
+
+
+@dataclass
+class Element:
+    """Friction between two masses, −1 for the ground: sliding torque over the size of slip, static bounds."""
+
+    ends: tuple[int, int]
+    sliding: Callable[[float], float]
+    low: float  # static bounds at full engagement [N m]
+    high: float
+    engaged: Callable[[float], float] = lambda _: 1.0
+
+
+@dataclass
+class Reference:
+    """J ω′ = M(t, θ, ω) − B T with the elements' torques."""
+
+    inertia: Floats
+    torque: Callable[[float, Floats, Floats], Floats]
+    elements: Sequence[Element]
+
+    def __post_init__(self) -> None:
+        self.B = np.zeros((len(self.inertia), len(self.elements)))
+        for column, element in zip(self.B.T, self.elements, strict=True):
+            for end, sign in zip(element.ends, (1.0, -1.0), strict=True):
+                if end >= 0:
+                    column[end] += sign
+
+    def motion(self, t: float, y: Floats, states: Sequence[int]) -> tuple[Floats, Floats]:
+        """Accelerations and torques of the elements in given states."""
+        n, m = len(self.inertia), len(self.elements)
+        net = self.torque(t, y[:n], y[n:])
+        slip = self.B.T @ y[n:]
+        A, b = np.zeros((n + m, n + m)), np.zeros(n + m)
+        A[:n, :n], A[:n, n:], b[:n] = np.diag(self.inertia), self.B, net
+        for e, (element, state) in enumerate(zip(self.elements, states, strict=True)):
+            if state == STUCK:
+                A[n + e, :n] = self.B[:, e]
+            else:
+                A[n + e, n + e] = 1.0
+                b[n + e] = state * element.engaged(t) * element.sliding(max(state * slip[e], 0.0))
+        found = np.linalg.solve(A, b)
+        return found[:n], found[n:]
+
+    def consistent(
+        self, t: float, y: Floats, states: Sequence[int], resting: set[int], broken: dict[int, int]
+    ) -> tuple[int, ...]:
+        """States that agree with the motion, with as many stuck elements as can be."""
+        choices = [
+            (broken[e],) if e in broken else (STUCK, FORWARD, BACKWARD) if e in resting else (states[e],)
+            for e in range(len(self.elements))
+        ]
+        fitting = []
+        for tried in product(*choices):
+            pairs = zip(self.elements, tried, strict=True)
+            if any(state == FORWARD and np.isinf(element.high) for element, state in pairs):
+                continue
+            a, T = self.motion(t, y, tried)
+            size = 1e-9 * (1 + np.abs(T).max())
+            fits = all(
+                (state != STUCK or self._low(e, t) - size <= T[e] <= self._high(e, t) + size)
+                and (state == STUCK or e not in resting or state * (self.B[:, e] @ a) >= -size)
+                for e, state in enumerate(tried)
+            )
+            if fits:
+                fitting.append((-tried.count(STUCK), tried))
+        return min(fitting)[1]
+
+    def _low(self, e: int, t: float) -> float:
+        w = self.elements[e].engaged(t)
+        return self.elements[e].low * w if w else 0.0
+
+    def _high(self, e: int, t: float) -> float:
+        # A freewheel holds whether its clutch is engaged or not.
+        high = self.elements[e].high
+        return high if np.isinf(high) else high * self.elements[e].engaged(t)
+
+    def follow(self, y: Floats, marks: Sequence[float], times: Floats) -> tuple[Floats, list[float]]:
+        """States (2n, times), and the times of all events; no step passes a mark."""
+        n, t, events = len(self.inertia), 0.0, []
+        rows = np.full((2 * n, len(times)), np.nan)
+        states: tuple[int, ...] = tuple(int(np.sign(s)) for s in self.B.T @ y[n:])
+        for end in [*marks, float(times[-1])]:
+            resting = {e for e, s in enumerate(self.B.T @ y[n:]) if states[e] == STUCK or abs(s) < 1e-10}
+            # Just behind a mark, so that what steps there has stepped.
+            states = self.consistent(t + 1e-13, y, states, resting, {})
+            while t < end:
+                t, y, happened = self._stretch(t, y, states, end, times, rows)
+                if happened is None:
+                    break
+                events.append(t)
+                e, way = happened
+                resting = {k for k, state in enumerate(states) if state == STUCK} | {e}
+                states = self.consistent(t, y, states, resting, {} if way == STUCK else {e: way})
+        return rows, events
+
+    def _stretch(
+        self, t: float, y: Floats, states: Sequence[int], end: float, times: Floats, rows: Floats
+    ) -> tuple[float, Floats, tuple[int, int] | None]:
+        n = len(self.inertia)
+        conditions, meanings = [], []
+        for e, state in enumerate(states):
+            if state == STUCK:
+                for bound, way in ((self._high, FORWARD), (self._low, BACKWARD)):
+                    if np.isfinite(bound(e, t + 1e-13)):
+                        conditions.append(
+                            lambda t, y, e=e, bound=bound, way=way: (
+                                way * (bound(e, t) - self.motion(t, y, states)[1][e])
+                            )
+                        )
+                        meanings.append((e, way))
+            else:
+                # A slip that has just begun does not end by rounding.
+                conditions.append(lambda t, y, e=e, state=state: state * (self.B[:, e] @ y[n:]) + 1e-11)
+                meanings.append((e, STUCK))
+        for condition in conditions:
+            condition.terminal, condition.direction = True, -1  # type: ignore[attr-defined]
+        found = solve_ivp(
+            lambda t, y: np.concatenate([y[n:], self.motion(t, y, states)[0]]),
+            (t, end),
+            y,
+            method="DOP853",
+            rtol=1e-12,
+            atol=1e-13,
+            events=conditions,
+            dense_output=True,
+            max_step=0.01,
+        )
+        within = (times >= t) & (times <= found.t[-1])
+        if within.any():
+            rows[:, within] = found.sol(times[within])
+        if found.status != 1:
+            return end, found.y[:, -1], None
+        e = next(k for k, hits in enumerate(found.t_events) if len(hits))
+        return float(found.t[-1]), found.y[:, -1], meanings[e]

@@ -1,0 +1,256 @@
+"""Clutches, brakes and freewheels in time: closed forms, and the Rotational examples of the Modelica Standard Library."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.torsion.friction_reference import Element, Reference
+
+import linkwright as lw
+from linkwright import MachineError, torsion_transient
+from linkwright.kernel.core.curve import smooth, straight
+from linkwright.torsion.core.torque import DecayingTorque, TrainTorque
+from linkwright.torsion.in_time.friction_parts import start_speeds
+from linkwright.torsion.in_time.moving_train import moving_train
+from linkwright.torsion.in_time.transient import TorsionTransient, follow_train
+
+# Friction surfaces of the Modelica library have μ = 0.5 and the lever of 1 m.
+_MU = 0.5
+
+
+def machine(discs: dict[str, float], transient: dict[str, Any], **train: Any) -> lw.Machine:
+    entries = {"discs": {name: {"inertia": J} for name, J in discs.items()}, **train}
+    return lw.Machine.model_validate(
+        {"format": 1, "name": "friction", "train": {**entries, "transient": transient}}
+    )
+
+
+def followed(described: lw.Machine, torques: tuple[TrainTorque, ...], **changes: Any) -> TorsionTransient:
+    """A motion under other torques, and with other engagements by name."""
+    train = described.train
+    assert train is not None
+    manoeuvre = train.transient
+    assert manoeuvre is not None
+    moving = moving_train(train, manoeuvre)
+    frictions = tuple(
+        replace(one, engagement=changes[one.name]) if one.name in changes else one for one in moving.frictions
+    )
+    moving = replace(moving, torques=torques, frictions=frictions)
+    return follow_train(
+        moving,
+        duration=manoeuvre.duration,
+        speed=start_speeds(moving, manoeuvre),
+        sample_time=manoeuvre.sample_time,
+        accuracy=1e-11,
+    )
+
+
+def sine(on: int, size: float, omega: float, end: float = np.inf) -> TrainTorque:
+    return TrainTorque("drive", on, size, DecayingTorque(-1.0, end, 0.0, omega, -omega))
+
+
+def same(moved: TorsionTransient, rows: np.ndarray, off: float = 1e-8) -> None:
+    n = len(rows) // 2
+    assert np.abs(moved.speed - rows[n:]).max() < off
+    assert np.abs(moved.angle - rows[:n]).max() < off
+    assert abs(moved.energy_error) < 1e-9
+
+
+def test_coupled_clutches() -> None:
+    """Modelica.Mechanics.Rotational.Examples.CoupledClutches: four discs, three clutches that engage one after another."""
+    clutch = {"friction": _MU, "friction_static": 1.1 * _MU, "force": 20.0, "radius": 1.0}
+    pairs = {"clutch1": ("J1", "J2"), "clutch2": ("J2", "J3"), "clutch3": ("J3", "J4")}
+    events = [
+        {"kind": "clutch_on", "time": 0.4, "clutch": "clutch2"},
+        {"kind": "clutch_on", "time": 0.9, "clutch": "clutch3"},
+    ]
+    described = machine(
+        {f"J{n}": 1.0 for n in (1, 2, 3, 4)},
+        {"duration": 1.2, "sample_time": 1e-3, "speeds": {"J1": 10.0}, "events": events},
+        clutches={
+            name: {**clutch, "between": pair, "closed": name == "clutch1"} for name, pair in pairs.items()
+        },
+    )
+    # Clutch 1 is let go by a cosine of 0.2 Hz.
+    t, w = np.linspace(0.0, 1.25, 501), 0.4 * np.pi
+    moved = followed(
+        described,
+        (sine(0, 10.0, 10 * np.pi),),
+        clutch1=smooth(t, np.cos(w * t), -w * np.sin(w * t), beyond="held"),
+    )
+    engaged = (lambda t: np.cos(w * t), lambda t: float(t > 0.4), lambda t: float(t > 0.9))
+    elements = [Element((k, k + 1), lambda _: 10.0, -11.0, 11.0, engaged[k]) for k in range(3)]
+    reference = Reference(
+        np.ones(4), lambda t, _, __: np.array([10 * np.sin(10 * np.pi * t), 0, 0, 0]), elements
+    )
+    rows, events_found = reference.follow(np.r_[np.zeros(4), 10.0, 0, 0, 0], [0.4, 0.9], moved.time)
+    same(moved, rows)
+    assert len(events_found) >= 4
+    assert moved.engagements.sum() >= 3
+
+
+def test_friction() -> None:
+    """Modelica.Mechanics.Rotational.Examples.Friction: a clutch slips in the beat of the drive, then a brake closes."""
+    described = machine(
+        {"J3": 1.0, "J2": 0.05, "J1": 1.0},
+        {
+            "duration": 3.0,
+            "sample_time": 1e-3,
+            "speeds": {"J3": 100.0, "J2": 90.0},
+            "events": [{"kind": "brake_on", "time": 0.5, "brake": "brake"}],
+        },
+        shafts={"spring": {"between": ["J2", "J1"], "stiffness": 160.0, "damping": 1.0}},
+        clutches={
+            "clutch": {"between": ["J3", "J2"], "friction": _MU, "force": 160.0, "radius": 1.0},
+        },
+        brakes={"brake": {"on": "J1", "friction": _MU, "force": 1600.0, "radius": 1.0, "closed": False}},
+    )
+    moved = followed(described, (sine(0, 200.0, 100.0, 0.5),))
+
+    def torque(t: float, phi: np.ndarray, w: np.ndarray) -> np.ndarray:
+        spring = 160.0 * (phi[1] - phi[2]) + (w[1] - w[2])
+        return np.array([200 * np.sin(100 * t) if t < 0.5 else 0.0, -spring, spring])
+
+    elements = [
+        Element((0, 1), lambda _: 80.0, -80.0, 80.0),
+        Element((2, -1), lambda _: 800.0, -800.0, 800.0, lambda t: float(t > 0.5)),
+    ]
+    rows, _ = Reference(np.array([1.0, 0.05, 1.0]), torque, elements).follow(
+        np.r_[np.zeros(3), 100.0, 90.0, 90.0], [0.5], moved.time
+    )
+    same(moved, rows, 1e-7)
+    assert moved.friction_torque_max == pytest.approx([80.0, 800.0], rel=1e-9)
+
+
+def test_one_way_clutch() -> None:
+    """Modelica.Mechanics.Rotational.Examples.OneWayClutch: a freewheel beside a clutch that is engaged by pulses."""
+    described = machine(
+        {"in": 1.0, "out": 1.0},
+        {"duration": 2.0, "sample_time": 1e-3, "speeds": {"in": -0.5}},
+        freewheels={"freewheel": {"between": ["in", "out"]}},
+        clutches={
+            "clutch": {
+                "between": ["in", "out"], "force": 3.0, "radius": 1.0,
+                "friction": _MU, "friction_static": 25 * _MU,
+            }
+        },
+    )
+    pulses = straight([0.0, 0.3, 0.3, 0.95, 0.95, 1.6, 1.6, 2.25], [0, 0, 1, 1, 0, 0, 1, 1])
+    moved = followed(described, (sine(0, 10.0, 6 * np.pi),), clutch=pulses)
+    engaged = lambda t: float(0.3 < t <= 0.95 or t > 1.6)  # noqa: E731
+    both = Element((0, 1), lambda _: 1.5, -37.5, np.inf, engaged)
+    reference = Reference(np.ones(2), lambda t, _, __: np.array([10 * np.sin(6 * np.pi * t), 0.0]), [both])
+    rows, events = reference.follow(np.r_[0, 0, -0.5, 0.0], [0.3, 0.95, 1.6], moved.time)
+    same(moved, rows)
+    assert len(events) >= 4
+
+
+def test_two_discs_engage() -> None:
+    """The heat of an engagement is ½ J₁J₂/(J₁ + J₂) Δω² whatever the torque; its time goes with the torque."""
+    for force, slope in ((500.0, 0.0), (900.0, -0.4)):
+        slip, at_rest = [0.0, 200.0], 4 * 0.12 * force * 0.35
+        torque = [at_rest, at_rest + slope * 200.0]
+        described = machine(
+            {"motor": 2.0, "machine": 6.0},
+            {"duration": 5.0, "speeds": {"motor": 150.0}, "accuracy": 1e-11},
+            clutches={"c": {"between": ["motor", "machine"], "slip": slip, "torque": torque}},
+        )
+        moved = torsion_transient(described)
+        reduced = 2.0 * 6.0 / 8.0
+        assert moved.friction_heat[0] == pytest.approx(0.5 * reduced * 150.0**2, rel=1e-9)
+        if slope:
+            # J_r s′ = −(T₀ + a s).
+            time = reduced / slope * np.log1p(slope * 150.0 / at_rest)
+        else:
+            time = reduced * 150.0 / at_rest
+        assert moved.slip_time[0] == pytest.approx(time, rel=1e-9)
+        assert moved.speed[:, -1] == pytest.approx([150.0 * 2 / 8] * 2, rel=1e-9)
+        assert moved.friction_power_max[0] == pytest.approx(150.0 * (at_rest + slope * 150.0), rel=1e-9)
+
+
+def test_falling_friction_judders() -> None:
+    """A falling characteristic excites a driven mass: small vibrations grow with −c/2J, c being its slope at the slip."""
+    J, k, v, static, sliding, decay = 0.8, 500.0, 20.0, 60.0, 20.0, 8.0
+    slope = -(static - sliding) / decay * np.exp(-v / decay)
+    growth = -slope / (2 * J)
+    omega = np.sqrt(k / J - growth**2)
+    period = 2 * np.pi / omega
+    # The mean twist carries the torque at the mean slip: without it the start would be a large swing.
+    mean = sliding + (static - sliding) * np.exp(-v / decay)
+    described = machine(
+        {"drive": 1e13, "bit": J},
+        {
+            "duration": 6 * period, "speed": v, "accuracy": 1e-12, "sample_time": period / 400,
+            "twists": {"string": mean / k * (1 + 1e-5)},
+        },
+        shafts={"string": {"between": ["drive", "bit"], "stiffness": k}},
+        brakes={"rock": {"on": "bit", "static": static, "sliding": sliding, "stribeck_speed": decay}},
+    )
+    moved = torsion_transient(described)
+    swing = moved.torque[0] - mean
+    peaks = [float(swing[np.abs(moved.time - n * period).argmin()]) for n in (1, 5)]
+    assert np.log(peaks[1] / peaks[0]) / (4 * period) == pytest.approx(growth, rel=1e-3)
+
+
+def test_backstop_holds_a_load() -> None:
+    """A backstop lets a hoist turn forwards and holds its load when the motor is off."""
+    described = machine(
+        {"hoist": 3.0},
+        {
+            "duration": 4.0,
+            "speed": 10.0,
+            "events": [{"kind": "torque", "time": 0.0, "on": "hoist", "torque": -60.0}],
+        },
+        freewheels={"backstop": {"between": ["ground", "hoist"]}},
+    )
+    moved = torsion_transient(described)
+    assert moved.speed[0, -1] == 0.0
+    assert moved.slip_time[0] == pytest.approx(0.5, rel=1e-9)
+    assert moved.friction_torque[0, -1] == pytest.approx(60.0, rel=1e-12)
+    assert moved.friction_state[0, -1] == 1
+
+
+def test_what_is_wrong_is_named() -> None:
+    """A clutch to the ground, no torque, an impact at the start, two speeds of one part, a clutch that is not there."""
+    discs = {"a": 1.0, "b": 1.0}
+    short = {"duration": 0.1}
+    with pytest.raises(MachineError, match="hold a disc by a brake"):
+        machine(discs, short, clutches={"c": {"between": ["a", "ground"], "sliding": 1.0}})
+    with pytest.raises(MachineError, match="a friction torque"):
+        machine(discs, short, clutches={"c": {"between": ["a", "b"]}})
+    with pytest.raises(MachineError, match="at least the sliding torque"):
+        machine(discs, short, clutches={"c": {"between": ["a", "b"], "sliding": 5.0, "static": 4.0}})
+    with pytest.raises(MachineError, match="the name of a clutch"):
+        events = [{"kind": "clutch_on", "time": 0.0, "clutch": "x"}]
+        machine(discs, {**short, "events": events}, clutches={"c": {"between": ["a", "b"], "sliding": 5.0}})
+    struck = machine(discs, {**short, "speeds": {"a": 2.0}}, freewheels={"f": {"between": ["a", "b"]}})
+    with pytest.raises(MachineError, match="no faster than the second"):
+        torsion_transient(struck)
+    shafts = {"ab": {"between": ["a", "b"], "stiffness": 1e3}}
+    twice = machine(
+        discs,
+        {**short, "speeds": {"a": 2.0, "b": 1.0}},
+        shafts=shafts,
+        brakes={"k": {"on": "a", "sliding": 1.0}},
+    )
+    with pytest.raises(MachineError, match="one speed for each part"):
+        torsion_transient(twice)
+
+
+def test_vibration_takes_an_engaged_clutch_as_rigid() -> None:
+    """Modes of a train with a closed clutch are those of its discs as one; an open clutch leaves two parts."""
+    discs = {"a": 1.0, "b": 0.5, "c": 2.0}
+    shafts = {"bc": {"between": ["b", "c"], "stiffness": 9e3}}
+    closed = machine(
+        discs, {"duration": 0.1}, shafts=shafts, clutches={"k": {"between": ["a", "b"], "sliding": 9.0}}
+    )
+    omega = lw.free_vibration(closed).angular_frequencies
+    assert omega[-1] == pytest.approx(np.sqrt(9e3 * (1 / 1.5 + 1 / 2.0)), rel=1e-12)
+    clutches = {"k": {"between": ["a", "b"], "sliding": 9.0, "closed": False}}
+    opened = machine(discs, {"duration": 0.1}, shafts=shafts, clutches=clutches)
+    omega = lw.free_vibration(opened).angular_frequencies
+    assert omega[-1] == pytest.approx(np.sqrt(9e3 * (1 / 0.5 + 1 / 2.0)), rel=1e-12)
+    assert list(omega[:2]) == [0.0, 0.0]
