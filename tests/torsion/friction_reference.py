@@ -1,4 +1,4 @@
-"""Trains with dry friction, integrated by SciPy from event to event, with states found by trying all of them."""
+"""Trains with dry friction by SciPy, from event to event; states are found by trying all of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Clutches, brakes and freewheels in time: closed forms, and the Rotational examples of the Modelica Standard Library."""
+"""Clutches, brakes and freewheels in time: closed forms, and examples of the Modelica Standard Library."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def same(moved: TorsionTransient, rows: np.ndarray, off: float = 1e-8) -> None:
 
 
 def test_coupled_clutches() -> None:
-    """Modelica.Mechanics.Rotational.Examples.CoupledClutches: four discs, three clutches that engage one after another."""
+    """Modelica.Mechanics.Rotational.Examples.CoupledClutches: three clutches engage one after another."""
     clutch = {"friction": _MU, "friction_static": 1.1 * _MU, "force": 20.0, "radius": 1.0}
     pairs = {"clutch1": ("J1", "J2"), "clutch2": ("J2", "J3"), "clutch3": ("J3", "J4")}
     events = [
@@ -93,7 +93,7 @@ def test_coupled_clutches() -> None:
 
 
 def test_friction() -> None:
-    """Modelica.Mechanics.Rotational.Examples.Friction: a clutch slips in the beat of the drive, then a brake closes."""
+    """Modelica.Mechanics.Rotational.Examples.Friction: a clutch slips under a sine, then a brake closes."""
     described = machine(
         {"J3": 1.0, "J2": 0.05, "J1": 1.0},
         {
@@ -126,15 +126,18 @@ def test_friction() -> None:
 
 
 def test_one_way_clutch() -> None:
-    """Modelica.Mechanics.Rotational.Examples.OneWayClutch: a freewheel beside a clutch that is engaged by pulses."""
+    """Modelica.Mechanics.Rotational.Examples.OneWayClutch: a freewheel beside a clutch engaged by pulses."""
     described = machine(
         {"in": 1.0, "out": 1.0},
         {"duration": 2.0, "sample_time": 1e-3, "speeds": {"in": -0.5}},
         freewheels={"freewheel": {"between": ["in", "out"]}},
         clutches={
             "clutch": {
-                "between": ["in", "out"], "force": 3.0, "radius": 1.0,
-                "friction": _MU, "friction_static": 25 * _MU,
+                "between": ["in", "out"],
+                "force": 3.0,
+                "radius": 1.0,
+                "friction": _MU,
+                "friction_static": 25 * _MU,
             }
         },
     )
@@ -149,7 +152,7 @@ def test_one_way_clutch() -> None:
 
 
 def test_two_discs_engage() -> None:
-    """The heat of an engagement is ½ J₁J₂/(J₁ + J₂) Δω² whatever the torque; its time goes with the torque."""
+    """The heat of an engagement is ½ J₁J₂/(J₁ + J₂) Δω² whatever the torque, on which its time depends."""
     for force, slope in ((500.0, 0.0), (900.0, -0.4)):
         slip, at_rest = [0.0, 200.0], 4 * 0.12 * force * 0.35
         torque = [at_rest, at_rest + slope * 200.0]
@@ -161,18 +164,16 @@ def test_two_discs_engage() -> None:
         moved = torsion_transient(described)
         reduced = 2.0 * 6.0 / 8.0
         assert moved.friction_heat[0] == pytest.approx(0.5 * reduced * 150.0**2, rel=1e-9)
-        if slope:
-            # J_r s′ = −(T₀ + a s).
-            time = reduced / slope * np.log1p(slope * 150.0 / at_rest)
-        else:
-            time = reduced * 150.0 / at_rest
+        # J_r s′ = −(T₀ + a s).
+        evenly = reduced * 150.0 / at_rest
+        time = reduced / slope * np.log1p(slope * 150.0 / at_rest) if slope else evenly
         assert moved.slip_time[0] == pytest.approx(time, rel=1e-9)
         assert moved.speed[:, -1] == pytest.approx([150.0 * 2 / 8] * 2, rel=1e-9)
         assert moved.friction_power_max[0] == pytest.approx(150.0 * (at_rest + slope * 150.0), rel=1e-9)
 
 
 def test_falling_friction_judders() -> None:
-    """A falling characteristic excites a driven mass: small vibrations grow with −c/2J, c being its slope at the slip."""
+    """A falling characteristic excites a driven mass: small vibrations grow with −c/2J, c its slope there."""
     J, k, v, static, sliding, decay = 0.8, 500.0, 20.0, 60.0, 20.0, 8.0
     slope = -(static - sliding) / decay * np.exp(-v / decay)
     growth = -slope / (2 * J)
@@ -183,7 +184,10 @@ def test_falling_friction_judders() -> None:
     described = machine(
         {"drive": 1e13, "bit": J},
         {
-            "duration": 6 * period, "speed": v, "accuracy": 1e-12, "sample_time": period / 400,
+            "duration": 6 * period,
+            "speed": v,
+            "accuracy": 1e-12,
+            "sample_time": period / 400,
             "twists": {"string": mean / k * (1 + 1e-5)},
         },
         shafts={"string": {"between": ["drive", "bit"], "stiffness": k}},
@@ -214,7 +218,7 @@ def test_backstop_holds_a_load() -> None:
 
 
 def test_what_is_wrong_is_named() -> None:
-    """A clutch to the ground, no torque, an impact at the start, two speeds of one part, a clutch that is not there."""
+    """A clutch to the ground, no torque, an impact at the start, two speeds of one part, no such clutch."""
     discs = {"a": 1.0, "b": 1.0}
     short = {"duration": 0.1}
     with pytest.raises(MachineError, match="hold a disc by a brake"):
@@ -223,8 +227,8 @@ def test_what_is_wrong_is_named() -> None:
         machine(discs, short, clutches={"c": {"between": ["a", "b"]}})
     with pytest.raises(MachineError, match="at least the sliding torque"):
         machine(discs, short, clutches={"c": {"between": ["a", "b"], "sliding": 5.0, "static": 4.0}})
+    events = [{"kind": "clutch_on", "time": 0.0, "clutch": "x"}]
     with pytest.raises(MachineError, match="the name of a clutch"):
-        events = [{"kind": "clutch_on", "time": 0.0, "clutch": "x"}]
         machine(discs, {**short, "events": events}, clutches={"c": {"between": ["a", "b"], "sliding": 5.0}})
     struck = machine(discs, {**short, "speeds": {"a": 2.0}}, freewheels={"f": {"between": ["a", "b"]}})
     with pytest.raises(MachineError, match="no faster than the second"):
@@ -241,7 +245,7 @@ def test_what_is_wrong_is_named() -> None:
 
 
 def test_vibration_takes_an_engaged_clutch_as_rigid() -> None:
-    """Modes of a train with a closed clutch are those of its discs as one; an open clutch leaves two parts."""
+    """Modes of a train with a closed clutch are those of its discs as one; an open one leaves two parts."""
     discs = {"a": 1.0, "b": 0.5, "c": 2.0}
     shafts = {"bc": {"between": ["b", "c"], "stiffness": 9e3}}
     closed = machine(

@@ -18,7 +18,7 @@ from linkwright.machine.write import in_own_units
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.limits.survey import TorquePeaks
-from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.study import TorsionStudy, is_balanced
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.torsion import (
@@ -196,7 +196,7 @@ def _about_friction(train: Train | None) -> Iterator[str]:
     if opened:
         yield f"In modes and forced vibration {', '.join(opened)} is open and carries nothing."
     if rubbing:
-        yield f"Modes and forced vibration leave the friction of {', '.join(rubbing)} out; a manoeuvre has it."
+        yield f"Modes and forced vibration leave out the friction of {', '.join(rubbing)}."
 
 
 def _assumptions(study: TorsionStudy) -> Iterator[str]:

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import INK, LINES, SOFT, panels, styled, zero_line
+from linkwright.kernel.reader.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,7 +41,8 @@ def friction_figure(motion: TorsionTransient) -> Figure:
         for start, end in stuck_spans(motion.time, motion.friction_state[n]):
             panel.axvspan(start, end, color=SOFT, alpha=_SHADE, linewidth=0)
         panel.set_ylabel(f"{motion.frictions[n]}\n[N m]")
-        peak = f"{motion.friction_torque_max[n]:.4g} N m, {motion.friction_heat[n]:.4g} J"
+        numbers = ((motion.friction_torque_max, "N m"), (motion.friction_heat, "J"))
+        peak = ", ".join(quantity(float(of[n]), unit) for of, unit in numbers)
         panel.annotate(
             peak,
             (1, 1),
@@ -57,9 +59,9 @@ def friction_figure(motion: TorsionTransient) -> Figure:
     return figure
 
 
-def stuck_spans(time: Floats, state: Floats) -> list[tuple[float, float]]:
+def stuck_spans(time: Floats, state: Integers) -> list[tuple[float, float]]:
     """Spans of samples in which an element sticks [s]."""
     stuck = np.concatenate([[False], state == _STUCK, [False]])
-    starts, ends = np.flatnonzero(stuck[1:] & ~stuck[:-1]), np.flatnonzero(stuck[:-1] & ~stuck[1:])
-    last = len(time) - 1
-    return [(float(time[a]), float(time[min(b, last)])) for a, b in zip(starts, ends, strict=True)]
+    starts = np.flatnonzero(stuck[1:] & ~stuck[:-1])
+    ends = np.minimum(np.flatnonzero(stuck[:-1] & ~stuck[1:]), len(time) - 1)
+    return list(zip(time[starts].tolist(), time[ends].tolist(), strict=True))

@@ -36,7 +36,8 @@ def stage_torques(
     (shafts, n) [N m]; `friction`: (elements, n), of clutches, brakes and freewheels [N m].
     """
     rigid = [name for name, gear in gears.items() if gear.stiffness is None]
-    flows = np.vstack([train.lead[:, None] * torque, friction_lead(train)[:, None] * friction])
+    rubbing = friction.reshape(len(train.frictions), len(time))
+    flows = np.vstack([train.lead[:, None] * torque, friction_lead(train)[:, None] * rubbing])
     left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, flows) if rigid else None
     # Discs whose inertia changes share none by its mean.
     open_masses = {int(train.mass[rotor.on]) for rotor in train.inertias}

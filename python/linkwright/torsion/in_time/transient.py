@@ -135,7 +135,8 @@ class TorsionTransient(Result):
     loss: Annotated[
         dict[str, float],
         About(
-            'Loss in each shaft, clutch, brake and freewheel, by the damping of the discs, "discs", and by damping ratios, "modes" [J].'
+            'Loss in each shaft, clutch, brake and freewheel, by the damping of the discs, "discs", and by '
+            'damping ratios, "modes" [J].'
         ),
     ]
     energy_error: Annotated[
@@ -484,8 +485,8 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
     if moved.end == "unsettled":
         names = ", ".join(friction.name for friction in train.frictions)
         return (
-            f"{when}: no states of {names} agree, sticking or slipping; check the speeds at the start and the static "
-            "torques, or leave out a part in parallel"
+            f"{when}: no states of {names} agree, sticking or slipping; check the speeds at the start and "
+            "the static torques, or leave out a part in parallel"
         )
     if moved.end == "not finite":
         return f"{when}: an acceleration is no finite number; look at the torques"

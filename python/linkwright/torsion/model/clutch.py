@@ -1,7 +1,8 @@
 r"""Parts of a train with dry friction: clutches, brakes and bits, freewheels.
 
-While a clutch slips it carries its sliding torque over the slip s, and while it sticks whatever its discs need, up to its
-static capacity. The torque is given, or that of z friction surfaces of the mean radius r under the force F,
+While a clutch slips it carries its sliding torque over the slip s, and while it sticks whatever its discs
+need, up to its static capacity. The torque is given, or that of z friction surfaces of the mean radius r
+under the force F,
 
 .. math:: T = z\,\mu\,F\,r_m
 
@@ -11,9 +12,10 @@ Between static and sliding friction the torque may fall with the slip, as measur
 
 References
 ----------
-.. [1] VDI 2241-1, Clutches and brakes with frictional connection, 1982: capacity, mean radius, static and sliding torque.
-.. [2] Armstrong-Hélouvry, Dupont, Canudas de Wit, A survey of models, analysis tools and compensation methods for the control
-   of machines with friction, Automatica 30 (1994) 1083-1138: friction that falls with the slip.
+.. [1] VDI 2241-1, Clutches and brakes with frictional connection, 1982: capacity, mean radius, static and
+   sliding torque.
+.. [2] Armstrong-Hélouvry, Dupont, Canudas de Wit, A survey of models, analysis tools and compensation methods
+   for the control of machines with friction, Automatica 30 (1994) 1083-1138: friction that falls with slip.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ _Torque = Annotated[float, not_negative(TORQUE)]
 
 
 class FrictionPart(CheckedDescription):
-    """What a part with dry friction carries: its torque, or a coefficient of friction with force and radius."""
+    """What a part with dry friction carries: a torque, or a coefficient of friction with force and radius."""
 
     sliding: _Torque | None = Field(
         None, description="Sliding torque; with stribeck_speed that far from rest."
@@ -184,8 +186,8 @@ class Clutch(EngagedPart):
     between: tuple[str, str] = Field(description="The two discs that it connects.")
     closed: bool = Field(
         True,
-        description="Engaged at the start of a manoeuvre. In modes and forced vibration an engaged clutch is rigid "
-        "and an open one carries nothing.",
+        description="Engaged at the start of a manoeuvre. In modes and forced vibration an engaged clutch is "
+        "rigid and an open one carries nothing.",
     )
 
 
@@ -196,10 +198,10 @@ class Brake(EngagedPart):
 
 
 class Freewheel(Description):
-    """A one-way clutch: it holds where its first disc would overtake the second, and lets the second overrun."""
+    """A one-way clutch: it locks where its first disc would overtake the second, which may overrun it."""
 
     between: tuple[str, str] = Field(
-        description='The driving disc and the driven one; "ground" as the first makes a backstop, which lets the disc '
-        "turn only forwards."
+        description='The driving disc and the driven one; "ground" as the first makes a backstop, which lets '
+        "the disc turn only forwards."
     )
     drag: _Torque = Field(0.0, description="Friction torque while it is overrun.")

@@ -213,7 +213,7 @@ class TrainTransient(CheckedDescription):
     )
     speeds: dict[Name, Speed] = Field(
         default_factory=dict,
-        description="Speeds at the start of parts that clutches, freewheels or brakes separate, each by one of its "
+        description="Speeds at the start of parts that clutches and freewheels separate, each by one of its "
         "discs; the others follow from speed.",
     )
     angle: Angle = Field(0.0, description="Angle of the first disc at the start.")
