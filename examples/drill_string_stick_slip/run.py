@@ -1,4 +1,4 @@
-"""At which speed of the drive does the bit of a drill string stick for good, stick and slip, or turn steadily?
+"""At which speed of the drive does a drill bit stick for good, stick and slip, or turn steadily?
 
 Under the weight of 55 kN the bit starts from rest at three no-load speeds of the drive.
 """

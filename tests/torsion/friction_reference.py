@@ -78,7 +78,11 @@ class Reference:
             )
             if fits:
                 fitting.append((-tried.count(STUCK), tried))
-        return min(fitting)[1]
+        best = [tried for count, tried in fitting if count == min(fitting)[0]]
+        motions = [self.motion(t, y, tried)[0] for tried in best]
+        # Static above sliding friction may leave two ways to go on.
+        assert all(np.allclose(a, motions[0], rtol=0, atol=1e-6) for a in motions), f"two ways at {t} s"
+        return best[0]
 
     def _low(self, e: int, t: float) -> float:
         w = self.elements[e].engaged(t)

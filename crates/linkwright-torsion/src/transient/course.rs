@@ -265,10 +265,10 @@ impl<'a, S: Stepper> Follower<'a, S> {
             if !self.step(mark) {
                 return End::Inaccurate;
             }
-            if let Some(event) = self.watch.event.take() {
-                if let Some(end) = self.begin(Some(event), self.course.time - before) {
-                    return end;
-                }
+            if let Some(event) = self.watch.event.take()
+                && let Some(end) = self.begin(Some(event), self.course.time - before)
+            {
+                return end;
             }
         }
         End::Time

@@ -96,10 +96,10 @@ impl Watch {
         }
         let middle = self.margin(rates, stepper, at, h, 0.5).0;
         self.keep_middle(rates);
-        if let Some(share) = self.breaks(rates, stepper, at, h, middle) {
-            if let (_, Some(breaks)) = self.margin(rates, stepper, at, h, share) {
-                note(share, Event::Break(breaks));
-            }
+        if let Some(share) = self.breaks(rates, stepper, at, h, middle)
+            && let (_, Some(breaks)) = self.margin(rates, stepper, at, h, share)
+        {
+            note(share, Event::Break(breaks));
         }
         found
     }
@@ -123,17 +123,15 @@ impl Watch {
         }
         let Some(curve) = friction.grip(forward).and_then(|grip| grip.curve) else { return };
         let knots = rates.system.curves[curve].knots();
+        let mut passes = |share: Option<f64>, up: bool| {
+            share.into_iter().for_each(|share| note(share, Event::Knot { element: e, up }));
+        };
         if let Some(&knot) = knots.get(piece) {
-            if let Some(share) = crossing(|share| knot - slip(share), small) {
-                note(share, Event::Knot { element: e, up: true });
-            }
+            passes(crossing(|share| knot - slip(share), small), true);
         }
-        if let Some(&knot) = piece.checked_sub(1).and_then(|below| knots.get(below)) {
-            if knot > 0.0 {
-                if let Some(share) = crossing(|share| slip(share) - knot, small) {
-                    note(share, Event::Knot { element: e, up: false });
-                }
-            }
+        let below = piece.checked_sub(1).and_then(|below| knots.get(below));
+        if let Some(&knot) = below.filter(|knot| **knot > 0.0) {
+            passes(crossing(|share| slip(share) - knot, small), false);
         }
     }
 
