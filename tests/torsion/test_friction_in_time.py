@@ -334,3 +334,29 @@ def test_vibration_takes_an_engaged_clutch_as_rigid() -> None:
     omega = lw.free_vibration(opened).angular_frequencies
     assert omega[-1] == pytest.approx(np.sqrt(9e3 * (1 / 0.5 + 1 / 2.0)), rel=1e-12)
     assert list(omega[:2]) == [0.0, 0.0]
+
+
+def test_gear_stage_beside_a_clutch() -> None:
+    """A gear stage behind a clutch carries what its wheel needs, in time and in forced vibration."""
+    discs = {"motor": 2.0, "pinion": 0.5, "wheel": 9.0}
+    gears = {"g": {"between": ["pinion", "wheel"], "ratio": 3.0}}
+    clutches = {"k": {"between": ["motor", "pinion"], "sliding": 40.0, "static": 60.0}}
+    events = [{"kind": "torque", "time": 0.0, "on": "motor", "torque": 100.0, "until": 0.5}]
+    described = machine(discs, {"duration": 2.0, "events": events}, gears=gears, clutches=clutches)
+    moved = torsion_transient(described)
+    # The wheel counts 1 kg m² at the pinion: 3.5 kg m² in all, and the clutch would carry 43 N m.
+    assert moved.stage_torque[0, 500] == pytest.approx(100 / 3.5, rel=1e-6)
+    assert moved.friction_torque[0, 500] == pytest.approx(100 / 3.5 * 1.5, rel=1e-9)
+    events[0]["torque"] = 200.0
+    slipping = machine(discs, {"duration": 2.0, "events": events}, gears=gears, clutches=clutches)
+    moved = torsion_transient(slipping)
+    assert moved.stage_torque[0, 500] == pytest.approx(40 / 1.5, rel=1e-6)
+    rest = {
+        "excitations": {"x": {"on": "wheel", "harmonics": [{"order": 2, "torque": 30.0}]}},
+        "run": {"speed_min": 10.0, "speed_max": 20.0, "points": 5},
+    }
+    short = {"duration": 0.1}
+    engaged = machine(discs, short, gears=gears, clutches=clutches, **rest)
+    merged = machine({"pinion": 2.5, "wheel": 9.0}, short, gears=gears, **rest)
+    expected = lw.mesh_torques(merged).vibratory
+    assert lw.mesh_torques(engaged).vibratory == pytest.approx(expected, rel=1e-12)

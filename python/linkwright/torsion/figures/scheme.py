@@ -17,7 +17,15 @@ if TYPE_CHECKING:
 
     from linkwright.torsion.modes.scheme import Connection, Scheme
 
-_COLOURS = {"shaft": BLUE, "coupling": BLUE, "mesh": RED, "gears": RED, "bearing": SOFT, "damper": GREEN}
+_COLOURS = {
+    "shaft": BLUE,
+    "coupling": BLUE,
+    "mesh": RED,
+    "gears": RED,
+    "bearing": SOFT,
+    "clutch": RED,
+    "damper": GREEN,
+}
 
 
 @styled
@@ -63,7 +71,7 @@ class _Pen:
             self._disc(name)
 
     def _line(self, x: Sequence[float], y: Sequence[float], part: Connection) -> None:
-        dashes: Any = (0, (4, 2)) if part.kind == "gears" else "-"
+        dashes: Any = (0, (4, 2)) if part.kind in ("gears", "clutch") else "-"
         self.axes.plot(x, y, color=_COLOURS[part.kind], linewidth=1.3, zorder=1, linestyle=dashes)
 
     def _words(self, x: float, y: float, text: str, **more: Any) -> None:
@@ -91,7 +99,7 @@ class _Pen:
 
     def _elastic(self, span: Span, y: float) -> None:
         part, middle = span.part, 0.5 * (span.start + span.stop)
-        if part.kind in ("shaft", "gears"):
+        if part.kind in ("shaft", "gears", "clutch"):
             self._line((span.start, span.stop), (y, y), part)
             return
         self._line((span.start, middle - 0.12), (y, y), part)

@@ -36,8 +36,9 @@ def stage_torques(
     (shafts, n) [N m]; `friction`: (elements, n), of clutches, brakes and freewheels [N m].
     """
     rigid = [name for name, gear in gears.items() if gear.stiffness is None]
-    rubbing = friction.reshape(len(train.frictions), len(time))
-    flows = np.vstack([train.lead[:, None] * torque, friction_lead(train)[:, None] * rubbing])
+    leads = np.concatenate([train.lead, friction_lead(train)])[:, None]
+    # A list of none has no samples either.
+    flows = leads * np.concatenate([one.reshape(-1, len(time)) for one in (torque, friction)])
     left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, flows) if rigid else None
     # Discs whose inertia changes share none by its mean.
     open_masses = {int(train.mass[rotor.on]) for rotor in train.inertias}
@@ -47,7 +48,7 @@ def stage_torques(
         if left is None or name not in rigid:
             rows.append(torque[train.shafts.index(name)])
             continue
-        passed = passed_on(train.discs, gears, rigid, left[None])[0].real
+        passed = passed_on(train.discs, [gears[name].between for name in rigid], left[None])[0].real
         known = int(train.mass[first]) not in open_masses
         rows.append(passed[rigid.index(name)] / train.speed[first] if known else np.full(len(time), np.nan))
     return np.array(rows).reshape(len(gears), len(time))
