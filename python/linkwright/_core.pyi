@@ -78,6 +78,8 @@ __all__ = [
     "TorqueLaw",
     "TorqueShape",
     "TorsionController",
+    "TorsionFriction",
+    "TorsionGrip",
     "TorsionLink",
     "TorsionMass",
     "TorsionModes",
@@ -2091,6 +2093,48 @@ class TorsionTorque:
     shape: Final[TorqueShape | None]
 
 @final
+class TorsionGrip:
+    """Friction in one sense of slip, at full engagement.
+
+    Static capacity, sliding torque far from rest and what it has more at rest [N m], slip at which that has
+    fallen to 1/e [rad/s]; sliding torque over slip instead [N m, rad/s].
+    """
+
+    def __new__(
+        cls, *, held: float, sliding: float, rise: float, speed: float, curve: Curve | None
+    ) -> TorsionGrip: ...
+    held: Final[float]
+    sliding: Final[float]
+    rise: Final[float]
+    speed: Final[float]
+    curve: Final[Curve | None]
+
+@final
+class TorsionFriction:
+    """Dry friction between two masses, None for the ground, at a part `ratio` times as fast.
+
+    Where the first end is faster and where it is slower, None where it cannot slide; engagement over time
+    [s], None for 1.
+    """
+
+    def __new__(
+        cls,
+        *,
+        first: int | None,
+        second: int | None,
+        ratio: float,
+        forward: TorsionGrip | None,
+        backward: TorsionGrip | None,
+        engagement: Curve | None,
+    ) -> TorsionFriction: ...
+    first: Final[int | None]
+    second: Final[int | None]
+    ratio: Final[float]
+    forward: Final[TorsionGrip | None]
+    backward: Final[TorsionGrip | None]
+    engagement: Final[Curve | None]
+
+@final
 class TorsionMotion:
     """A train's motion in time.
 
@@ -2098,6 +2142,9 @@ class TorsionMotion:
     fastest swing [rad/s]; kinetic and potential energy at the start and at the end [J]; samples: angle and
     speed (masses, times) [rad, rad/s], torque (links, times) [N m], energies (times,) [J]; extremes of the
     torque of each link and the speed of each mass; work of each torque, losses in links and at masses [J].
+    Of elements with friction: losses [J], torque (frictions, times) [N m], state (0 open, 1 stuck, 2 sliding
+    forward, 3 backward), extremes of torque and power [W], how often it came to hold, how long it slid and
+    held [s].
     """
 
     end: Final[str]
@@ -2121,6 +2168,14 @@ class TorsionMotion:
     work: Final[_Floats]
     loss_links: Final[_Floats]
     loss_masses: Final[_Floats]
+    loss_frictions: Final[_Floats]
+    friction_torque: Final[_Floats]
+    friction_state: Final[_Floats]
+    friction_extremes: Final[Extremes]
+    power_extremes: Final[Extremes]
+    engagements: Final[list[int]]
+    slip_time: Final[_Floats]
+    stuck_time: Final[_Floats]
 
 @final
 class NetTorques:
@@ -2142,6 +2197,7 @@ class TorsionSystem:
         torques: Sequence[TorsionTorque],
         pendulums: Sequence[TorsionPendulum] = ...,
         controllers: Sequence[TorsionController] = ...,
+        frictions: Sequence[TorsionFriction] = ...,
     ) -> TorsionSystem: ...
     def follow(
         self,

@@ -66,8 +66,8 @@ pub mod _core {
     use super::builder::parts::{Bar, BarPoint, ChangePoint, Condition, Line, Sum, Term};
     #[pymodule_export]
     use super::builder::train::{
-        Curve, Periodic, TorqueLaw, TorqueShape, TorsionController, TorsionLink, TorsionMass,
-        TorsionPendulum, TorsionRotor, TorsionTorque,
+        Curve, Periodic, TorqueLaw, TorqueShape, TorsionController, TorsionFriction, TorsionGrip,
+        TorsionLink, TorsionMass, TorsionPendulum, TorsionRotor, TorsionTorque,
     };
     #[pymodule_export]
     use super::cam::{

@@ -1,6 +1,6 @@
 //! Trains in motion at the border.
 
-use linkwright_torsion::transient::course::{self, End, Method, Request};
+use linkwright_torsion::transient::course::{self, End, Method, Request, Tally};
 use linkwright_torsion::transient::extremes::Extreme;
 use linkwright_torsion::transient::rates::Rates;
 use linkwright_torsion::transient::system::System;
@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 use crate::Floats;
 use crate::arrays::column;
 use crate::builder::train::{
-    TorsionController, TorsionLink, TorsionMass, TorsionPendulum, TorsionRotor, TorsionTorque, system,
+    TorsionController, TorsionFriction, TorsionLink, TorsionMass, TorsionPendulum, TorsionRotor,
+    TorsionTorque, system,
 };
 use crate::errors::plan_error;
 use crate::guard::{guarded, require_room, zeros};
@@ -41,6 +42,14 @@ pub(crate) struct TorsionMotion {
     work: Py<PyArray1<f64>>,
     loss_links: Py<PyArray1<f64>>,
     loss_masses: Py<PyArray1<f64>>,
+    loss_frictions: Py<PyArray1<f64>>,
+    friction_torque: Py<PyArray2<f64>>,
+    friction_state: Py<PyArray2<f64>>,
+    friction_extremes: Py<Extremes>,
+    power_extremes: Py<Extremes>,
+    engagements: Vec<usize>,
+    slip_time: Py<PyArray1<f64>>,
+    stuck_time: Py<PyArray1<f64>>,
 }
 
 /// Net torque and inertia of each mass.
@@ -90,6 +99,7 @@ fn word_for(end: End) -> &'static str {
         End::Inaccurate => "inaccurate",
         End::NotFinite => "not finite",
         End::Rounded => "rounded",
+        End::Unsettled => "unsettled",
     }
 }
 
@@ -110,7 +120,7 @@ impl TorsionSystem {
 #[pymethods]
 impl TorsionSystem {
     #[new]
-    #[pyo3(signature = (*, masses, links, rotors, torques, pendulums=Vec::new(), controllers=Vec::new()))]
+    #[pyo3(signature = (*, masses, links, rotors, torques, pendulums=Vec::new(), controllers=Vec::new(), frictions=Vec::new()))]
     fn new(
         py: Python<'_>,
         masses: Vec<PyRef<'_, TorsionMass>>,
@@ -119,8 +129,10 @@ impl TorsionSystem {
         torques: Vec<PyRef<'_, TorsionTorque>>,
         pendulums: Vec<PyRef<'_, TorsionPendulum>>,
         controllers: Vec<PyRef<'_, TorsionController>>,
+        frictions: Vec<PyRef<'_, TorsionFriction>>,
     ) -> PyResult<Self> {
-        let system = system(py, &masses, &links, &rotors, &torques, &pendulums, &controllers);
+        let others = (&pendulums[..], &controllers[..], &frictions[..]);
+        let system = system(py, &masses, &links, &rotors, &torques, others);
         system.check().map_err(plan_error)?;
         Ok(TorsionSystem(system))
     }
@@ -144,13 +156,19 @@ impl TorsionSystem {
         self.fits("speed", speed.len(), self.0.len())?;
         let request = Request { angle, speed, times, start, duration, accuracy, method, steps_max };
         let analysis = "torsional motion in time";
-        require_room(analysis, [2 * self.0.len() + self.0.links.len() + 2, times.len()])?;
+        let f = self.0.frictions.len();
+        require_room(analysis, [2 * (self.0.len() + f) + self.0.links.len() + 2, times.len()])?;
         let found = guarded(py, analysis, || course::follow(&self.0, &request))?;
         let (n, m, k) = (self.0.len(), self.0.links.len(), self.0.torques.len() + self.0.controllers.len());
         let at = |row: usize| row * times.len();
-        let [angle, speed, torque, kinetic, potential] =
-            [0..n, n..2 * n, 2 * n..2 * n + m, 2 * n + m..2 * n + m + 1, 2 * n + m + 1..2 * n + m + 2]
-                .map(|rows| &found.samples[at(rows.start)..at(rows.end)]);
+        let mut next = 0;
+        let [angle, speed, torque, kinetic, potential, rubbing, states] = [n, n, m, 1, 1, f, f].map(|rows| {
+            next += rows;
+            &found.samples[at(next - rows)..at(next)]
+        });
+        let (of_links, rest) = found.extremes.split_at(m);
+        let (of_masses, of_frictions) = rest.split_at(n);
+        let times_of = |time: fn(&Tally) -> f64| -> Vec<f64> { found.tallies.iter().map(time).collect() };
         let [kinetic_start, potential_start, kinetic_end, potential_end] = found.energies;
         Ok(TorsionMotion {
             end: word_for(found.end),
@@ -169,11 +187,19 @@ impl TorsionSystem {
             torque: table(py, analysis, torque, m)?,
             kinetic: part(py, kinetic),
             potential: part(py, potential),
-            torque_extremes: extremes(py, &found.extremes[..m])?,
-            speed_extremes: extremes(py, &found.extremes[m..])?,
+            torque_extremes: extremes(py, of_links)?,
+            speed_extremes: extremes(py, of_masses)?,
             work: part(py, &found.work[..k]),
             loss_links: part(py, &found.work[k..k + m]),
-            loss_masses: part(py, &found.work[k + m..]),
+            loss_masses: part(py, &found.work[k + m..k + m + n]),
+            loss_frictions: part(py, &found.work[k + m + n..]),
+            friction_torque: table(py, analysis, rubbing, f)?,
+            friction_state: table(py, analysis, states, f)?,
+            friction_extremes: extremes(py, &of_frictions[..f])?,
+            power_extremes: extremes(py, &of_frictions[f..])?,
+            engagements: found.tallies.iter().map(|tally| tally.engagements).collect(),
+            slip_time: part(py, &times_of(|tally| tally.slipping)),
+            stuck_time: part(py, &times_of(|tally| tally.stuck)),
         })
     }
 

@@ -27,6 +27,7 @@ _GROUPS = {"points": "Fixed points", "rigid_points": "Points on links"}
 # Tables of a train, in the order of the report.
 _TRAIN = (
     *("engines", "discs", "shafts", "gears", "planetaries", "couplings", "dampers", "pendulums"),
+    *("clutches", "brakes", "freewheels"),
     *("motors", "mechanisms", "drivers", "loads", "excitations"),
 )
 

@@ -18,7 +18,7 @@ from linkwright.machine.write import in_own_units
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.figures.captions import torsion_figures
 from linkwright.torsion.limits.survey import TorquePeaks
-from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.study import TorsionStudy, is_balanced
 from linkwright.torsion.tables.manoeuvre import manoeuvre_tables
 from linkwright.torsion.tables.torsion import (
@@ -184,8 +184,25 @@ def _inertia_of_shafts(study: TorsionStudy) -> str:
     return f"Discs are rigid; the inertia of {names} is distributed along the shaft, exactly.{moved}"
 
 
+def _about_friction(train: Train | None) -> Iterator[str]:
+    """How vibration takes the parts with dry friction."""
+    if train is None or not train.rubs:
+        return
+    engaged = [name for name, clutch in train.clutches.items() if clutch.closed]
+    opened = [name for name in train.clutches if name not in engaged]
+    locked = [name for name, wheel in train.freewheels.items() if GROUND not in wheel.between]
+    rubbing = [*train.brakes, *(name for name in train.freewheels if name not in locked)]
+    if engaged or locked:
+        yield f"In modes and forced vibration {', '.join([*engaged, *locked])} is engaged and rigid."
+    if opened:
+        yield f"In modes and forced vibration {', '.join(opened)} is open and carries nothing."
+    if rubbing:
+        yield f"Modes and forced vibration leave out the friction of {', '.join(rubbing)}."
+
+
 def _assumptions(study: TorsionStudy) -> Iterator[str]:
     yield _inertia_of_shafts(study)
+    yield from _about_friction(study.machine.train)
     if study.forced is None:
         yield "Free vibration is undamped."
         return

@@ -2,6 +2,7 @@
 
 use linkwright_torsion::transient::controllers::Controller;
 use linkwright_torsion::transient::curve::Curve as CoreCurve;
+use linkwright_torsion::transient::friction;
 use linkwright_torsion::transient::pendulums::Pendulum;
 use linkwright_torsion::transient::periodic::Periodic as CorePeriodic;
 use linkwright_torsion::transient::system::{self, System};
@@ -243,6 +244,52 @@ impl TorsionTorque {
     }
 }
 
+/// Friction in one sense of slip.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionGrip {
+    held: f64,
+    sliding: f64,
+    rise: f64,
+    speed: f64,
+    curve: Option<Py<Curve>>,
+}
+
+#[pymethods]
+impl TorsionGrip {
+    #[new]
+    #[pyo3(signature = (*, held, sliding, rise, speed, curve))]
+    fn new(held: f64, sliding: f64, rise: f64, speed: f64, curve: Option<Py<Curve>>) -> Self {
+        TorsionGrip { held, sliding, rise, speed, curve }
+    }
+}
+
+/// An element with dry friction between two masses, or a mass and the ground.
+#[pyclass(frozen, get_all, module = "linkwright._core")]
+pub(crate) struct TorsionFriction {
+    first: Option<usize>,
+    second: Option<usize>,
+    ratio: f64,
+    forward: Option<Py<TorsionGrip>>,
+    backward: Option<Py<TorsionGrip>>,
+    engagement: Option<Py<Curve>>,
+}
+
+#[pymethods]
+impl TorsionFriction {
+    #[new]
+    #[pyo3(signature = (*, first, second, ratio, forward, backward, engagement))]
+    fn new(
+        first: Option<usize>,
+        second: Option<usize>,
+        ratio: f64,
+        forward: Option<Py<TorsionGrip>>,
+        backward: Option<Py<TorsionGrip>>,
+        engagement: Option<Py<Curve>>,
+    ) -> Self {
+        TorsionFriction { first, second, ratio, forward, backward, engagement }
+    }
+}
+
 /// Things that several parts share, each once, in the order in which they are met.
 struct Shelf<T>(Vec<Py<T>>);
 
@@ -256,6 +303,13 @@ impl<T> Shelf<T> {
     }
 }
 
+/// Parts that not every train has: pendulums, speed controllers, elements with dry friction.
+type Others<'p, 'py> = (
+    &'p [PyRef<'py, TorsionPendulum>],
+    &'p [PyRef<'py, TorsionController>],
+    &'p [PyRef<'py, TorsionFriction>],
+);
+
 /// The system of masses, links, rotors and torques, not yet checked.
 pub(crate) fn system(
     py: Python<'_>,
@@ -263,8 +317,7 @@ pub(crate) fn system(
     links: &[PyRef<'_, TorsionLink>],
     rotors: &[PyRef<'_, TorsionRotor>],
     torques: &[PyRef<'_, TorsionTorque>],
-    pendulums: &[PyRef<'_, TorsionPendulum>],
-    controllers: &[PyRef<'_, TorsionController>],
+    (pendulums, controllers, frictions): Others<'_, '_>,
 ) -> System {
     let (mut curves, mut tables) = (Shelf(Vec::new()), Shelf(Vec::new()));
     let ground = masses.len();
@@ -308,6 +361,14 @@ pub(crate) fn system(
         set_point: curves.place(py, &one.set_point),
     });
     let controllers = controllers.collect();
+    let frictions = frictions.iter().map(|friction| friction::Friction {
+        ends: [friction.first.unwrap_or(ground), friction.second.unwrap_or(ground)],
+        ratio: friction.ratio,
+        forward: friction.forward.as_ref().map(|one| grip(py, one.get(), &mut curves)),
+        backward: friction.backward.as_ref().map(|one| grip(py, one.get(), &mut curves)),
+        engagement: friction.engagement.as_ref().map(|curve| curves.place(py, curve)),
+    });
+    let frictions = frictions.collect();
     System {
         inertia: masses.iter().map(|mass| mass.inertia).collect(),
         damping: masses.iter().map(|mass| mass.damping).collect(),
@@ -321,8 +382,19 @@ pub(crate) fn system(
             .map(|one| Pendulum::new([one.disc, one.bob], one.ratio, one.mass, [one.radius, one.length]))
             .collect(),
         controllers,
+        frictions,
         tables: tables.0.iter().map(|table| table.get().0.clone()).collect(),
         curves: curves.0.iter().map(|curve| curve.get().0.clone()).collect(),
+    }
+}
+
+fn grip(py: Python<'_>, grip: &TorsionGrip, curves: &mut Shelf<Curve>) -> friction::Grip {
+    friction::Grip {
+        held: grip.held,
+        sliding: grip.sliding,
+        rise: grip.rise,
+        inverse_speed: 1.0 / grip.speed,
+        curve: grip.curve.as_ref().map(|curve| curves.place(py, curve)),
     }
 }
 

@@ -3,12 +3,15 @@
 use super::equilibrium::Equilibrium;
 use super::explicit::{Explicit, STABLE_PHASE};
 use super::extremes::{Extreme, Extremes};
+use super::friction::State;
 use super::implicit::Implicit;
 use super::rates::Rates;
 use super::rounding::Rounding;
+use super::settle::{Event, is_forced, settle};
 use super::stages::Change;
 use super::stepper::{Scale, Stepper};
 use super::system::System;
+use super::watch::{Watch, value as friction_value};
 use linkwright_kernel::call::poll;
 
 /// What to follow.
@@ -52,6 +55,18 @@ pub enum End {
     NotFinite = 3,
     /// The torque of a shaft is lost in the rounding of angles.
     Rounded = 4,
+    /// No states of the elements with friction and of gear stages agree, or they change without end.
+    Unsettled = 5,
+}
+
+/// What an element with friction has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// How often it has come to hold.
+    pub engagements: usize,
+    /// How long it slid and held \[s\].
+    pub slipping: f64,
+    pub stuck: f64,
 }
 
 /// The motion.
@@ -60,12 +75,15 @@ pub struct Course {
     pub end: End,
     /// Time reached \[s\].
     pub time: f64,
-    /// Rows over the samples: angle of each mass, its speed, torque of each link, kinetic and potential energy.
+    /// Rows over the samples: angle of each mass, its speed, torque of each link, kinetic and potential energy, torque and state
+    /// of each element with friction.
     pub samples: Vec<f64>,
-    /// Of the torque of each link, then of the speed of each mass.
+    /// Of the torque of each link, then of the speed of each mass, then of the torque of each element with friction and its
+    /// power.
     pub extremes: Vec<Extreme>,
-    /// Work of each torque, loss in each link, loss at each mass \[J\].
+    /// Work of each torque, loss in each link, loss at each mass, loss in each element with friction \[J\].
     pub work: Vec<f64>,
+    pub tallies: Vec<Tally>,
     /// Kinetic and potential energy at the start and at the end \[J\].
     pub energies: [f64; 4],
     pub method: Method,
@@ -93,6 +111,12 @@ const FOLLOWED: f64 = 1e4;
 
 /// First step as a share of the fastest swing's radian, and of the whole time.
 const FIRST: (f64, f64) = (0.1, 1e-3);
+
+/// Share of a step from which on an event is at its end.
+const AT_THE_END: f64 = 1.0 - 1e-9;
+
+/// Events that may follow each other without time going on by more than this share of the whole.
+const EVENTS_AT_ONCE: (usize, f64) = (100, 1e-12);
 
 /// Follows the motion.
 pub fn follow(system: &System, request: &Request<'_>) -> Course {
@@ -138,10 +162,15 @@ struct Follower<'a, S> {
     /// Whether it tells the torque of a shaft in this step.
     rigid: bool,
     rounding: Rounding,
+    watch: Watch,
+    /// Events since the time last counted.
+    at_once: (usize, f64),
     course: Course,
     state: Vec<f64>,
     end: Vec<f64>,
     sample: Vec<f64>,
+    /// Room for the derivative of a sample.
+    end_slopes: Vec<f64>,
     next_sample: usize,
 }
 
@@ -154,14 +183,15 @@ impl<'a, S: Stepper> Follower<'a, S> {
         fastest: f64,
         stepper: S,
     ) -> Self {
-        let (n, m) = (rates.system.len(), rates.system.links.len());
+        let (n, m, f) = (rates.system.len(), rates.system.links.len(), rates.system.frictions.len());
         let [kinetic, potential] = rates.energies(&state);
         let course = Course {
             end: End::Time,
             time: request.start,
-            samples: vec![f64::NAN; (2 * n + m + 2) * request.times.len()],
+            samples: vec![f64::NAN; (2 * n + m + 2 + 2 * f) * request.times.len()],
             extremes: Vec::new(),
             work: vec![0.0; rates.powers.len()],
+            tallies: vec![Tally::default(); f],
             energies: [kinetic, potential, 0.0, 0.0],
             method,
             steps: 0,
@@ -185,9 +215,12 @@ impl<'a, S: Stepper> Follower<'a, S> {
             equilibrium: Equilibrium::new(rates.system),
             rigid: false,
             rounding: Rounding::new(rates.system),
+            watch: Watch::new(&rates, request.accuracy),
+            at_once: (0, f64::NEG_INFINITY),
             course,
             end: state.clone(),
             sample: state.clone(),
+            end_slopes: state.clone(),
             state,
             rates,
             next_sample: 0,
@@ -227,6 +260,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
     fn record(&mut self) {
         self.extremes = Extremes::new(&self.rates);
         self.course.work.fill(0.0);
+        self.course.tallies.fill(Tally::default());
         let [kinetic, potential] = self.rates.energies(&self.state);
         self.course.energies[..2].copy_from_slice(&[kinetic, potential]);
     }
@@ -236,24 +270,70 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let start = self.course.time;
         self.rates.enter(0.5 * (start + mark));
         // Torques that jump may set free what was stuck.
-        if self.rates.stages.any() && !self.rates.make(None, start, &mut self.state) {
-            return End::Inaccurate;
+        if let Some(end) = self.begin(None, self.first(mark)) {
+            return end;
         }
-        let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - start));
-        self.stepper.begin(&mut self.rates, start, &self.state, first);
-        if !self.rates.acceleration.iter().all(|a| a.is_finite()) {
-            return End::NotFinite;
-        }
-        self.extremes.begin(&self.rates);
         while self.course.time < mark {
             if self.course.steps == self.request.steps_max {
                 return End::TooManySteps;
             }
+            let before = self.course.time;
             if !self.step(mark) {
                 return End::Inaccurate;
             }
+            if let Some(event) = self.watch.event.take() {
+                let first = match event {
+                    Event::Stage(_) => self.first(mark),
+                    _ => self.course.time - before,
+                };
+                if let Some(end) = self.begin(Some(event), first) {
+                    return end;
+                }
+            }
         }
         End::Time
+    }
+
+    /// Length of a first step to try, towards a mark.
+    fn first(&self, mark: f64) -> f64 {
+        (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - self.course.time))
+    }
+
+    /// Begins anew at a mark or an event, with a length of step to try first; how the motion ends, if it cannot go on.
+    fn begin(&mut self, event: Option<Event>, first: f64) -> Option<End> {
+        let (t, rates) = (self.course.time, &mut self.rates);
+        if rates.contacts.any() || rates.stages.any() {
+            rates.derivative(t, &self.state, &mut self.sample);
+            self.watch.widen(rates);
+            let small = self.watch.small();
+            let before = rates.contacts.states.clone();
+            let forced = rates.system.frictions.iter().any(|friction| is_forced(rates, friction, small));
+            if forced || !settle(rates, t, &mut self.state, small, event) || self.is_stalled() {
+                return Some(End::Unsettled);
+            }
+            for ((tally, before), now) in
+                self.course.tallies.iter_mut().zip(before).zip(&self.rates.contacts.states)
+            {
+                let sticks = before != State::Stuck && *now == State::Stuck;
+                tally.engagements += usize::from(sticks && event.is_some());
+            }
+        }
+        self.stepper.begin(&mut self.rates, t, &self.state, first);
+        if !self.rates.acceleration.iter().all(|a| a.is_finite()) {
+            return Some(End::NotFinite);
+        }
+        self.watch.begin(&mut self.rates);
+        self.extremes.begin(&self.rates);
+        None
+    }
+
+    /// Counts an event; whether events follow each other without end.
+    fn is_stalled(&mut self) -> bool {
+        let (events, since) = self.at_once;
+        let shortest = EVENTS_AT_ONCE.1 * (self.request.duration - self.request.start);
+        let moves = self.course.time > since + shortest;
+        self.at_once = if moves { (0, self.course.time) } else { (events + 1, since) };
+        self.at_once.0 > EVENTS_AT_ONCE.0
     }
 
     /// One step; whether one keeps the accuracy.
@@ -264,6 +344,7 @@ impl<'a, S: Stepper> Follower<'a, S> {
         let mut due = self.due(h);
         if let Some(Due { share, .. }) = due.filter(|due| due.share < 1.0) {
             let there = t + share * h;
+            self.stepper.retake();
             let Some(found) = self.find_step(there) else { return false };
             (h, reached) = found;
             due = due.filter(|_| reached == there);
@@ -275,7 +356,9 @@ impl<'a, S: Stepper> Follower<'a, S> {
         if self.rigid {
             self.extremes.balance(&mut self.rates, &self.stepper, equilibrium, at, h);
         }
-        self.extremes.take(&mut self.rates, &self.stepper, equilibrium, at, h);
+        self.extremes.bend(&self.watch.middle, h);
+        let inside = (equilibrium, &mut self.watch);
+        self.extremes.take(&mut self.rates, &self.stepper, inside, at, h);
         self.extremes.advance(reached);
         while self.next_sample < self.request.times.len() && self.request.times[self.next_sample] <= reached {
             let time = self.request.times[self.next_sample];
@@ -287,16 +370,23 @@ impl<'a, S: Stepper> Follower<'a, S> {
             }
             self.write_sample(h, share);
         }
+        for (tally, state) in self.course.tallies.iter_mut().zip(&self.rates.contacts.states) {
+            match state {
+                State::Open => {}
+                State::Stuck => tally.stuck += h,
+                State::Slip { .. } => tally.slipping += h,
+            }
+        }
         self.stepper.advance();
+        self.watch.advance();
         std::mem::swap(&mut self.state, &mut self.end);
         self.scale.widen(self.rates.system, &self.state);
         self.rounding.note(self.rates.system, self.rates.is_relative(), &self.state);
         self.course.time = reached;
         self.course.steps += 1;
-        match due {
-            Some(Due { change: Some(change), .. }) if reached < mark => self.restart(change, mark),
-            _ => true,
-        }
+        let change = due.and_then(|due| due.change).filter(|_| reached < mark).map(Event::Stage);
+        self.watch.event = self.watch.event.take().or(change);
+        true
     }
 
     /// Where a stage changes its sense in a step, or the equations bend.
@@ -336,24 +426,13 @@ impl<'a, S: Stepper> Follower<'a, S> {
         ((t + due.share * h) - t > MEETS * t.abs()).then_some(due)
     }
 
-    /// Makes a change, and begins anew from there.
-    fn restart(&mut self, change: Change, mark: f64) -> bool {
-        let t = self.course.time;
-        if !self.rates.make(Some(change), t, &mut self.state) {
-            return false;
-        }
-        let first = (FIRST.0 / self.followed.max(f64::MIN_POSITIVE)).min(FIRST.1 * (mark - t));
-        self.stepper.begin(&mut self.rates, t, &self.state, first);
-        self.extremes.begin(&self.rates);
-        true
-    }
-
     /// Length and end of a step that keeps the accuracy at its end and on the way there, read or not, so that reading changes
     /// nothing; `None` if none does.
     fn find_step(&mut self, mark: f64) -> Option<(f64, f64)> {
         let at = (self.course.time, &self.state);
         let t = at.0;
-        let longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
+        let mut longest = (mark - t).min(REACH / self.rates.turning(&self.state).max(f64::MIN_POSITIVE));
+        let mut meant = None;
         // Forty reductions by a tenth to nine tenths reach any length that still changes t.
         for _ in 0..40 {
             let h = self.stepper.step(&mut self.rates, at, longest, &self.scale, &mut self.end)?;
@@ -363,10 +442,23 @@ impl<'a, S: Stepper> Follower<'a, S> {
                 return None;
             }
             self.stepper.accept(&mut self.rates, reached, &self.end);
+            self.watch.look(&mut self.rates);
             self.extremes.look(&self.rates);
             let error = self.stepper.fill(&mut self.rates, at, h, &self.scale, &self.end);
             if error <= 1.0 {
-                return Some((h, reached));
+                let rubs = self.rates.contacts.any();
+                let first = || self.watch.first(&mut self.rates, &self.stepper, at, h);
+                let Some((share, event)) = rubs.then(first).flatten() else {
+                    self.watch.event = meant.filter(|_| h == longest);
+                    return Some((h, reached));
+                };
+                if share >= AT_THE_END || h == longest && meant == Some(event) {
+                    self.watch.event = Some(event);
+                    return Some((h, reached));
+                }
+                (longest, meant) = (share * h, Some(event));
+                self.stepper.retake();
+                continue;
             }
             self.stepper.shorten(h, error);
         }
@@ -387,8 +479,17 @@ impl<'a, S: Stepper> Follower<'a, S> {
         };
         let torques: Vec<f64> = (0..self.rates.system.links.len()).map(torque).collect();
         let energies = self.rates.energies(sample);
+        let rubbing = self.rates.system.frictions.len();
+        if rubbing > 0 {
+            self.rates.derivative(self.course.time + h * share, sample, &mut self.end_slopes);
+            self.rates.carry();
+        }
+        let rubbed: Vec<f64> = (0..rubbing)
+            .map(|e| friction_value(&self.rates, e))
+            .chain(self.rates.contacts.states.iter().map(|state| state.code()))
+            .collect();
         self.rates.to_absolute(sample);
-        let values = sample[..2 * n].iter().chain(&torques).chain(&energies);
+        let values = sample[..2 * n].iter().chain(&torques).chain(&energies).chain(&rubbed);
         for (row, &value) in values.enumerate() {
             self.course.samples[row * columns + column] = value;
         }
@@ -406,7 +507,9 @@ fn estimated(accuracy: f64) -> f64 {
 fn marks(system: &System, request: &Request<'_>) -> Vec<f64> {
     let courses = system.controllers.iter().flat_map(|one| system.curves[one.set_point].knots());
     let switches = system.torques.iter().flat_map(|torque| torque.marks(&system.curves)).chain([0.0]);
-    let switches = switches.chain(courses.copied());
+    let engagements = system.frictions.iter().filter_map(|friction| friction.engagement);
+    let engaged = engagements.flat_map(|curve| system.curves[curve].knots());
+    let switches = switches.chain(courses.chain(engaged).copied());
     let mut found: Vec<f64> = switches.filter(|&t| request.start < t && t < request.duration).collect();
     found.push(request.duration);
     found.sort_by(f64::total_cmp);

@@ -1,4 +1,5 @@
-//! Maximum and minimum torque of each link and speed of each mass, with their times, between the ends of steps as well.
+//! Maximum and minimum torque of each link, speed of each mass, torque and power of each element with friction, with their
+//! times, between the ends of steps as well.
 //!
 //! Values and their rates at both ends of a step tell where the cubic between them turns; where that could be a new extreme,
 //! the method's own polynomial is asked.
@@ -6,6 +7,7 @@
 use super::equilibrium::Equilibrium;
 use super::rates::Rates;
 use super::stepper::Stepper;
+use super::watch::{Watch, value as friction_value};
 
 /// Largest value, its time, minimum value, its time.
 pub type Extreme = [f64; 4];
@@ -13,7 +15,7 @@ pub type Extreme = [f64; 4];
 /// Share of a cubic's rise above the ends by which it may miss.
 const DOUBT: f64 = 0.1;
 
-/// Extremes so far: links, then masses.
+/// Extremes so far: links, masses, torques of elements with friction, powers of these.
 #[derive(Clone, Debug)]
 pub struct Extremes {
     pub rows: Vec<Extreme>,
@@ -24,7 +26,7 @@ pub struct Extremes {
 impl Extremes {
     /// None yet.
     pub fn new(rates: &Rates<'_>) -> Self {
-        let n = rates.system.links.len() + rates.system.len();
+        let n = rates.system.links.len() + rates.system.len() + 2 * rates.system.frictions.len();
         let none = [f64::NEG_INFINITY, 0.0, f64::INFINITY, 0.0];
         Extremes { rows: vec![none; n], before: vec![(0.0, 0.0); n], now: vec![(0.0, 0.0); n] }
     }
@@ -39,8 +41,21 @@ impl Extremes {
     pub fn look(&mut self, rates: &Rates<'_>) {
         let system = rates.system;
         let links = (0..system.links.len()).map(|place| rates.link_torque(place));
-        let speeds = rates.omega.iter().copied().zip(rates.acceleration.iter().copied());
-        self.now.iter_mut().zip(links.chain(speeds)).for_each(|(now, found)| *now = found);
+        let n = system.len();
+        let speeds = rates.omega[..n].iter().copied().zip(rates.acceleration.iter().copied());
+        // Rates follow from the middle of the step: [`Extremes::bend`].
+        let rubbing = (0..2 * system.frictions.len()).map(|row| (friction_value(rates, row), f64::NAN));
+        self.now.iter_mut().zip(links.chain(speeds).chain(rubbing)).for_each(|(now, found)| *now = found);
+    }
+
+    /// Sets the rates of the last rows at both ends of a step by the parabolas through their values in its middle.
+    pub fn bend(&mut self, middle: &[f64], h: f64) {
+        let first = self.rows.len() - middle.len();
+        for ((before, now), &b) in self.before[first..].iter_mut().zip(&mut self.now[first..]).zip(middle) {
+            let (a, c) = (before.0, now.0);
+            before.1 = (4.0 * b - 3.0 * a - c) / h;
+            now.1 = (3.0 * c + a - 4.0 * b) / h;
+        }
     }
 
     /// Sets the torques of shafts as good as rigid at both ends of a step, with the rates of the parabola through them and the
@@ -71,10 +86,11 @@ impl Extremes {
         &mut self,
         rates: &mut Rates<'_>,
         stepper: &impl Stepper,
-        equilibrium: &mut Equilibrium,
+        (equilibrium, watch): (&mut Equilibrium, &mut Watch),
         (t, state): (f64, &Vec<f64>),
         h: f64,
     ) {
+        let rubbing = rates.system.links.len() + rates.system.len();
         for row in 0..self.rows.len() {
             note(&mut self.rows[row], self.before[row].0, t);
             if !self.may_turn(row, h) {
@@ -85,6 +101,9 @@ impl Extremes {
                 .collect::<Vec<_>>()
             {
                 let value = |share: f64| {
+                    if let Some(row) = row.checked_sub(rubbing) {
+                        return watch.value(rates, stepper, (t, state), h, (share, row));
+                    }
                     if equilibrium.torque(row).is_some() {
                         equilibrium.at(rates, stepper, (t, state), h, share);
                     }

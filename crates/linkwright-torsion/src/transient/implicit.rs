@@ -371,11 +371,15 @@ impl Stepper for Implicit {
         worst
     }
 
-    fn shorten(&mut self, h: f64, error: f64) {
-        self.h = h * shortened(error).min(0.9);
+    fn retake(&mut self) {
         // The polynomial of a step that was not taken does not go on.
         self.last = None;
         self.before = None;
+    }
+
+    fn shorten(&mut self, h: f64, error: f64) {
+        self.h = h * shortened(error).min(0.9);
+        self.retake();
         self.rejected += 1;
     }
 

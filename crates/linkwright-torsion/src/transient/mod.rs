@@ -13,6 +13,11 @@
 //! | [`kinks`] | where the equations bend |
 //! | [`pendulums`] | centrifugal pendulums of any swing |
 //! | [`controllers`] | speed controllers |
+//! | [`friction`] | clutches, brakes, freewheels: elements with dry friction, and what they do |
+//! | [`contacts`] | masses that they hold together, and the torques that hold them |
+//! | [`rubbing`] | their slip, and what holds those that stick |
+//! | [`settle`] | states that agree with the motion at an event |
+//! | [`watch`] | when an element sticks or slips in a step |
 //! | [`rates`] | the equations of motion |
 //! | [`stepper`] | what a method of integration can do |
 //! | [`explicit`] | steps of order 8, as long as the fastest swing allows |
@@ -26,12 +31,14 @@ pub mod bank;
 pub mod between;
 pub mod bond;
 pub mod chains;
+pub mod contacts;
 pub mod controllers;
 pub mod course;
 pub mod curve;
 pub mod equilibrium;
 pub mod explicit;
 pub mod extremes;
+pub mod friction;
 pub mod implicit;
 pub mod kinks;
 pub mod losses;
@@ -39,7 +46,10 @@ pub mod pendulums;
 pub mod periodic;
 pub mod rates;
 pub mod rounding;
+pub mod rubbing;
+pub mod settle;
 pub mod stages;
 pub mod stepper;
 pub mod system;
 pub mod torque;
+pub mod watch;

@@ -136,23 +136,31 @@ impl Bobs {
         }
     }
 
-    /// Accelerations of the masses from those that torque over own inertia would give: each disc feels its pendulums.
-    pub fn share(&self, pendulums: &[Pendulum], inertia: &[f64], acceleration: &mut [f64]) {
-        for (first, one) in pendulums.iter().enumerate() {
-            if pendulums[..first].iter().any(|other| other.disc == one.disc) {
+    /// Adds to the inertia of each disc what its pendulums are there, at given torques on them.
+    pub fn add_to(&self, pendulums: &[Pendulum], inertia: &[f64], effective: &mut [f64]) {
+        for (pendulum, [disc, both]) in pendulums.iter().zip(&self.0) {
+            effective[pendulum.disc] += disc - both * both / inertia[pendulum.bob];
+        }
+    }
+
+    /// Accelerations of the discs over these inertias, from those that torque over own inertia would give all masses.
+    pub fn load(&self, pendulums: &[Pendulum], inertia: &[f64], effective: &[f64], acceleration: &mut [f64]) {
+        for (first, Pendulum { disc: i, .. }) in pendulums.iter().enumerate() {
+            if pendulums[..first].iter().any(|other| other.disc == *i) {
                 continue;
             }
-            let on_disc = || pendulums.iter().zip(&self.0).filter(|(other, _)| other.disc == one.disc);
-            let i = one.disc;
-            let (mut own, mut torque) = (inertia[i], inertia[i] * acceleration[i]);
-            for (pendulum, [disc, both]) in on_disc() {
-                own += disc - both * both / inertia[pendulum.bob];
-                torque -= both * acceleration[pendulum.bob];
-            }
-            acceleration[i] = torque / own;
-            for (pendulum, [_, both]) in on_disc() {
-                acceleration[pendulum.bob] -= both / inertia[pendulum.bob] * acceleration[i];
-            }
+            let on_disc = pendulums.iter().zip(&self.0).filter(|(other, _)| other.disc == *i);
+            let torque = on_disc.fold(inertia[*i] * acceleration[*i], |torque, (pendulum, [_, both])| {
+                torque - both * acceleration[pendulum.bob]
+            });
+            acceleration[*i] = torque / effective[*i];
+        }
+    }
+
+    /// Accelerations of the pendulums from those that their torques alone would give, at those of their discs.
+    pub fn follow(&self, pendulums: &[Pendulum], inertia: &[f64], acceleration: &mut [f64]) {
+        for (pendulum, [_, both]) in pendulums.iter().zip(&self.0) {
+            acceleration[pendulum.bob] -= both / inertia[pendulum.bob] * acceleration[pendulum.disc];
         }
     }
 

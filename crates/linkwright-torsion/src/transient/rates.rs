@@ -13,12 +13,24 @@
 //! Masses stand side by side in lanes. Lists have places for whole registers; behind the last mass they hold such as nothing moves,
 //! whose inertia has no bound.
 //!
+//! What joins masses beyond twists takes the accelerations further from those that all others leave:
+//!
+//! 1. a disc feels its pendulums as an effective inertia, J + a u − b² u²/J_p, and by a part of their torques;
+//! 2. masses that stuck elements hold together have the mean acceleration, weighted by these inertias;
+//! 3. rigid and stuck stages are one linear system, whose unit torques move whole groups of masses;
+//! 4. pendulums follow their discs.
+//!
+//! Step 2 is a projection along the inertias, so that 3 leaves the groups together, and the torque of a stuck element follows
+//! from the balance of each mass with the torques of the teeth.
+//!
 //! Source: the equation is Lagrange's for T = ½ J(θ) θ̇²; e.g. Eksergian, *Dynamical analysis of machines*,
 //! J. Franklin Inst. 209 (1930).
 
 use super::bank::{Bank, OfAngle, WIDEST};
 use super::bond::{Bond, BondTorque};
 use super::chains::{Links, Twists};
+use super::contacts::{Contacts, slide};
+use super::friction::Friction;
 use super::pendulums::{Bobs, Pendulum, Swing, add_slopes};
 use super::stages::Stages;
 use super::system::{Carrier, Link, Rotor, System};
@@ -30,28 +42,35 @@ use linkwright_kernel::real::Real;
 #[derive(Clone, Debug)]
 pub struct Rates<'a> {
     pub system: &'a System,
-    stretch: Stretch,
+    pub(super) stretch: Stretch,
+    /// Elements with dry friction, and how far each is engaged at the instant last evaluated.
+    pub contacts: Contacts,
+    pub(super) engaged: Vec<f64>,
     links: Links,
     pub(super) stages: Stages,
-    bobs: Bobs,
+    pub(super) bobs: Bobs,
     /// Whether angles of the state are counted from that of the first mass.
-    relative: bool,
+    pub(super) relative: bool,
     /// Zero for the mass from which the others are counted and behind the last, else one.
     beside: Vec<f64>,
     /// Zero for masses that rest while the train runs, else one.
-    turns: Vec<f64>,
-    theta: Vec<f64>,
+    pub(super) turns: Vec<f64>,
+    pub(super) theta: Vec<f64>,
     pub omega: Vec<f64>,
     /// Angles and speeds for twists: a place before the first mass, the masses, the ground.
-    aside: Vec<f64>,
-    aside_speed: Vec<f64>,
-    /// Shares of the masses in the inertia of the whole.
+    pub(super) aside: Vec<f64>,
+    pub(super) aside_speed: Vec<f64>,
+    /// Shares of the masses in the inertia of the whole, or of their parts; the first mass of each part; speed of the whole.
     shares: Vec<f64>,
+    parts: Vec<usize>,
+    whole: Vec<f64>,
     /// What the masses have of inertia and damping anyway.
     constant: Vec<f64>,
     damping: Vec<f64>,
     swing_damping: Vec<f64>,
-    inertia: Vec<f64>,
+    pub(super) inertia: Vec<f64>,
+    /// The same with what pendulums add to it, where there are any.
+    pub(super) effective: Vec<f64>,
     /// Whether anything damps swings.
     damps_swings: bool,
     /// J′ of each mass.
@@ -62,9 +81,9 @@ pub struct Rates<'a> {
     alone: Vec<usize>,
     pub acceleration: Vec<f64>,
     /// Torques from outside and of links that are no chain, on each mass and on the ground.
-    outer: Vec<f64>,
+    pub(super) outer: Vec<f64>,
     /// Losses at masses and in the links behind them, powers of each bank of torques, powers of other torques, of controllers,
-    /// losses in other links \[W\]: [`Rates::in_order`].
+    /// losses in other links, losses by friction \[W\]: [`Rates::in_order`].
     pub powers: Vec<f64>,
     /// A state and its derivative, with places for whole registers.
     room: [Vec<f64>; 2],
@@ -97,6 +116,8 @@ impl<'a> Rates<'a> {
         Rates {
             system,
             stretch: Stretch::default(),
+            contacts: Contacts::new(&system.frictions, n),
+            engaged: vec![0.0; system.frictions.len()],
             relative,
             beside,
             turns,
@@ -105,10 +126,13 @@ impl<'a> Rates<'a> {
             aside: vec![0.0; places + 2],
             aside_speed: vec![0.0; places + 2],
             shares: system.shares(),
+            parts: system.parts(),
+            whole: none.clone(),
             constant: filled(&system.inertia, f64::INFINITY),
             damping: filled(&system.damping, 0.0),
             swing_damping: filled(&system.swing_damping, 0.0),
             inertia: filled(&system.inertia, f64::INFINITY),
+            effective: filled(&system.inertia, f64::INFINITY),
             damps_swings: system.swing_damping.iter().any(|&d| d != 0.0),
             bends: none.clone(),
             inertias: Bank::several(rotors, places, &system.tables),
@@ -120,6 +144,7 @@ impl<'a> Rates<'a> {
                     + alone.len()
                     + system.controllers.len()
                     + links.others.len()
+                    + system.frictions.len()
             ],
             shapes,
             alone,
@@ -219,15 +244,16 @@ impl<'a> Rates<'a> {
         }
         self.push(t);
         self.twist();
+        self.rub(t);
         if self.bobs.any() {
             let swing = Swing { aside: &self.aside[1..], omega: &self.omega };
             self.bobs.push(&self.system.pendulums, swing, &mut self.outer);
         }
-        let whole = self.whole_speed();
+        self.whole_speed();
         for at in (0..places).step_by(R::LANES) {
-            self.accelerate::<R>(at, whole);
+            self.accelerate::<R>(at);
         }
-        self.join();
+        self.constrain();
         let lead = if self.relative { self.acceleration[0] } else { 0.0 };
         let (angle_rates, speed_rates) = to.split_at_mut(places);
         for at in (0..places).step_by(R::LANES) {
@@ -237,34 +263,9 @@ impl<'a> Rates<'a> {
         }
     }
 
-    /// Accelerations with what joins masses beyond twists: pendulums, rigid and stuck stages.
-    fn join(&mut self) {
-        let (system, first) = (self.system, self.losses_of_others());
-        if self.bobs.any() {
-            self.bobs.share(&system.pendulums, &self.inertia, &mut self.acceleration);
-        }
-        if self.stages.any() {
-            if !self.stages.engage(system, &self.inertia, &self.bobs, &mut self.acceleration) {
-                self.acceleration[0] = f64::NAN;
-            }
-            self.stages.lose(&system.links, &self.omega, &mut self.powers[first..]);
-        }
-    }
-
-    /// Inertia torque of a mass at accelerations by the pendulums on it, or by its disc.
-    pub fn torque_of_bobs(&self, mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
-        self.bobs.torque_of(&self.system.pendulums, mass, acceleration)
-    }
-
-    /// Sets the senses of stages that lose power from the speeds of a state.
-    pub fn set_senses(&mut self, t: f64, state: &[f64]) {
-        self.derivative(t, state, &mut state.to_vec());
-        self.stages.set_senses(&self.system.links, &self.omega);
-    }
-
-    /// Accelerations of some masses, with the speed of the train as a whole.
+    /// Accelerations of some masses.
     #[inline(always)]
-    fn accelerate<R: Real>(&mut self, at: usize, whole: f64) {
+    fn accelerate<R: Real>(&mut self, at: usize) {
         let places = self.theta.len();
         let (theta, omega) = (R::load(&self.theta[at..]), R::load(&self.omega[at..]));
         let (mut inertia, mut bend) = (R::load(&self.constant[at..]), R::splat(0.0));
@@ -285,7 +286,8 @@ impl<'a> Rates<'a> {
             }
         }
         let Twists { torque, loss } = self.links.chain.twists::<R>(at, &self.aside, &self.aside_speed);
-        let swing = (R::load(&self.aside_speed[at + 1..]) - R::load(&self.turns[at..]) * whole)
+        let swing = (R::load(&self.aside_speed[at + 1..])
+            - R::load(&self.turns[at..]) * R::load(&self.whole[at..]))
             * R::load(&self.swing_damping[at..]);
         let drag = R::load(&self.damping[at..]) * omega + swing;
         let gyration = bend * 0.5 * omega * omega;
@@ -308,12 +310,133 @@ impl<'a> Rates<'a> {
         R::splat(0.0).store(&mut self.outer[at..]);
     }
 
-    /// Speed of the train as a whole beside its first mass; zero where nothing asks for it.
-    fn whole_speed(&self) -> f64 {
+    /// Speed of the train as a whole, or of each of its parts, beside its first mass; zero where nothing asks for it.
+    fn whole_speed(&mut self) {
         if !self.damps_swings {
-            return 0.0;
+            return;
         }
-        self.shares.iter().zip(&self.aside_speed[1..]).map(|(share, w)| share * w).sum()
+        let n = self.system.len();
+        for part in 0..n {
+            if self.parts[part] != part {
+                continue;
+            }
+            let moved = self.shares.iter().zip(&self.aside_speed[1..]).zip(&self.parts);
+            let whole = moved.filter(|(_, of)| **of == part).map(|((share, w), _)| share * w).sum();
+            let of_part = self.whole.iter_mut().zip(&self.parts).filter(|(_, of)| **of == part);
+            of_part.for_each(|(speed, _)| *speed = whole);
+        }
+    }
+
+    /// Accelerations with all constraints, from those that torque over own inertia gives; losses of rigid stages.
+    pub(super) fn constrain(&mut self) {
+        let (system, first) = (self.system, self.losses_of_others());
+        let pendulums = &system.pendulums;
+        if self.bobs.any() {
+            self.effective.copy_from_slice(&self.inertia);
+            self.bobs.add_to(pendulums, &self.inertia, &mut self.effective);
+            self.bobs.load(pendulums, &self.inertia, &self.effective, &mut self.acceleration);
+        }
+        let inertia = if self.bobs.any() { &self.effective } else { &self.inertia };
+        if self.contacts.any() {
+            self.contacts.note(&self.acceleration, inertia);
+            self.contacts.join(&mut self.acceleration, inertia);
+        }
+        if self.stages.any() {
+            let held = &mut self.acceleration[..system.len()];
+            if !self.stages.engage(&system.links, inertia, &mut self.contacts, held) {
+                self.acceleration[0] = f64::NAN;
+            }
+            self.stages.lose(&system.links, &self.omega, &mut self.powers[first..]);
+        }
+        if self.bobs.any() {
+            self.bobs.follow(pendulums, &self.inertia, &mut self.acceleration);
+        }
+    }
+
+    /// The same for changes of the accelerations, column by column of a matrix.
+    pub(super) fn constrain_columns(&self, matrix: &mut [f64]) {
+        if !(self.bobs.any() || self.stages.any() || self.contacts.holds()) {
+            return;
+        }
+        let (system, n) = (self.system, self.system.len());
+        let mut column = vec![0.0; n];
+        for j in 0..n {
+            (0..n).for_each(|i| column[i] = matrix[i * n + j]);
+            self.bobs.load(&system.pendulums, &self.inertia, &self.effective, &mut column);
+            self.join(&mut column);
+            self.bobs.follow(&system.pendulums, &self.inertia, &mut column);
+            (0..n).for_each(|i| matrix[i * n + j] = column[i]);
+        }
+    }
+
+    /// Lets a list obey the constraints of groups and stages, at the senses and directions of power last found.
+    pub(super) fn join(&self, list: &mut [f64]) {
+        let inertia = if self.bobs.any() { &self.effective } else { &self.inertia };
+        self.contacts.join(list, inertia);
+        self.stages.engage_changes(&self.system.links, inertia, &self.contacts, list);
+    }
+
+    /// Inertia torque of a mass at accelerations by the pendulums on it, or by its disc.
+    pub fn torque_of_bobs(&self, mass: usize, acceleration: impl Fn(usize) -> f64) -> f64 {
+        self.bobs.torque_of(&self.system.pendulums, mass, acceleration)
+    }
+
+    /// Sets the senses of stages that lose power from the speeds of a state.
+    pub fn set_senses(&mut self, t: f64, state: &[f64]) {
+        self.derivative(t, state, &mut state.to_vec());
+        self.stages.set_senses(&self.system.links, &self.omega);
+    }
+
+    /// Torques of elements that slide.
+    #[inline(always)]
+    pub(super) fn rub(&mut self, t: f64) {
+        let system = self.system;
+        let first = self.powers.len() - system.frictions.len();
+        for (e, friction) in system.frictions.iter().enumerate() {
+            let engaged = friction.engaged(&system.curves, &self.stretch, t);
+            let slip = self.slip(friction);
+            let sliding = slide(friction, self.contacts.states[e], &system.curves, engaged, slip);
+            let torque = sliding.map_or(0.0, |(torque, _)| torque);
+            let [a, b] = friction.ends;
+            self.outer[a] -= friction.ratio * torque;
+            self.outer[b] += friction.ratio * torque;
+            self.powers[first + e] = torque * slip;
+            self.contacts.torques[e] = torque;
+            self.engaged[e] = engaged;
+        }
+    }
+
+    /// Adds to the derivatives of the torques on the masses by their speeds.
+    pub(super) fn rub_slopes(&self, by_speed: &mut [f64]) {
+        let (system, n) = (self.system, self.system.len());
+        for (e, friction) in system.frictions.iter().enumerate() {
+            let slip = self.slip(friction);
+            let sliding = slide(friction, self.contacts.states[e], &system.curves, self.engaged[e], slip);
+            let slope = friction.ratio * friction.ratio * sliding.map_or(0.0, |(_, slope)| slope);
+            let [a, b] = friction.ends;
+            for (i, j) in [(a, b), (b, a)].into_iter().filter(|&(i, _)| i < n) {
+                by_speed[i * n + i] -= slope;
+                if j < n {
+                    by_speed[i * n + j] += slope;
+                }
+            }
+        }
+    }
+
+    /// Whether both ends turn alike with the train, so that the slip follows from speeds beside that of the first mass.
+    pub(super) fn turns_alike(&self, friction: &Friction) -> bool {
+        let [a, b] = friction.ends.map(|end| self.system.turns_of(end));
+        a == b
+    }
+
+    /// Slip of an element at the instant last evaluated.
+    pub fn slip(&self, friction: &Friction) -> f64 {
+        let n = self.system.len();
+        if self.turns_alike(friction) {
+            friction.slip(|i| self.aside_speed[i + 1])
+        } else {
+            friction.slip(|i| if i == n { 0.0 } else { self.omega[i] })
+        }
     }
 
     /// Torques from outside that are more than functions of the angle.
@@ -381,14 +504,15 @@ impl<'a> Rates<'a> {
         }
     }
 
-    /// Powers, or their works: of each torque, of each controller, then in each link, then at each mass.
+    /// Powers, or their works: of each torque, of each controller, then in each link, then at each mass, then by friction.
     pub fn in_order(&self, powers: &[f64]) -> Vec<f64> {
         let (n, places) = (self.system.len(), self.theta.len());
         let (drags, powers) = powers.split_at(places);
         let (behind, powers) = powers.split_at(places);
         let (banks, powers) = powers.split_at(places * self.shapes.len());
         let (alone, powers) = powers.split_at(self.alone.len());
-        let (controllers, others) = powers.split_at(self.system.controllers.len());
+        let (controllers, powers) = powers.split_at(self.system.controllers.len());
+        let (others, rubbing) = powers.split_at(self.links.others.len());
         let mut torques = vec![0.0; self.system.torques.len()];
         self.alone.iter().zip(alone).for_each(|(&place, &power)| torques[place] = power);
         for (bank, powers) in self.shapes.iter().zip(banks.chunks_exact(places)) {
@@ -396,7 +520,8 @@ impl<'a> Rates<'a> {
                 place.iter().for_each(|&place| torques[place] = power);
             }
         }
-        [torques, controllers.to_vec(), self.links.losses(behind, others), drags[..n].to_vec()].concat()
+        let links = self.links.losses(behind, others);
+        [torques, controllers.to_vec(), links, drags[..n].to_vec(), rubbing.to_vec()].concat()
     }
 
     /// Torque in a link at its own speed, and how fast it changes, at the instant last evaluated.
@@ -510,6 +635,10 @@ impl<'a> Rates<'a> {
         for controller in &system.controllers {
             damping[controller.mass] += controller.ratio.powi(2) * controller.gain;
         }
+        for friction in &system.frictions {
+            let slope = friction.ratio * friction.ratio * friction.steepest(&system.curves);
+            friction.ends.into_iter().for_each(|i| damping[i] += slope);
+        }
         let each = (0..n).map(|i| {
             let inverse = 2.0 / self.inertia[i];
             (stiffness[i] * inverse).sqrt().max(damping[i] * inverse)
@@ -552,7 +681,8 @@ impl<'a> Rates<'a> {
             let (d1, d2) = (self.bends[i], d2[i]);
             by_angle[i * n + i] = -0.5 * d2 * omega * omega - self.acceleration[i] * d1;
             by_speed[i * n + i] = -d1 * omega - system.damping[i] - system.swing_damping[i];
-            for (j, share) in self.shares.iter().enumerate() {
+            for (j, share) in self.shares.iter().enumerate().filter(|&(j, _)| self.parts[j] == self.parts[i])
+            {
                 by_speed[i * n + j] += system.swing_damping[i] * self.turns[i] * share;
             }
         }
@@ -578,6 +708,7 @@ impl<'a> Rates<'a> {
                 self.couple(place, link, by_angle, by_speed);
             }
         }
+        self.rub_slopes(by_speed);
         let swing = Swing { aside: &self.aside[1..], omega: &self.omega };
         add_slopes(&system.pendulums, swing, &self.acceleration, n, [&mut *by_angle, &mut *by_speed]);
         for i in 0..n {
@@ -586,9 +717,7 @@ impl<'a> Rates<'a> {
                 list[i * n..(i + 1) * n].iter_mut().for_each(|x| *x *= inverse);
             }
         }
-        if self.bobs.any() || self.stages.any() {
-            [by_angle, by_speed].into_iter().for_each(|matrix| self.join_columns(matrix));
-        }
+        [by_angle, by_speed].into_iter().for_each(|matrix| self.constrain_columns(matrix));
     }
 
     /// A link's part of the derivatives of the torques.
@@ -617,20 +746,6 @@ impl<'a> Rates<'a> {
             for (mass, gradient) in bond.masses.into_iter().zip(bond.gradient).filter(|(mass, _)| *mass < n) {
                 by_angle[mass * n + a] -= gradient * turned;
             }
-        }
-    }
-
-    /// Lets what joins masses beyond twists act on changes of the accelerations, column by column.
-    fn join_columns(&self, matrix: &mut [f64]) {
-        let n = self.system.len();
-        let mut column = vec![0.0; n];
-        for j in 0..n {
-            (0..n).for_each(|i| column[i] = matrix[i * n + j]);
-            self.bobs.share(&self.system.pendulums, &self.inertia, &mut column);
-            if self.stages.any() {
-                self.stages.engage_changes(self.system, &self.inertia, &self.bobs, &mut column);
-            }
-            (0..n).for_each(|i| matrix[i * n + j] = column[i]);
         }
     }
 }

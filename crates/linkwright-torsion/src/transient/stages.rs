@@ -18,8 +18,8 @@
 //! Source: Pelchen, Schweiger and Otter, *Modeling and simulating the efficiency of gearboxes and of planetary gearboxes*, 2nd
 //! International Modelica Conference (2002); reference model LossyGear of the Modelica Standard Library.
 
-use super::pendulums::Bobs;
-use super::system::{Link, Loss, System};
+use super::contacts::Contacts;
+use super::system::{Link, Loss};
 use linkwright_kernel::matrix::LuFactors;
 
 /// Added to the mobility of each row, as a share: rows that say the same share their torque.
@@ -68,7 +68,7 @@ struct Row {
 }
 
 /// A change that the sense of a stage has to make.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
     pub(super) stage: usize,
     pub(super) next: Sense,
@@ -149,6 +149,11 @@ impl Stages {
         }
     }
 
+    /// Makes a change.
+    pub(super) fn make(&mut self, Change { stage, next }: Change) {
+        self.senses[stage] = next;
+    }
+
     /// Rows of all stages.
     fn rows(&self, links: &[Link]) -> Vec<Row> {
         let mut rows = Vec::new();
@@ -172,18 +177,19 @@ impl Stages {
     /// whether directions of power are found that agree with the torques.
     pub fn engage(
         &mut self,
-        system: &System,
+        links: &[Link],
         inertia: &[f64],
-        bobs: &Bobs,
+        contacts: &mut Contacts,
         acceleration: &mut [f64],
     ) -> bool {
-        let free = acceleration[..system.len()].to_vec();
+        let free = acceleration.to_vec();
         for _ in 0..ATTEMPTS {
-            let (rows, mut held) = (self.rows(&system.links), free.clone());
-            let torques = hold(&rows, system, inertia, bobs, &mut held);
+            let rows = self.rows(links);
+            acceleration.copy_from_slice(&free);
+            let torques = hold(&rows, inertia, contacts, acceleration);
             let mut settled = true;
             for (row, &torque) in rows.iter().zip(&torques) {
-                let (_, loss) = self.stage(&system.links, row.stage);
+                let (_, loss) = self.stage(links, row.stage);
                 if row.is_teeth {
                     let (sense, before) = (self.senses[row.stage], self.teeth[row.stage]);
                     settled &= loss.factor(torque, sense) == loss.factor(before, sense);
@@ -193,7 +199,9 @@ impl Stages {
                 }
             }
             if settled {
-                acceleration[..held.len()].copy_from_slice(&held);
+                if contacts.any() {
+                    rows.iter().zip(torques).for_each(|(row, torque)| row.load(torque, contacts));
+                }
                 return true;
             }
         }
@@ -201,8 +209,15 @@ impl Stages {
     }
 
     /// The same for changes of the accelerations, at the senses and directions of power last found.
-    pub fn engage_changes(&self, system: &System, inertia: &[f64], bobs: &Bobs, changes: &mut [f64]) {
-        hold(&self.rows(&system.links), system, inertia, bobs, changes);
+    pub fn engage_changes(&self, links: &[Link], inertia: &[f64], contacts: &Contacts, changes: &mut [f64]) {
+        if self.any() {
+            hold(&self.rows(links), inertia, contacts, changes);
+        }
+    }
+
+    /// Each stage with its sense.
+    pub(super) fn senses_of<'s>(&'s self, links: &'s [Link]) -> impl Iterator<Item = (&'s Link, Sense)> {
+        self.senses.iter().enumerate().map(|(stage, &sense)| (self.stage(links, stage).0, sense))
     }
 
     /// Writes the losses of rigid stages among those of links that are no chain.
@@ -226,25 +241,40 @@ impl Stages {
     }
 }
 
-/// Accelerations by a unit of the torque of a row.
-fn response(row: &Row, system: &System, inertia: &[f64], bobs: &Bobs) -> Vec<f64> {
-    let mut response = vec![0.0; system.len()];
-    for (&mass, push) in row.masses.iter().zip(row.push) {
-        response[mass] += push / inertia[mass];
+impl Row {
+    /// Sum that vanishes.
+    fn along(&self, list: &[f64]) -> f64 {
+        self.masses.iter().zip(self.join).map(|(&mass, join)| join * list[mass]).sum()
     }
-    bobs.share(&system.pendulums, inertia, &mut response);
-    response
+
+    /// Accelerations by a unit of its torque, without groups of masses.
+    fn alone(&self, inertia: &[f64], masses: usize) -> Vec<f64> {
+        let mut response = vec![0.0; masses];
+        for (&mass, push) in self.masses.iter().zip(self.push) {
+            response[mass] += push / inertia[mass];
+        }
+        response
+    }
+
+    /// Takes its torque from what acts on the masses.
+    fn load(&self, torque: f64, contacts: &mut Contacts) {
+        self.masses.iter().zip(self.push).for_each(|(&mass, push)| contacts.take(mass, push * torque));
+    }
 }
 
-/// Accelerations at which all rows vanish, from those without; torques of the rows.
-fn hold(rows: &[Row], system: &System, inertia: &[f64], bobs: &Bobs, acceleration: &mut [f64]) -> Vec<f64> {
-    let responses: Vec<Vec<f64>> = rows.iter().map(|row| response(row, system, inertia, bobs)).collect();
-    let along = |row: &Row, list: &[f64]| -> f64 {
-        row.masses.iter().zip(row.join).map(|(&mass, join)| join * list[mass]).sum()
-    };
-    let mut torques: Vec<f64> = rows.iter().map(|row| along(row, acceleration)).collect();
+/// Accelerations at which all rows vanish, from those without; torques of the rows. A row whose masses stuck elements hold
+/// already has no torque.
+fn hold(rows: &[Row], inertia: &[f64], contacts: &Contacts, acceleration: &mut [f64]) -> Vec<f64> {
+    let masses = acceleration.len();
+    let mut responses: Vec<Vec<f64>> = rows.iter().map(|row| row.alone(inertia, masses)).collect();
+    let sizes: Vec<f64> = rows.iter().zip(&responses).map(|(row, by)| row.along(by).abs()).collect();
+    responses.iter_mut().for_each(|by| contacts.join(by, inertia));
+    let mut torques: Vec<f64> = rows.iter().map(|row| row.along(acceleration)).collect();
     let mut factors = LuFactors::<f64>::new(rows.len());
-    factors.factor(|i, j| along(&rows[i], &responses[j]) * if i == j { 1.0 + DEPENDENT } else { 1.0 });
+    factors.factor(|i, j| {
+        let mobility = rows[i].along(&responses[j]);
+        if i == j { mobility + DEPENDENT * sizes[i] } else { mobility }
+    });
     factors.solve(&mut torques);
     for (response, torque) in responses.iter().zip(&torques) {
         acceleration.iter_mut().zip(response).for_each(|(a, by)| *a -= by * torque);

@@ -34,6 +34,9 @@ pub trait Stepper {
         end: &[f64],
     ) -> f64;
 
+    /// Gives up a step that is good, to be taken again up to an event within it.
+    fn retake(&mut self) {}
+
     /// Gives up a step of a length whose polynomial had an error.
     fn shorten(&mut self, h: f64, error: f64);
 
@@ -89,6 +92,8 @@ pub struct Scale {
     /// Place of the first speed in a state whose errors are measured.
     speeds: usize,
     relative: bool,
+    /// Masses from which the others of their part are counted, where friction lets parts move apart; else none.
+    leads: Vec<bool>,
     speed_floor: f64,
     /// Whether steps follow the swings of every shaft, so that its twist has to tell its torque.
     follows: bool,
@@ -110,6 +115,7 @@ impl Scale {
             n,
             speeds: n,
             relative,
+            leads: leads(rates.system),
             speed_floor: TWIST_FLOOR * omega.max(SLOWEST),
             follows: false,
             twist: 0.0,
@@ -147,9 +153,17 @@ impl Scale {
     /// Size to which the accuracy of one number is relative.
     #[inline(always)]
     fn counted(&self, index: usize, size: f64) -> f64 {
-        let leads = self.relative && (index == 0 || index == self.speeds);
+        let leads = if self.leads.is_empty() {
+            self.relative && (index == 0 || index == self.speeds)
+        } else {
+            self.leads.get(if index < self.speeds { index } else { index - self.speeds }) == Some(&true)
+        };
         match (leads, index < self.speeds) {
             (true, true) => 1.0,
+            // Parts that slide apart turn far from each other; their shafts twist as little as before.
+            (false, true) if !self.leads.is_empty() => {
+                size.min(self.twist).max(SMALL * self.twist).max(TWIST_FLOOR)
+            }
             (false, true) => size.max(SMALL * self.twist).max(TWIST_FLOOR),
             (true, false) => size.max(SMALL * self.speed).max(self.speed_floor),
             (false, false) => size.max(SMALL * self.aside).max(self.speed_floor),
@@ -162,7 +176,12 @@ impl Scale {
         self.torque = system.links.iter().map(torque).fold(self.torque, f64::max);
         let first = usize::from(self.relative);
         let largest = |list: &[f64], so_far: f64| list.iter().fold(so_far, |most, x| most.max(x.abs()));
-        self.twist = largest(&state[first..self.n], self.twist);
+        self.twist = if self.leads.is_empty() {
+            largest(&state[first..self.n], self.twist)
+        } else {
+            let twist = |link: &Link| link.twist(self.n, self.relative, |i| state[i]).abs();
+            system.links.iter().map(twist).fold(self.twist, f64::max)
+        };
         self.aside = largest(&state[self.n + first..], self.aside);
         self.speed = self.speed.max(state[self.n].abs());
     }
@@ -173,4 +192,12 @@ impl Scale {
         let sum: f64 = error.iter().zip(state).enumerate().map(square).sum();
         (sum / error.len() as f64).sqrt()
     }
+}
+
+/// Whether each mass is the first of its part, in a train with friction.
+fn leads(system: &System) -> Vec<bool> {
+    if system.frictions.is_empty() {
+        return Vec::new();
+    }
+    (0..system.len()).map(|i| system.parts()[i] == i).collect()
 }

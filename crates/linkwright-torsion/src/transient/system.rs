@@ -2,6 +2,7 @@
 
 use super::controllers::Controller;
 use super::curve::Curve;
+use super::friction::Friction;
 use super::pendulums::Pendulum;
 use super::periodic::Periodic;
 use super::torque::Torque;
@@ -85,6 +86,7 @@ pub struct System {
     pub torques: Vec<Torque>,
     pub pendulums: Vec<Pendulum>,
     pub controllers: Vec<Controller>,
+    pub frictions: Vec<Friction>,
     pub tables: Vec<Periodic>,
     pub curves: Vec<Curve>,
 }
@@ -113,35 +115,65 @@ impl System {
 
     /// Whether it can rotate as a rigid body.
     pub fn is_free(&self) -> bool {
-        let turns = |mass: usize| if mass == self.len() { 0.0 } else { self.turns_of(mass) };
-        self.links.iter().all(|link| {
-            let parts = link.masses(self.len()).into_iter().zip(link.shares());
-            let [apart, size] = parts.fold([0.0; 2], |[sum, size], (mass, share)| {
-                let part = share * turns(mass);
-                [sum + part, size + part.abs()]
-            });
-            apart.abs() <= EQUAL * size
-        })
+        self.links.iter().all(|link| self.lets_turn(link))
     }
 
-    /// Whether a mass turns with the train, 1, or rests, 0.
+    /// Whether a link does not resist a rotation of all that it joins as a rigid body.
+    fn lets_turn(&self, link: &Link) -> bool {
+        let parts = link.masses(self.len()).into_iter().zip(link.shares());
+        let [apart, size] = parts.fold([0.0; 2], |[sum, size], (mass, share)| {
+            let part = share * self.turns_of(mass);
+            [sum + part, size + part.abs()]
+        });
+        apart.abs() <= EQUAL * size
+    }
+
+    /// Whether a mass turns with the train, 1, or rests, 0; the ground rests.
     pub fn turns_of(&self, mass: usize) -> f64 {
-        self.turns.get(mass).copied().unwrap_or(1.0)
+        self.turns.get(mass).copied().unwrap_or(if mass < self.len() { 1.0 } else { 0.0 })
     }
 
-    /// Share of each mass in the mean inertia: weights of the speeds whose sum is that of the train as a whole. None of a
-    /// train that is held, which as a whole stands.
-    pub fn shares(&self) -> Vec<f64> {
-        if !self.is_free() {
-            return vec![0.0; self.len()];
+    /// First mass of the part that each mass belongs to, and of the ground at the end: links join parts, and friction does not.
+    /// Without friction the train is one.
+    pub fn parts(&self) -> Vec<usize> {
+        let n = self.len();
+        if self.frictions.is_empty() {
+            return vec![0; n + usize::from(!self.is_free())];
         }
+        let mut parts: Vec<usize> = (0..=n).collect();
+        let mut union = |one: usize, other: usize| {
+            let [a, b] = [parts[one], parts[other]];
+            parts.iter_mut().filter(|part| **part == a.max(b)).for_each(|part| *part = a.min(b));
+        };
+        for link in &self.links {
+            // What rests while the train turns, such as a housing, joins nothing; a link that resists turning holds.
+            let moves = link.masses(n).into_iter().zip(link.shares());
+            let turning: Vec<usize> = moves
+                .filter(|&(mass, share)| share != 0.0 && mass < n && self.turns_of(mass) != 0.0)
+                .map(|(mass, _)| mass)
+                .collect();
+            turning.windows(2).for_each(|pair| union(pair[0], pair[1]));
+            turning.first().filter(|_| !self.lets_turn(link)).into_iter().for_each(|&mass| union(mass, n));
+        }
+        self.pendulums.iter().for_each(|pendulum| union(pendulum.disc, pendulum.bob));
+        parts
+    }
+
+    /// Share of each mass in the mean inertia of its part: weights of the speeds whose sum is that of the part as a whole. None
+    /// of a part that is held, which as a whole stands.
+    pub fn shares(&self) -> Vec<f64> {
+        let (n, parts) = (self.len(), self.parts());
+        let held = parts.get(n).copied();
         let mut shares: Vec<f64> =
             self.inertia.iter().enumerate().map(|(i, j)| j * self.turns_of(i)).collect();
         for rotor in &self.rotors {
             shares[rotor.mass] += rotor.ratio * rotor.ratio * self.tables[rotor.table].mean();
         }
-        let sum: f64 = shares.iter().sum();
-        shares.iter_mut().for_each(|share| *share /= sum);
+        let mut sums = vec![0.0; n + 1];
+        (0..n).for_each(|i| sums[parts[i]] += shares[i]);
+        for (share, &part) in shares.iter_mut().zip(&parts) {
+            *share = if held == Some(part) || sums[part] == 0.0 { 0.0 } else { *share / sums[part] };
+        }
         shares
     }
 
@@ -181,6 +213,14 @@ impl System {
             curve(torque.weight)?;
             curve(torque.law.curve())?;
             torque.shape.map_or(Ok(()), |shape| below("table", shape.table, self.tables.len()))?;
+        }
+        for friction in &self.frictions {
+            friction.ends.into_iter().try_for_each(|end| below("mass", end, n + 1))?;
+            curve(friction.engagement)?;
+            [friction.forward, friction.backward]
+                .into_iter()
+                .flatten()
+                .try_for_each(|grip| curve(grip.curve))?;
         }
         Ok(())
     }

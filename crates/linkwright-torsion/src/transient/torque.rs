@@ -65,7 +65,7 @@ pub struct Torque {
 #[derive(Clone, Debug, Default)]
 pub struct Stretch {
     pieces: Vec<usize>,
-    middle: f64,
+    pub middle: f64,
 }
 
 impl Stretch {

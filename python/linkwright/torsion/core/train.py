@@ -224,13 +224,16 @@ def lead_speeds(tip: Integers, speed: Floats) -> Floats:
     return lead
 
 
-def refer(train: Train) -> ReferredTrain:
-    """A train referred to the speed of its first disc."""
+def refer(train: Train, *, slips: bool = False) -> ReferredTrain:
+    """A train referred to the speed of its first disc.
+
+    Engaged clutches and freewheels are rigid; with `slips` they connect nothing.
+    """
     _require_numbers(train)
-    return referred_rows(whole_train(train))
+    return referred_rows(whole_train(train), slips=slips)
 
 
-def referred_rows(train: Train) -> ReferredTrain:
+def referred_rows(train: Train, *, slips: bool = False) -> ReferredTrain:
     """The same of discs, shafts and gears, of which some numbers may be arrays over many trains, (n,).
 
     Inertias, stiffnesses and dampings on which these act have a row for each train, (n, …).
@@ -240,6 +243,7 @@ def referred_rows(train: Train) -> ReferredTrain:
     # What rests swings as it is.
     scale = {name: speed if primal(speed) else 1.0 for name, speed in n.items()}
     rigid = [gear.between for gear in train.gears.values() if gear.stiffness is None]
+    rigid += [] if slips else train.engaged
     masses = parts_of(train.discs, rigid)
     place = {name: k for k, part in enumerate(masses) for name in part}
     elastic = {name: gear for name, gear in train.gears.items() if gear.stiffness is not None}

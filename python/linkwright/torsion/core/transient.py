@@ -104,6 +104,45 @@ class NetTorque(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Grip:
+    """Friction in one sense of slip, at full engagement."""
+
+    held: float  # static capacity [N m]
+    sliding: float  # torque far from rest [N m]
+    rise: float = 0.0  # what it has more at rest [N m]
+    speed: float = 1.0  # slip at which that has fallen to 1/e [rad/s]
+    curve: Curve | None = None  # sliding torque over slip, instead [N m, rad/s]
+
+
+@dataclass(frozen=True)
+class TrainFriction:
+    """A clutch, brake or freewheel: dry friction between two discs."""
+
+    name: str
+    tip: tuple[int, int]  # discs that it joins; `HELD` for the ground
+    # Where the first disc is faster, and where it is slower; None where it cannot slide.
+    forward: Grip | None
+    backward: Grip | None
+    engagement: Curve | None = None  # over time [s]; None for 1
+
+
+@dataclass(frozen=True)
+class FrictionMotion:
+    """What elements with friction do, (elements, …)."""
+
+    torque: Floats  # (elements, times) [N m]
+    state: Integers  # (elements, times) 0 open, 1 stuck, 2 sliding forward, 3 backward
+    # `torque_extremes`, `power_extremes`: [N m, W].
+    torque_extremes: TimeExtremes
+    power_extremes: TimeExtremes
+    heat: Floats  # [J]
+    engagements: Integers  # how often each has come to stick
+    # `slip_time`, `stuck_time`: [s].
+    slip_time: Floats
+    stuck_time: Floats
+
+
+@dataclass(frozen=True)
 class TrainMotion:
     """A motion as the core gives it, in terms of masses."""
 
@@ -134,6 +173,7 @@ class TrainMotion:
     shaft_loss: Floats
     mass_loss: Floats
     modal_loss: float
+    friction: FrictionMotion
 
 
 @dataclass(frozen=True)
@@ -205,6 +245,7 @@ class MovingTrain:
     torques: tuple[TrainTorque, ...] = ()  # from outside
     # (masses, masses) of damping ratios of modes, at the speed of the first disc; None for none [N m s/rad].
     modal_damping: Floats | None = None
+    frictions: tuple[TrainFriction, ...] = ()
     notes: tuple[str, ...] = field(default=())  # what was assumed
     manners: tuple[Manner, ...] = ()  # of each shaft; empty where all are plain
     # (discs,) 0 for a disc that rests while the train runs, whose `speed` is 1, else 1. None: all turn.
@@ -327,7 +368,7 @@ class MovingTrain:
             steps_max=steps_max,
         )
         # Dashpots of modal damping come after the shafts.
-        m, n = len(self.shafts), self.masses
+        m, n, f = len(self.shafts), self.masses, len(self.frictions)
         return TrainMotion(
             end=motion.end,
             method=motion.method,
@@ -349,6 +390,16 @@ class MovingTrain:
             shaft_loss=motion.loss_links[:m],
             mass_loss=motion.loss_masses[:n],
             modal_loss=float(motion.loss_links[m:].sum()),
+            friction=FrictionMotion(
+                torque=motion.friction_torque,
+                state=np.nan_to_num(motion.friction_state).astype(np.int32),
+                torque_extremes=TimeExtremes.of(motion.friction_extremes, f),
+                power_extremes=TimeExtremes.of(motion.power_extremes, f),
+                heat=motion.loss_frictions,
+                engagements=np.array(motion.engagements, np.int32),
+                slip_time=motion.slip_time,
+                stuck_time=motion.stuck_time,
+            ),
         )
 
 
@@ -363,6 +414,7 @@ def moving(
     inertias: Iterable[VariableInertia] = (),
     torques: Iterable[TrainTorque] = (),
     modal_damping: Floats | None = None,
+    frictions: Iterable[TrainFriction] = (),
     notes: Iterable[str] = (),
     manners: Sequence[Manner] = (),
 ) -> MovingTrain:
@@ -389,6 +441,7 @@ def moving(
         tuple(inertias),
         tuple(torques),
         modal_damping,
+        tuple(frictions),
         tuple(notes),
         tuple(manners) if any(manner != PLAIN for manner in manners) else (),
         None if referred.twist is None else (referred.speed != 0).astype(float),
@@ -422,6 +475,7 @@ def core_system(train: MovingTrain) -> _core.TorsionSystem:
         torques=[_torque(train, torque, parts) for torque in train.torques],
         pendulums=[_pendulum(train, pendulum) for pendulum in train.pendulums],
         controllers=[_controller(train, n, parts) for n in range(len(train.controllers))],
+        frictions=[_friction(train, friction, parts) for friction in train.frictions],
     )
 
 
@@ -558,6 +612,28 @@ def _torque(train: MovingTrain, torque: TrainTorque, parts: _SharedParts) -> _co
         law=_law(torque, parts),
         weight=parts.curve_or_none(torque.weight),
         shape=shape,
+    )
+
+
+def _friction(train: MovingTrain, friction: TrainFriction, parts: _SharedParts) -> _core.TorsionFriction:
+    first, second = (None if end == HELD else int(train.mass[end]) for end in friction.tip)
+    turning = next(end for end in friction.tip if end != HELD)
+
+    def grip(one: Grip | None) -> _core.TorsionGrip | None:
+        if one is None:
+            return None
+        curve = parts.curve_or_none(one.curve)
+        return _core.TorsionGrip(
+            held=one.held, sliding=one.sliding, rise=one.rise, speed=one.speed, curve=curve
+        )
+
+    return _core.TorsionFriction(
+        first=first,
+        second=second,
+        ratio=float(train.speed[turning]),
+        forward=grip(friction.forward),
+        backward=grip(friction.backward),
+        engagement=parts.curve_or_none(friction.engagement),
     )
 
 

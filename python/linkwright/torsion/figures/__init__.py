@@ -4,6 +4,7 @@
 | --- | --- |
 | `captions` | The figures of a study of torsional vibration, with their captions |
 | `forced` | Forced vibration of trains over their speeds; what a damper leaves of a resonance |
+| `friction` | Clutches, brakes and freewheels over time |
 | `modes` | Mode shapes of trains, Campbell's diagram |
 | `scheme` | Equivalent schemes of trains, by `scheme_layout` and `scheme_page` |
 | `equal_planets` | One of the equal planets of a stage, for drawings |

@@ -19,6 +19,7 @@ from linkwright.torsion.figures.forced import (
     stress_figure,
     torsion_unevenness_figure,
 )
+from linkwright.torsion.figures.friction import friction_figure
 from linkwright.torsion.figures.modes import campbell_figure, in_a_row, modes_figure
 from linkwright.torsion.figures.scheme import scheme_figure
 from linkwright.torsion.figures.stars import star_figure
@@ -63,6 +64,9 @@ def _manoeuvre(study: TorsionStudy, moved: TorsionTransient) -> Iterator[Caption
     marks += [(one.end, "") for one in moved.ice if one.end is not None]
     caption += " Dotted: the first impact of ice, and the end of the last." if marks else ""
     yield CaptionedFigure("transient", "Manoeuvre", caption, _moving(study, moved, marks))
+    if moved.frictions:
+        caption = "Slip and torque of clutches, brakes and freewheels; shaded where they stick or lock."
+        yield CaptionedFigure("transient_friction", "Friction", caption, friction_figure(moved))
     # Orders are found by revolutions: while the first disc stands there are none.
     turning = moved.speed[0] > _TURNING * moved.speed[0].max()
     first = int(np.argmax(turning))

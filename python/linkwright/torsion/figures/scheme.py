@@ -24,6 +24,7 @@ _COLOURS = {
     "mesh": RED,
     "gears": RED,
     "bearing": SOFT,
+    "clutch": RED,
     "damper": GREEN,
     "pendulum": GREEN,
 }
@@ -73,7 +74,7 @@ class _Pen:
             self._disc(name)
 
     def _line(self, x: Sequence[float], y: Sequence[float], part: Connection) -> None:
-        dashes: Any = (0, (4, 2)) if part.kind == "gears" else "-"
+        dashes: Any = (0, (4, 2)) if part.kind in ("gears", "clutch") else "-"
         self.axes.plot(x, y, color=_COLOURS[part.kind], linewidth=1.3, zorder=1, linestyle=dashes)
 
     def _words(self, x: float, y: float, text: str, **more: Any) -> None:
@@ -101,7 +102,7 @@ class _Pen:
 
     def _elastic(self, span: Span, y: float) -> None:
         part, middle = span.part, 0.5 * (span.start + span.stop)
-        if part.kind in ("shaft", "gears", "bearing"):
+        if part.kind in ("shaft", "gears", "bearing", "clutch"):
             self._line((span.start, span.stop), (y, y), part)
             return
         self._line((span.start, middle - 0.12), (y, y), part)

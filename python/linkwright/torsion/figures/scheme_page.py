@@ -54,8 +54,8 @@ def connection_words(connection: Connection) -> Words:
     name = shortened(connection.name, NAME_LETTERS)
     if connection.kind == "gears":
         return Words((), (f"{name} i = {connection.ratio:.4g}",))
-    if connection.kind == "bearing":
-        return Words((), ("bearing",))
+    if connection.kind in ("bearing", "clutch"):
+        return Words((), (connection.kind,))
     if connection.stiffness is None or connection.stiffness_referred is None:
         return Words((name,), ())
     own = stiffness(connection.stiffness)

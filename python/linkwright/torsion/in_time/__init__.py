@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `friction_parts` | Clutches, brakes and freewheels as elements with dry friction |
 | `ice_impacts` | Ice at a propeller: pulses over its angle |
 | `moving_drive` | A driveline that moves in time |
 | `moving_parts` | Stages, joints, pendulums and speed controllers of a train in motion |

@@ -39,6 +39,7 @@ from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.core.transient import MovingTrain, VariableInertia, moving, variable_inertia, viscous
 from linkwright.torsion.excitation.engine_torques import cylinder_torques
 from linkwright.torsion.excitation.excited_train import highest_order
+from linkwright.torsion.in_time.friction_parts import friction_elements
 from linkwright.torsion.in_time.ice_impacts import IceStarts, ice_torque
 from linkwright.torsion.in_time.moving_parts import link_manner, with_parts
 from linkwright.torsion.model.drive_shaft import LooseShaft
@@ -77,7 +78,7 @@ _TURNS_MAX = 8
 def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
     """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
     _require_motors_of_torque(manoeuvre)
-    expanded, referred = whole_train(train), refer(train)
+    expanded, referred = whole_train(train), refer(train, slips=True)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
     if train.mechanisms:
         found, expected = f"the mechanism {next(iter(train.mechanisms))}", "none in a motion in time"
@@ -107,6 +108,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
             *_events(manoeuvre, place, ice or {}),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
+        frictions=friction_elements(train, manoeuvre, place),
         notes=notes,
         manners=[link_manner(expanded, referred, name) for name in referred.shafts],
     )

@@ -28,14 +28,18 @@ def stage_torques(
     angle: Floats,
     speed: Floats,
     torque: Floats,
+    friction: Floats,
 ) -> Floats:
     """Torque of each stage at its first disc, (stages, n) [N m]; NaN where statics does not tell it.
 
     `time`: (n,) [s]; `angle`, `speed`: (masses, n), at the speed of the first disc [rad, rad/s]; `torque`:
-    (shafts, n) [N m].
+    (shafts, n) [N m]; `friction`: (elements, n), of clutches, brakes and freewheels [N m].
     """
     rigid = [name for name in gears if name not in train.shafts]
-    left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, torque) if rigid else None
+    leads = np.concatenate([train.lead, friction_lead(train)])[:, None]
+    # A list of none has no samples either.
+    flows = leads * np.concatenate([one.reshape(-1, len(time)) for one in (torque, friction)])
+    left = _left_over(train, _joined(train, gears, rigid), time, angle, speed, flows) if rigid else None
     # Discs whose inertia changes share none by its mean.
     open_masses = {int(train.mass[rotor.on]) for rotor in train.inertias}
     rows = []
@@ -44,7 +48,7 @@ def stage_torques(
         if left is None or name not in rigid:
             rows.append(_at_first(train, train.shafts.index(name), speed, torque))
             continue
-        passed = passed_on(train.discs, gears, rigid, left[None])[0].real
+        passed = passed_on(train.discs, [gears[name].between for name in rigid], left[None])[0].real
         known = int(train.mass[first]) not in open_masses
         rows.append(passed[rigid.index(name)] / train.speed[first] if known else np.full(len(time), np.nan))
     return np.array(rows).reshape(len(gears), len(time))
@@ -67,14 +71,17 @@ def _joined(train: MovingTrain, gears: dict[str, TrainGear], rigid: list[str]) -
 
 
 def _left_over(
-    train: MovingTrain, joined: list[int], time: Floats, angle: Floats, speed: Floats, torque: Floats
+    train: MovingTrain, joined: list[int], time: Floats, angle: Floats, speed: Floats, flows: Floats
 ) -> Floats:
-    """What rigid stages have to pass on at each disc, referred to the first, (discs, n) [N m]."""
+    """What rigid stages have to pass on at each disc, referred to the first, (discs, n) [N m].
+
+    `flows`: torques of shafts, then of elements with friction, referred likewise.
+    """
     n = train.speed[:, None]
     # The ground is a last disc.
     net = np.zeros((len(train.discs) + 1, len(time)))
-    for s, (first, second) in enumerate(train.tip.tolist()):
-        flow = train.lead[s] * torque[s]
+    tips = [*train.tip.tolist(), *(friction.tip for friction in train.frictions)]
+    for (first, second), flow in zip(tips, flows, strict=True):
         net[first] -= flow
         net[second] += flow
     net = net[:-1]
@@ -89,6 +96,11 @@ def _left_over(
         alone = _net(replace(train, torques=own), time, angle, speed)
         net[disc] += (alone - bare)[train.mass[disc]]
     return _shared(train, joined, net)
+
+
+def friction_lead(train: MovingTrain) -> Floats:
+    """Speed of each element with friction over that of the first disc, (elements,)."""
+    return np.array([train.speed[max(friction.tip)] for friction in train.frictions])
 
 
 def _shared(train: MovingTrain, joined: list[int], net: Floats) -> Floats:

@@ -21,7 +21,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
@@ -29,6 +29,7 @@ from linkwright.kernel.quantities import About, Label, declared
 from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
+from linkwright.torsion.in_time.friction_parts import start_speeds
 from linkwright.torsion.in_time.ice_impacts import (
     IceMilling,
     IceStart,
@@ -134,7 +135,8 @@ class TorsionTransient(Result):
     loss: Annotated[
         dict[str, float],
         About(
-            'Loss in each shaft, by the damping of the discs, "discs", and by damping ratios, "modes" [J].'
+            'Loss in each shaft, clutch, brake and freewheel, by the damping of the discs, "discs", and by '
+            'damping ratios, "modes" [J].'
         ),
     ]
     energy_error: Annotated[
@@ -182,6 +184,66 @@ class TorsionTransient(Result):
         ),
     ] = field(default_factory=lambda: np.zeros((0, 0)))
     ice: Annotated[tuple[IceMilling, ...], About("Ice that the propeller met.")] = ()
+    frictions: Annotated[tuple[str, ...], About("Clutches, brakes and freewheels.")] = ()
+    friction_torque: Annotated[
+        Floats,
+        Label(
+            "torque of each clutch, brake and freewheel",
+            "T",
+            "N m",
+            "Positive if the first end drives the second, or a brake resists forward motion.",
+            shape="(frictions, n)",
+        ),
+    ] = field(default_factory=lambda: np.zeros((0, 0)))
+    slip: Annotated[
+        Floats,
+        Label(
+            "slip of each clutch, brake and freewheel",
+            "s",
+            "rad/s",
+            "Speed of the first end less that of the second.",
+            shape="(frictions, n)",
+        ),
+    ] = field(default_factory=lambda: np.zeros((0, 0)))
+    friction_state: Annotated[
+        Integers,
+        About("0 open, 1 stuck or locked, 2 sliding forward, 3 sliding backward; (frictions, n)."),
+    ] = field(default_factory=lambda: np.zeros((0, 0), np.int32))
+    friction_torque_max: Annotated[
+        Floats,
+        Label(
+            "peak friction torque",
+            "T_max",
+            "N m",
+            "Largest size in the whole motion, between the samples as well.",
+            shape="(frictions,)",
+        ),
+    ] = field(default_factory=lambda: np.zeros(0))
+    friction_torque_max_time: Annotated[
+        Floats, Label("time of the peak friction torque", "", "s", shape="(frictions,)")
+    ] = field(default_factory=lambda: np.zeros(0))
+    friction_heat: Annotated[Floats, Label("friction work, lost as heat", "Q", "J", shape="(frictions,)")] = (
+        field(default_factory=lambda: np.zeros(0))
+    )
+    friction_power_max: Annotated[
+        Floats,
+        Label(
+            "peak friction power",
+            "P_max",
+            "W",
+            "Of the whole motion, between the samples as well.",
+            shape="(frictions,)",
+        ),
+    ] = field(default_factory=lambda: np.zeros(0))
+    engagements: Annotated[
+        Integers, Label("engagements: how often slip ended", "", "", shape="(frictions,)")
+    ] = field(default_factory=lambda: np.zeros(0, np.int32))
+    slip_time: Annotated[Floats, Label("slipping time", "t_s", "s", shape="(frictions,)")] = field(
+        default_factory=lambda: np.zeros(0)
+    )
+    stuck_time: Annotated[Floats, Label("time stuck or locked", "", "s", shape="(frictions,)")] = field(
+        default_factory=lambda: np.zeros(0)
+    )
 
     @property
     def findings(self) -> list[str]:
@@ -202,7 +264,7 @@ class TorsionTransient(Result):
             for name, row in zip(self.pendulums, self.swing, strict=True)
         }
         results["ice"] = [asdict(one) for one in self.ice]
-        names = {"(shafts,)": self.shafts, "(discs,)": self.discs}
+        names = {"(shafts,)": self.shafts, "(discs,)": self.discs, "(frictions,)": self.frictions}
         for name, (_, mark) in declared(type(self)).items():
             if isinstance(mark, Label) and mark.shape in names:
                 results[name] = dict(zip(names[mark.shape], getattr(self, name).tolist(), strict=True))
@@ -283,20 +345,38 @@ def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:
 
 
 def _moved_with(train: Train, manoeuvre: TrainTransient, ice: IceStarts, duration: float) -> TorsionTransient:
-    moving, speed, balance = balanced_start(moving_train(train, manoeuvre, ice), train, manoeuvre)
+    moving, speed, balance = _started(moving_train(train, manoeuvre, ice), train, manoeuvre)
     moved = _followed(moving, manoeuvre.model_copy(update={"duration": duration}), speed)
     if duration < manoeuvre.duration or not train.gears:
         return replace(moved, balance=balance)
     gears, first = whole_train(train).gears, np.unique(moving.mass, return_index=True)[1]
     n = moving.speed[first, None]
     torque = stage_torques(
-        moving, gears, moved.time, moved.angle[first] / n, moved.speed[first] / n, moved.torque
+        moving,
+        gears,
+        moved.time,
+        moved.angle[first] / n,
+        moved.speed[first] / n,
+        moved.torque,
+        moved.friction_torque,
     )
     return replace(moved, balance=balance, stages=tuple(gears), stage_torque=torque)
 
 
-def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: float) -> TorsionTransient:
+def _started(
+    moving: MovingTrain, train: Train, manoeuvre: TrainTransient
+) -> tuple[MovingTrain, ArrayLike, str]:
+    """A train, its speeds at the start [rad/s], and what balances it; friction leaves open what would."""
+    if not moving.frictions:
+        return balanced_start(moving, train, manoeuvre)
+    return moving, start_speeds(moving, manoeuvre), ""
+
+
+def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: ArrayLike) -> TorsionTransient:
     """The motion as the manoeuvre asks for it. `speed`: at the start [rad/s]."""
+    if train.frictions:
+        # Torques that set in at the start are part of a motion with friction.
+        manoeuvre = manoeuvre.model_copy(update={"loaded": False, "settle": manoeuvre.settle or 0.0})
     return follow_train(
         train,
         duration=manoeuvre.duration,
@@ -424,6 +504,13 @@ def _given_up(train: MovingTrain, moved: TrainMotion, accuracy: float) -> str:
             'ends; take method "auto" or "implicit", or ask for less'
         )
     when = f"the integration stopped at {moved.time:.6g} s after {moved.steps} steps"
+    if moved.end == "unsettled":
+        lossy = [name for name, manner in zip(train.shafts, train.manners, strict=False) if manner.loss]
+        names = ", ".join([*(friction.name for friction in train.frictions), *lossy])
+        return (
+            f"{when}: no states of {names} agree, sticking or slipping; check the speeds at the start and "
+            "the static torques, or leave out a part in parallel"
+        )
     if moved.end == "not finite":
         return f"{when}: an acceleration is no finite number; look at the torques"
     frequency, disc = moved.fastest / (2 * np.pi), _fastest_disc(train)
@@ -481,6 +568,7 @@ def _result(train: MovingTrain, times: Floats, moved: TrainMotion) -> TorsionTra
         notes=train.notes,
         pendulums=tuple(train.discs[one.bob] for one in train.pendulums),
         swing=_swings(train, moved),
+        **_rubbed(train, moved),
     )
 
 
@@ -495,6 +583,30 @@ def _swings(train: MovingTrain, moved: TrainMotion) -> Floats:
     return np.array(rows).reshape(len(rows), moved.angle.shape[1])
 
 
+def _rubbed(train: MovingTrain, moved: TrainMotion) -> dict[str, Any]:
+    """What clutches, brakes and freewheels do."""
+    friction, names = moved.friction, tuple(one.name for one in train.frictions)
+    if not names:
+        return {}
+    extremes = friction.torque_extremes
+    is_forward = extremes.maximum >= -extremes.minimum
+    turning = np.vstack([train.speed[:, None] * moved.speed[train.mass], np.zeros(moved.speed.shape[1])])
+    first, second = np.array([one.tip for one in train.frictions]).T
+    return {
+        "frictions": names,
+        "friction_torque": friction.torque,
+        "slip": turning[first] - turning[second],
+        "friction_state": friction.state,
+        "friction_torque_max": np.where(is_forward, extremes.maximum, -extremes.minimum),
+        "friction_torque_max_time": np.where(is_forward, extremes.maximum_time, extremes.minimum_time),
+        "friction_heat": friction.heat,
+        "friction_power_max": friction.power_extremes.maximum,
+        "engagements": friction.engagements,
+        "slip_time": friction.slip_time,
+        "stuck_time": friction.stuck_time,
+    }
+
+
 def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
     work: dict[str, float] = {}
@@ -502,6 +614,7 @@ def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], d
     for name, done in zip(names, moved.work.tolist(), strict=True):
         work[name] = work.get(name, 0.0) + done
     loss: dict[str, Any] = dict(zip(train.shafts, moved.shaft_loss.tolist(), strict=True))
+    loss |= {one.name: heat for one, heat in zip(train.frictions, moved.friction.heat.tolist(), strict=True)}
     loss["discs"] = float(moved.mass_loss.sum())
     if train.modal_damping is not None:
         loss["modes"] = moved.modal_loss

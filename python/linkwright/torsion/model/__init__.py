@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `clutch` | Parts with dry friction: clutches, brakes and bits, freewheels |
 | `coupling` | Elastic couplings, torsional dampers and centrifugal pendulums |
 | `drive_shaft` | Shafts of a drive: linear, by a torque curve, with backlash |
 | `drive_train` | Gearbox, coupling, flywheel, brake; a driveline whose shafts twist, as a train |

@@ -44,6 +44,7 @@ from linkwright.kernel.units.marks import (
     positive,
 )
 from linkwright.linkages.model.element import PositiveNumber
+from linkwright.torsion.model.clutch import Brake, Clutch, Freewheel
 from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine import ReciprocatingEngine
 from linkwright.torsion.model.measured_response import MeasuredResponse
@@ -473,6 +474,14 @@ class Train(Description):
         "NAME_ring_1, …",
     )
     couplings: dict[Name, Coupling] = Field(default_factory=dict, description="Elastic couplings by name.")
+    clutches: dict[Name, Clutch] = Field(default_factory=dict, description="Friction clutches by name.")
+    brakes: dict[Name, Brake] = Field(
+        default_factory=dict,
+        description="Brakes, and dry friction of bearings and drill bits, by name; for motion in time.",
+    )
+    freewheels: dict[Name, Freewheel] = Field(
+        default_factory=dict, description="Freewheels (one-way clutches) and backstops by name."
+    )
     dampers: dict[Name, Damper] = Field(default_factory=dict, description="Torsional dampers by name.")
     pendulums: dict[Name, Pendulum] = Field(
         default_factory=dict, description="Centrifugal pendulum absorbers by name; they need [train.run]."
@@ -523,6 +532,24 @@ class Train(Description):
         default_factory=dict, description="Measured curves for comparison, by name."
     )
     transient: TrainTransient | None = Field(None, description="Manoeuvre in time.")
+
+    @property
+    def coaxial(self) -> dict[str, tuple[str, str]]:
+        """Pairs of discs that clutches and freewheels connect, by name."""
+        pairs = {name: clutch.between for name, clutch in self.clutches.items()}
+        wheels = {name: wheel.between for name, wheel in self.freewheels.items()}
+        return pairs | {name: pair for name, pair in wheels.items() if GROUND not in pair}
+
+    @property
+    def engaged(self) -> list[tuple[str, str]]:
+        """Pairs of discs that move as one where the train runs: of closed clutches, and of freewheels."""
+        is_open = {name for name, clutch in self.clutches.items() if not clutch.closed}
+        return [pair for name, pair in self.coaxial.items() if name not in is_open]
+
+    @property
+    def rubs(self) -> bool:
+        """Whether it has parts with dry friction."""
+        return bool(self.clutches or self.brakes or self.freewheels)
 
     @property
     def installed(self) -> tuple[InstalledEngine, ...]:

@@ -18,10 +18,16 @@ from linkwright.torsion.model.train_transient import transient_faults
 from linkwright.torsion.model.whole_train import Contradiction, RodShaft, parts_of, speeds, whole_train
 
 # Tables whose entries join two discs, and those whose entries sit on one.
-_TABLES = ("shafts", "couplings", "gears")
+_TABLES = ("shafts", "couplings", "gears", "clutches", "freewheels")
+# What holds a disc where the table of a connection does not.
+_HELD_BY = {
+    "clutches": "hold a disc by a brake, [train.brakes.NAME]",
+    "freewheels": 'a backstop is between = ["ground", DISC]',
+}
+
 _MEMBERS = ("sun", "ring", "carrier")
 _NUMBERS = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
-_ON = ("dampers", "pendulums", "loads", "excitations", "drivers", "motors", "mechanisms")
+_ON = ("brakes", "dampers", "pendulums", "loads", "excitations", "drivers", "motors", "mechanisms")
 
 
 def train_faults(train: object) -> Iterator[InitErrorDetails]:
@@ -63,13 +69,20 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
             return
         yield from _speed_faults(train, expanded)
         yield from _motor_faults(train)
+        yield from _friction_faults(train, expanded)
         yield from transient_faults(train, (*discs, *train.dampers, *train.pendulums))
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
     cranks = [name for engine, throws in _engines(train) for name in crank_names(throws, engine)]
     for tables, taken in (
-        (("shafts", "couplings", "dampers", "pendulums", "gears"), [*cranks, *_mesh_names(train)]),
+        (
+            (
+                *("shafts", "couplings", "dampers", "pendulums", "gears"),
+                *("clutches", "brakes", "freewheels"),
+            ),
+            [*cranks, *_mesh_names(train)],
+        ),
         (("discs", "dampers", "pendulums"), (*_throw_names(train), *_planet_names(train))),
     ):
         seen = {name: "engine" if "throw" in name or "crank" in name else "planetaries" for name in taken}
@@ -143,10 +156,13 @@ def _name_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDetai
         for name, ends in _pairs(train, table):
             place = ("train", table, name, "between")
             on_carrier = look(look(look(train, table), name), "carrier") is not None
-            known = discs if table == "gears" and not on_carrier else (*discs, GROUND)
+            held = table != "clutches" and (table != "gears" or on_carrier)
+            known = (*discs, GROUND) if held else discs
+            # A mesh is counted at its first disc, and a backstop holds its second.
+            free_end = {"gears": 0, "freewheels": 1}.get(table)
             for n, end in enumerate(ends):
-                if end == GROUND and (end not in known or (n == 0 and table == "gears")):
-                    remedy = "hold a disc by a shaft to the ground"
+                if end == GROUND and (end not in known or n == free_end):
+                    remedy = _HELD_BY.get(table, "hold a disc by a shaft to the ground")
                     yield fault(*place, n, found=end, expected="the name of a disc", remedy=remedy)
                 elif end not in known:
                     remedy = close_match(end, known) or suggestion(end, discs)
@@ -269,6 +285,15 @@ def _speed_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:
         yield fault("train", "shafts", heavy[0], "inertia", found="distributed", expected=expected)
 
 
+def _friction_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:
+    """Open clutches in forced vibration, friction beside gears on a carrier."""
+    for name, clutch in train.clutches.items():
+        if train.run is not None and not clutch.closed:
+            remedy = "give its course in the manoeuvre by times and engagement, or leave [train.run] out"
+            expected = "true in a train with [train.run], whose vibration a clutch has to carry"
+            yield fault("train", "clutches", name, "closed", found=False, expected=expected, remedy=remedy)
+
+
 def _listed(names: Sequence[str]) -> str:
     return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
 
@@ -288,6 +313,8 @@ def _no_throw(error: InputError | ArithmeticError) -> InitErrorDetails:
 
 def _loop_fault(wrong: Contradiction) -> InitErrorDetails:
     remedy = "the other way around the loop must give the same ratio, with its sense"
+    if wrong.table in ("clutches", "freewheels"):
+        remedy = "clutches in parallel need equal ratios; describe one way of the gearbox at a time"
     return fault(
         "train",
         wrong.table,

@@ -15,7 +15,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
@@ -40,7 +40,17 @@ from linkwright.kernel.description.base import (
 from linkwright.kernel.description.curve import curve_faults
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.units.kinds import RATIO, SPEED, TIME, TORSIONAL_DAMPING
-from linkwright.kernel.units.marks import Angle, QuantityList, Speeds, Torque, Torques, not_negative, positive
+from linkwright.kernel.units.marks import (
+    Angle,
+    QuantityList,
+    Speed,
+    Speeds,
+    Torque,
+    Torques,
+    not_negative,
+    positive,
+)
+from linkwright.torsion.model.clutch import EngagedPart
 from linkwright.torsion.model.ice_impacts import IceImpacts
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 
@@ -85,6 +95,24 @@ class MotorSwitch(Description):
     kind: Literal["motor_on", "motor_off"]
     time: Instant = Field(description="Time of the event.")
     motor: str = Field(description="Name of the motor.")
+
+
+class ClutchSwitch(Description):
+    """A clutch is engaged or disengaged."""
+
+    kind: Literal["clutch_on", "clutch_off"]
+    time: Instant = Field(description="Time at which the event begins.")
+    clutch: str = Field(description="Name of the clutch.")
+    over: Instant = Field(0.0, description="Duration of the change.")
+
+
+class BrakeSwitch(Description):
+    """A brake is applied or released."""
+
+    kind: Literal["brake_on", "brake_off"]
+    time: Instant = Field(description="Time at which the event begins.")
+    brake: str = Field(description="Name of the brake.")
+    over: Instant = Field(0.0, description="Duration of the change.")
 
 
 class FuelSwitch(Description):
@@ -156,6 +184,8 @@ class ShortCircuit(_TimedEvent):
 AnyTrainEvent = Annotated[
     LoadStep
     | MotorSwitch
+    | ClutchSwitch
+    | BrakeSwitch
     | FuelSwitch
     | Misfire
     | TorqueStep
@@ -191,6 +221,11 @@ class TrainTransient(CheckedDescription):
     duration: Annotated[float, positive(TIME)] = Field(description="Duration of the manoeuvre.")
     speed: Annotated[float, not_negative(SPEED)] = Field(
         0.0, description="Speed of the first disc at the start; 0 is a start from rest."
+    )
+    speeds: dict[Name, Speed] = Field(
+        default_factory=dict,
+        description="Speeds at the start of parts that clutches and freewheels separate, each by one of its "
+        "discs; the others follow from speed.",
     )
     angle: Angle = Field(0.0, description="Angle of the first disc at the start.")
     balanced: bool = Field(
@@ -282,12 +317,21 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
     twisting += [crank for engine in train.installed for crank in engine.cranks]
     for name in manoeuvre.twists:
         yield from _unknown(name, twisting, "shaft, coupling or elastic mesh", "twists", name)
+    for name in manoeuvre.speeds:
+        yield from _unknown(name, discs, "disc", "speeds", name)
+        if not train.rubs:
+            expected = "no other speeds in a train without clutches, brakes and freewheels"
+            yield fault("train", "transient", "speeds", name, found=name, expected=expected)
     for n, event in enumerate(manoeuvre.events):
         match event:
             case LoadStep(load=load):
                 yield from _unknown(load, train.loads, "load", "events", n, "load")
             case MotorSwitch(motor=name):
                 yield from _unknown(name, motors, "motor", "events", n, "motor")
+            case ClutchSwitch(clutch=name):
+                yield from _switch_faults(name, train.clutches, "clutch", n)
+            case BrakeSwitch(brake=name):
+                yield from _switch_faults(name, train.brakes, "brake", n)
             case Misfire() | FuelSwitch():
                 yield from _engine_faults(train, event, n)
             case _:
@@ -299,6 +343,15 @@ def _unknown(name: str, known: Iterable[str], word: str, *place: str | int) -> I
     if name not in listed:
         remedy = close_match(name, listed) or suggestion(name, listed) or f"there is no {word}"
         yield fault("train", "transient", *place, found=name, expected=f"the name of a {word}", remedy=remedy)
+
+
+def _switch_faults(
+    name: str, parts: Mapping[str, EngagedPart], word: str, n: int
+) -> Iterator[InitErrorDetails]:
+    yield from _unknown(name, parts, word, "events", n, word)
+    if name in parts and parts[name].times is not None:
+        expected = f"a {word} without times and engagement"
+        yield fault("train", "transient", "events", n, word, found=name, expected=expected)
 
 
 def _engine_faults(train: Train, event: Misfire | FuelSwitch, n: int) -> Iterator[InitErrorDetails]:

@@ -199,12 +199,14 @@ def parts_of(names: Iterable[Node], pairs: Iterable[tuple[Node, Node]]) -> list[
 
 
 def joints(train: Train) -> Iterator[Joint]:
-    """All connections between discs: shafts, then gears; those to the ground are left out."""
+    """All connections between discs: shafts, gears, clutches; those to the ground are left out."""
     for name, shaft in train.shafts.items():
         if GROUND not in shaft.between:
             yield Joint("shafts", name, *shaft.between, 1.0)
     for name, gear in train.gears.items():
         yield Joint("gears", name, *gear.between, gear.speed_ratio)
+    for name, pair in train.coaxial.items():
+        yield Joint("clutches" if name in train.clutches else "freewheels", name, *pair, 1.0)
 
 
 class Speeds(NamedTuple):
@@ -251,6 +253,9 @@ class _Relation(NamedTuple):
 def _relations(train: Train) -> Iterator[_Relation]:
     for name, shaft in train.shafts.items():
         yield _Relation("shafts", name, 1.0, dict(zip(shaft.between, (1.0, -1.0), strict=True)))
+    for name, pair in train.coaxial.items():
+        table = "clutches" if name in train.clutches else "freewheels"
+        yield _Relation(table, name, 1.0, dict(zip(pair, (1.0, -1.0), strict=True)))
     first = next(iter(train.discs))
     for name, gear in train.gears.items():
         a, b, c, i = *gear.between, gear.carrier or GROUND, gear.speed_ratio

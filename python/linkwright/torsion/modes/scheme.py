@@ -35,7 +35,7 @@ from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.modes.free import own_stiffness
 
-Kind = Literal["shaft", "coupling", "mesh", "gears", "bearing", "damper", "pendulum"]
+Kind = Literal["shaft", "coupling", "mesh", "gears", "bearing", "clutch", "damper", "pendulum"]
 
 # Shear modulus of the shaft of equivalent lengths: steel.
 _SHEAR_MODULUS = 79.3e9
@@ -50,7 +50,7 @@ class Connection(NamedTuple):
         Of the shaft, the gear stage, the coupling or the damper.
     kind : str
         ``"shaft"``, ``"coupling"``, ``"mesh"`` (elastic gears), ``"gears"`` (rigid), ``"bearing"`` (of a gear
-        on its carrier) or ``"damper"``.
+        on its carrier), ``"clutch"`` (or a freewheel) or ``"damper"``.
     first, second : str
         Discs, or ``"ground"``.
     ratio : float
@@ -169,6 +169,8 @@ def _rigid(train: Train) -> Iterator[Connection]:
     for name, gear in train.gears.items():
         if gear.stiffness is None:
             yield Connection(name, "gears", *gear.between, abs(gear.speed_ratio))
+    for name, pair in train.coaxial.items():
+        yield Connection(name, "clutch", *pair, 1.0)
 
 
 def _bearings(train: Train) -> Iterator[Connection]:

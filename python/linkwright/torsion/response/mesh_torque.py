@@ -26,7 +26,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -40,7 +40,6 @@ from linkwright.machine.machine import Machine
 from linkwright.torsion.core.train import HELD
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train
 from linkwright.torsion.excitation.harmonics import span
-from linkwright.torsion.model.train import TrainGear
 from linkwright.torsion.response.forced import TorsionResponse, shaft_flow, torsion_response
 
 # Share of a stage's torque that statics leaves open before it is called undetermined.
@@ -247,7 +246,9 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
         net[:, second] += flow[:, s]
     torques = np.empty((len(outside), len(gears), outside.shape[-1]), complex)
     rigid = [name for name, gear in gears.items() if gear.stiffness is None]
-    passed = passed_on(referred.discs, gears, rigid, net[:, :-1])
+    # Engaged clutches pass torque on as rigid stages do.
+    pairs = [gears[name].between for name in rigid] + at.train.engaged
+    passed = passed_on(referred.discs, pairs, net[:, :-1])
     for g, name in enumerate(gears):
         first_speed = referred.scale[referred.discs.index(gears[name].between[0])]
         if name in rigid:
@@ -257,13 +258,10 @@ def _stage_torques(at: ExcitedTrain, outside: Complexes | Floats, shafts: Comple
     return torques
 
 
-def passed_on(
-    discs: tuple[str, ...], gears: dict[str, TrainGear], rigid: list[str], net: Complexes | Floats
-) -> Complexes:
-    """Torques of rigid stages (…, rigid, n) by those left at discs (…, discs, n) [N m]; NaN in loops."""
-    joins = np.zeros((len(discs), len(rigid)))
-    for g, name in enumerate(rigid):
-        first, second = gears[name].between
+def passed_on(discs: tuple[str, ...], pairs: Sequence[tuple[str, str]], net: Complexes | Floats) -> Complexes:
+    """Torques between rigid pairs (…, pairs, n) by those left at discs (…, discs, n) [N m]; NaN in loops."""
+    joins = np.zeros((len(discs), len(pairs)))
+    for g, (first, second) in enumerate(pairs):
         joins[discs.index(first), g] += 1.0
         joins[discs.index(second), g] -= 1.0
     inverse = np.linalg.pinv(joins)

@@ -15,7 +15,10 @@ def manoeuvre_tables(moved: TorsionTransient) -> Iterator[Table]:
     """Ice, then extremes of the torques and when they come."""
     if moved.ice:
         yield _ice(moved)
-    yield _shafts(moved)
+    if moved.shafts:
+        yield _shafts(moved)
+    if moved.frictions:
+        yield _frictions(moved)
     if moved.stages:
         yield _stages(moved)
     if moved.pendulums:
@@ -35,6 +38,16 @@ def _shafts(moved: TorsionTransient) -> Table:
     cells = ("name", "", "torque_max", "torque_max_time", "torque_min", "torque_min_time")
     title = f"Manoeuvre of {quantity(float(moved.time[-1]), 's')}: torques of the shafts"
     return part_table("manoeuvre", title, parts_of(moved, "shafts"), heads, *cells)
+
+
+def _frictions(moved: TorsionTransient) -> Table:
+    heads = ("part", "", "peak torque", "at", "heat", "peak power", "slipping", "stuck", "engagements")
+    cells = (
+        *("name", "", "friction_torque_max", "friction_torque_max_time", "friction_heat"),
+        *("friction_power_max", "slip_time", "stuck_time", "engagements"),
+    )
+    title = "Manoeuvre: clutches, brakes and freewheels"
+    return part_table("manoeuvre_friction", title, parts_of(moved, "frictions"), heads, *cells)
 
 
 def _stages(moved: TorsionTransient) -> Table:

@@ -72,6 +72,9 @@ def manoeuvre_csv(moved: TorsionTransient) -> str:
     columns: dict[str, Floats] = {"time [s]": moved.time}
     columns |= {f"{name} speed [rad/s]": row for name, row in zip(moved.discs, moved.speed, strict=True)}
     columns |= {f"{name} torque [N m]": row for name, row in zip(moved.shafts, moved.torque, strict=True)}
+    rubbing = list(zip(moved.frictions, moved.slip, moved.friction_torque, strict=True))
+    columns |= {f"{name} slip [rad/s]": slip for name, slip, _ in rubbing}
+    columns |= {f"{name} friction torque [N m]": torque for name, _, torque in rubbing}
     return columns_csv(columns)
 
 

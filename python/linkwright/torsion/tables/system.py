@@ -100,6 +100,7 @@ _KINDS = {
     "mesh": "elastic gear stage",
     "gears": "gear stage",
     "bearing": "bearing on a carrier",
+    "clutch": "clutch",
     "damper": "damper",
     "pendulum": "pendulum",
 }
