@@ -1365,8 +1365,8 @@ def driveline_motion(
     torques and slopes of those that are not straight, None of the others; lists `drivers` and `loads` of
     `DrivelineTorque`, `stations` of `DrivelineStation`; `swing`, damping of every mass against the rotation
     of all with its share in that, or None. `fastest`: size of the fastest eigenvalue that lasts; followed for
-    `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to `multiples` of them, from
-    a state `start` if given.
+    `cycles_first` cycles at first, for `cycles_max` at most, to a motion that repeats after up to `multiples`
+    of them, from a state `start` if given.
     """
 
 def driveline_branch(
