@@ -40,7 +40,7 @@ def gear_torque_figure(gear: GearTorque, best: GearTorque | None = None) -> Figu
     counterbalance.
     """
     load = Line(gear.rod_load, RED)
-    torques = [
+    torques: list[Line | Level] = [
         Line(gear.torque_rod, RED, "polished rod"),
         Line(gear.torque_counterbalance, GREEN, "counterbalance"),
         Line(gear.torque_net, BLUE, "gearbox"),

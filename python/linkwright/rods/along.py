@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Indices
 from linkwright.rods.core import cards_of
 from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.model.rod_string import RodString
@@ -23,7 +23,7 @@ class AlongRods(NamedTuple):
     """A string by depth; a taper is there twice, as the end of the rods above and the top of those below."""
 
     depth: Floats  # (nodes,) below the polished rod [m]
-    section: Floats  # (nodes,) number of the section, from 0
+    section: Indices  # (nodes,) number of the section, from 0
     position: Floats  # (nodes, n) upward [m]
     load: Floats  # (nodes, n) effective tension, with the weight in the fluid below [N]
     stress: Floats  # (nodes, n) by that tension [Pa]

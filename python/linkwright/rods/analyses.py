@@ -6,7 +6,6 @@ from linkwright.machine.analysis import Analysis, of
 from linkwright.machine.machine import Machine
 
 
-
 def _has_card(machine: Machine) -> bool:
     return machine.rod_string is not None and machine.rod_string.card is not None
 

@@ -77,7 +77,7 @@ def diagnosis_figures(
     )
     drawn = cards_figure(string, found, motion)
     yield CaptionedFigure("measured_cards", "Measured surface card and pump card", caption, drawn)
-    yield from _stresses(string, found)
+    yield from _stresses(string, found, "measured_", ", measured card")
 
 
 def compared_figures(machine: Machine, found: CardDiagnosis) -> Iterator[CaptionedFigure]:
@@ -85,7 +85,10 @@ def compared_figures(machine: Machine, found: CardDiagnosis) -> Iterator[Caption
     return diagnosis_figures(string_of(machine), found, string_shown(machine))
 
 
-def _stresses(string: RodString, result: Strung) -> Iterator[CaptionedFigure]:
+def _stresses(
+    string: RodString, result: Strung, before: str = "", behind: str = ""
+) -> Iterator[CaptionedFigure]:
+    """Goodman diagram and loads by depth; `before`, `behind`: what makes name and title their own."""
     stress, along = result.stress, along_rods(string, result)
     if stress.loading_max is not None:
         caption = (
@@ -93,14 +96,15 @@ def _stresses(string: RodString, result: Strung) -> Iterator[CaptionedFigure]:
             f"grade; the largest range is {number(100 * stress.loading_max)} % of the permissible one."
         )
         drawn = goodman_figure(string, stress)
-        yield CaptionedFigure("goodman", "Modified Goodman diagram", caption, drawn)
+        yield CaptionedFigure(f"{before}goodman", f"Modified Goodman diagram{behind}", caption, drawn)
     low = float(along.load.min())
     low = low if abs(low) > _ROUNDING * along.load.max() else 0.0
     caption = (
         "Minimum and maximum of effective tension and stress along the rods; the tension falls to "
         f"{quantity(low, 'N')}."
     )
-    yield CaptionedFigure("rod_depth", "Loads and stresses by depth", caption, depth_figure(string, along))
+    title, drawn = f"Loads and stresses by depth{behind}", depth_figure(string, along)
+    yield CaptionedFigure(f"{before}rod_depth", title, caption, drawn)
 
 
 @styled
@@ -111,11 +115,10 @@ def cards_figure(string: RodString, result: Strung, compared: RodStringMotion | 
         _closed(axes, *card[1:], color=colour, label=card[0])
     if compared is not None:
         for n, card in enumerate((*cards(string, compared),)[:: len(compared.stations) - 1]):
-            look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (5, 3))}
+            look: Any = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (5, 3))}
             _closed(axes, *card[1:], label="" if n else "predicted", **look)
-    gear = result.gear if isinstance(result, RodStringMotion) else None
-    if gear is not None:
-        _permissible(axes, gear, result)
+    if isinstance(result, RodStringMotion) and result.gear is not None:
+        _limits(axes, result, result.gear)
     axes.set_xlabel("position $u$ [m]", **MATH)
     axes.set_ylabel("load $F$ [N]", **MATH)
     zero_line(axes)
@@ -131,20 +134,19 @@ def _closed(axes: Axes, position: Floats, load: Floats, **look: Any) -> None:
     axes.plot(np.append(position, position[0]), np.append(load, load[0]), **look)
 
 
-def _permissible(axes: Axes, gear: GearTorque, result: Strung) -> None:
+def _limits(axes: Axes, motion: RodStringMotion, gear: GearTorque) -> None:
     """Limits of the load by gearbox and structure."""
-    if gear.load_permissible is not None:
-        span = _BEYOND * float(np.ptp(result.rod_load))
-        low, high = result.rod_load.min() - span, result.rod_load.max() + span
-        angle = getattr(result, "crank_angle", None)
-        order = np.argsort(angle)
-        place = np.interp(gear.crank_angle, angle[order], result.rod_position[order], period=2 * np.pi)
-        limit = np.where(
-            (gear.load_permissible > low) & (gear.load_permissible < high), gear.load_permissible, np.nan
-        )
-        axes.plot(place, limit, color=INK, linewidth=1.1, label="rated torque", linestyle=(0, (2, 2)))
+    if gear.load_permissible is not None and motion.crank_angle is not None:
+        span = _BEYOND * float(np.ptp(motion.rod_load))
+        low, high = motion.rod_load.min() - span, motion.rod_load.max() + span
+        order = np.argsort(motion.crank_angle)
+        own = motion.crank_angle[order], motion.rod_position[order]
+        place = np.interp(gear.crank_angle, *own, period=2 * np.pi)
+        is_near = (gear.load_permissible > low) & (gear.load_permissible < high)
+        limit = np.where(is_near, gear.load_permissible, np.nan)
+        axes.plot(place, limit, color=INK, linewidth=1.1, label="gearbox rating", linestyle=(0, (2, 2)))
     if gear.load_rated is not None:
-        level(axes, gear.load_rated, "rated load")
+        level(axes, gear.load_rated, "structure rating")
 
 
 @styled
@@ -185,5 +187,6 @@ def depth_figure(string: RodString, along: AlongRods) -> Figure:
     axes[0].set_xlabel("load $F$ [N]", **MATH)
     axes[1].set_xlabel("stress $S$ [MPa]", **MATH)
     for one in axes:
+        one.locator_params(axis="x", nbins=5)
         legend_above(one)
     return figure

@@ -7,7 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.kernel.page.table import Row, Table, columns_csv, few, known_rows, part_table, parts_of, rows_in
+from linkwright.kernel.page.table import (
+    Row,
+    Table,
+    columns_csv,
+    few,
+    known_rows,
+    part_table,
+    parts_of,
+    rows_in,
+)
 from linkwright.kernel.quantities import in_table
 from linkwright.kernel.reader.numbers import measured, number
 from linkwright.pumping.gear_torque import GearTorque
@@ -44,9 +53,9 @@ def string_headline(motion: RodStringMotion) -> Iterator[tuple[str, str, str]]:
 
 def diagnosis_headline(found: CardDiagnosis) -> Iterator[tuple[str, str, str]]:
     """Pump stroke, fluid load and fillage of a measured card, production by the day."""
-    yield from few(found, ("plunger_stroke", "fluid_load"))
-    yield "fillage", number(100 * found.fillage), "%"
-    yield "production", number(found.production * _DAY), "m³/d"
+    yield from few(found, ("plunger_stroke", "fluid_load"), "measured card: ")
+    yield "measured card: fillage", number(100 * found.fillage), "%"
+    yield "measured card: production", number(found.production * _DAY), "m³/d"
 
 
 def diagnosis_tables(found: CardDiagnosis) -> Iterator[Table]:

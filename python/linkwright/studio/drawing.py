@@ -62,9 +62,11 @@ def drawing(
     if scene["motion"] is None:
         # A rod string without a unit.
         del scene["motion"]
-        return scene | {key: {} for key in ("velocities", "accelerations", "centres")} | {
-            key: [] for key in ("forces", "handles", "transfer")
-        }
+        return (
+            scene
+            | {key: {} for key in ("velocities", "accelerations", "centres")}
+            | {key: [] for key in ("forces", "handles", "transfer")}
+        )
     if steady is None and machine.drive is not None and machine.drive.speed:
         # Without a motor the crank turns at its design speed.
         ratio = machine.drive.speed / scene["speeds"]

@@ -52,7 +52,11 @@ def answered(answer: Answer, command: str) -> Content:
         warnings=sentences(answer.warnings),
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,
-        **(machine_sections(machine, None, string) if answer.is_described and isinstance(machine, Machine) else {}),
+        **(
+            machine_sections(machine, None, string)
+            if answer.is_described and isinstance(machine, Machine)
+            else {}
+        ),
     )
 
 

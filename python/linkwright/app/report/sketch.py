@@ -238,7 +238,7 @@ class _Painter:
             ends = [[x, heights[n]], [x, heights[n + 1]]]
             self.mixed(ends, 0.5 * (shares[n] + shares[n + 1]), 4.0 * part["wide"][n])
         plunger = np.array([[-0.45, -0.9], [0.45, -0.9], [0.45, 0.9], [-0.45, 0.9]]) * half
-        self.area(plunger + [x, heights[-1]], INK, _FILL, 1.2)
+        self.area(np.add(plunger, [x, heights[-1]]), INK, _FILL, 1.2)
         self._stress_scale(part)
 
     def _stress_scale(self, part: Scene) -> None:

@@ -42,7 +42,7 @@ _EXAMPLES = {
 }
 
 # Tables that are of one kind and do not say so.
-_KINDS = {("rod_string", "card"): "card"}
+_KINDS: dict[tuple[str, ...], str] = {("rod_string", "card"): "card"}
 
 # Those that are laws: they may be written by a motion controller.
 _LAWS = ("spline", "table")
