@@ -156,6 +156,9 @@ EDGES = {
     ("rods", "pumping.model"),
     ("rods.model", "pumping.model"),
     ("rods.tables", "pumping"),
+    ("rods.figures", "pumping"),
+    ("rods.figures", "pumping.figures"),
+    ("rods.scene", "pumping.model"),
     # What is found is verified by analysis.
     ("synthesis", "linkages"),
     # A path of a task and of a study is described alike.

@@ -28,7 +28,7 @@ def machine_figure(machine: Machine, *names: str, over: str | None = None) -> Fi
         from linkwright.torsion.modes.scheme import scheme
 
         return scheme_figure(scheme(machine))
-    scene = moving_scene(machine, None) if machine.has_crank else None
+    scene = moving_scene(machine, None)
     # A topper or a diagram of torques has no linkage: the first figure of its study tells most of it.
     return study_figure(study(machine)) if scene is None else sketch_figure(scene)
 

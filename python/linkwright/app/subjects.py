@@ -21,6 +21,7 @@ ANALYSES = (
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
     *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC, driveline.RUN_UP),
     rods.STRING,
+    rods.CARD,
     *(kinetostatics.FORCES, kinetostatics.CYLINDER),
     *(cam.FORCE, cam.VIBRATION, kinetostatics.CONTACT_LOSSES),
     *(axes.AXIS, axes.BUS, axes.TIMING),

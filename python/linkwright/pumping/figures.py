@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.lines import Line, Panel, line_figure
+from linkwright.kernel.figure.lines import Level, Line, Panel, dashed, line_figure
 from linkwright.kernel.figure.style import BLUE, GREEN, PURPLE, RED, CaptionedFigure, styled
 from linkwright.kernel.reader.numbers import degrees, number, quantity
 from linkwright.pumping.rod_rotator import RodRotatorMotion
@@ -35,13 +35,17 @@ def polished_rod_figure(unit: PumpingUnitMotion) -> Figure:
 
 
 @styled
-def gear_torque_figure(gear: GearTorque) -> Figure:
-    """Draw the load of the polished rod, and the torques at the crank."""
+def gear_torque_figure(gear: GearTorque, best: GearTorque | None = None) -> Figure:
+    """Draw the load of the polished rod, and the torques at the crank; `best`: with the best
+    counterbalance.
+    """
     load = Line(gear.rod_load, RED)
-    torques = [
+    torques: list[Line | Level] = [
         Line(gear.torque_rod, RED, "polished rod"),
         Line(gear.torque_counterbalance, GREEN, "counterbalance"),
         Line(gear.torque_net, BLUE, "gearbox"),
+        *([dashed(best.torque_net, "best counterbalance")] if best is not None else []),
+        *([Level(gear.torque_rated, "rating")] if best is not None and gear.torque_rated else []),
     ]
     both = Panel("polished-rod load\n$W$ [N]", [load]), Panel("torque at the crank\n[N m]", torques)
     return line_figure(np.degrees(gear.crank_angle), *both, height=4.4)

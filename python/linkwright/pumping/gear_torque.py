@@ -118,6 +118,16 @@ class GearTorque(Result):
     torque_rated: Annotated[float | None, Label("rating of the gearbox by the designation", "", "N m")]
     load_max: Annotated[float, Label("maximum load of the polished rod", "W_max", "N", table="gear_torque")]
     load_rated: Annotated[float | None, Label("rating of the structure by the designation", "", "N")]
+    load_permissible: Annotated[
+        Floats | None,
+        Label(
+            "permissible load of the polished rod",
+            "W_p",
+            "N",
+            "At which the gearbox has its rated torque: upper limit on the upstroke, lower limit on the "
+            "downstroke; None without a rating.",
+        ),
+    ]
     work: Annotated[float, Label("work of the polished rod in a stroke", "A", "J", table="gear_torque")]
 
     @property
@@ -165,6 +175,17 @@ class StrokeLoad:
             return self.rod(size)
         return self.rod() - size * self.moment
 
+    def permissible(self, size: float, rated: float) -> Floats:
+        """Loads at which the net torque is the rated one; infinite at the ends of the stroke.
+
+        Takács, *Sucker-Rod Pumping Handbook*, 3.7: permissible load diagram, solved for the load.
+        """
+        is_air = self.unit.geometry == "air_balanced"
+        resisting = rated + (0.0 if is_air else size) * self.moment
+        with np.errstate(divide="ignore"):
+            above = resisting / (self._passed(resisting) * self.factor)
+        return self.unit.structural_unbalance + (size if is_air else 0.0) + above
+
     def net_slope(self, size: float) -> Floats:
         """Derivative of the net torque by the size of the counterbalance."""
         if self.unit.geometry != "air_balanced":
@@ -210,6 +231,7 @@ def gear_torque(
         torque_rated=rating.torque if rating else None,
         load_max=max(up.extreme(+1, 1)[0], down.extreme(+1, 1)[0]),
         load_rated=rating.load if rating else None,
+        load_permissible=shown.permissible(size, rating.torque) if rating else None,
         work=float(work) * 2 * np.pi,
     )
 

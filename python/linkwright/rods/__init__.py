@@ -2,17 +2,21 @@
 
 | module | |
 | --- | --- |
-| `analyses` | Its analysis, as study, report, studio and studies read it |
+| `along` | The string between its stations, and cards of the stations |
+| `analyses` | Its analyses, as study, report, studio and studies read it |
 | `card` | A measured surface card, and what shows that it is none of this well |
 | `check` | What can be seen without solving, and what a machine consists of |
 | `commands` | ``linkwright rods``: prediction, and diagnosis of a card |
 | `core` | The core's string of sucker rods |
 | `diagnosis` | Diagnosis of a measured surface card |
+| `figures` | Figures of rod strings: cards, torque of the gearbox, Goodman diagram, loads by depth |
+| `measured` | The measured card of a machine file, diagnosed |
 | `model/` | A rod string with its pump in a machine file |
 | `numbers` | Terms of API RP 11L |
 | `plunger_load` | What a pump card tells: plunger stroke, fluid load, fillage |
 | `polished_rod` | Motion of the polished rod in time, with the drive that moves it |
 | `prediction` | Predicted motion of a rod string |
+| `scene` | A rod string under its polished rod, as the moving drawing shows it |
 | `spectrum` | Harmonics of a measured card that stand above its noise |
 | `stress` | Loads and stresses of the sections, by the modified Goodman diagram |
 | `tables` | Results of rod strings as tables of text |

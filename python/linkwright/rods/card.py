@@ -84,13 +84,17 @@ def read_card(path: str | os.PathLike[str]) -> SurfaceCard:
     has_time = "time" in columns_of(Path(path), "", numbers=())[0]
     kinds = {"position": LENGTH, "load": FORCE, **({"time": TIME} if has_time else {})}
     columns = read_columns(path, kinds)
-    position, load = columns["position"], columns["load"]
-    if not has_time:
+    return timed_card(columns["position"], columns["load"], columns.get("time"), f"{path}: column time")
+
+
+def timed_card(position: Floats, load: Floats, time: Floats | None, place: str) -> SurfaceCard:
+    """A card with its period by the times of its samples, where there are any; `place`: for messages."""
+    if time is None:
         return SurfaceCard(position, load)
-    steps = np.diff(columns["time"])
+    steps = np.diff(time)
     if not len(steps) or steps.min() <= 0 or np.ptp(steps) > 0.2 * steps.mean():
         raise InputError(
-            f"{path}: column time: found times that are not equally spaced; expected samples of one "
+            f"{place}: found times that are not equally spaced; expected samples of one "
             "stroke at equal steps of time"
         )
     closes = position[0] == position[-1] and load[0] == load[-1]

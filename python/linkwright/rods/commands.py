@@ -74,6 +74,7 @@ def _predicted(machine: Machine) -> Answer:
         warnings=list(string_warnings(string_of(machine), motion)),
         head=machine.name,
         tables=later("rods.tables:string_tables", motion),
+        figures=later("rods.figures:string_figures", string_of(machine), motion),
         files={"cards.csv": later("rods.tables:cards_csv", motion)},
     )
 
@@ -97,9 +98,11 @@ def _diagnosed(
     )
     return Answer(
         machine=machine,
+        is_described=True,
         results={"card_diagnosis": found},
         warnings=list(diagnosis_warnings(string_of(machine), found)),
         head=machine.name,
         tables=later("rods.tables:diagnosis_tables", found),
+        figures=later("rods.figures:compared_figures", machine, found),
         files={"cards.csv": later("rods.tables:cards_csv", found)},
     )

@@ -7,7 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.kernel.page.table import Row, Table, columns_csv, known_rows, part_table, parts_of, rows_in
+from linkwright.kernel.page.table import (
+    Row,
+    Table,
+    columns_csv,
+    few,
+    known_rows,
+    part_table,
+    parts_of,
+    rows_in,
+)
 from linkwright.kernel.quantities import in_table
 from linkwright.kernel.reader.numbers import measured, number
 from linkwright.pumping.gear_torque import GearTorque
@@ -29,6 +38,24 @@ def string_tables(motion: RodStringMotion) -> Iterator[Table]:
     if motion.gear is not None and motion.gear_best is not None:
         yield _gear(motion.gear, motion.gear_best)
     yield Table("rod_numbers", "Terms of API RP 11L", _HEADS, known_rows(motion.numbers, "rod_numbers"))
+
+
+def string_headline(motion: RodStringMotion) -> Iterator[tuple[str, str, str]]:
+    """Peak loads, plunger stroke, production by the day, loading of rods and gearbox."""
+    yield from few(motion, ("load_max", "load_min", "plunger_stroke"))
+    yield "production", number(motion.production * _DAY), "m³/d"
+    yield from few(motion, ("power_rod",))
+    if motion.stress.loading_max is not None:
+        yield "maximum Goodman loading", number(100 * motion.stress.loading_max), "%"
+    if motion.gear is not None and motion.gear.gear_load is not None:
+        yield "maximum torque over the rating", number(100 * motion.gear.gear_load), "%"
+
+
+def diagnosis_headline(found: CardDiagnosis) -> Iterator[tuple[str, str, str]]:
+    """Pump stroke, fluid load and fillage of a measured card, production by the day."""
+    yield from few(found, ("plunger_stroke", "fluid_load"), "measured card: ")
+    yield "measured card: fillage", number(100 * found.fillage), "%"
+    yield "measured card: production", number(found.production * _DAY), "m³/d"
 
 
 def diagnosis_tables(found: CardDiagnosis) -> Iterator[Table]:

@@ -7,6 +7,7 @@ Fast analyses follow every change at once; slow ones run beside them, in a proce
 | motion | at once | a mechanism that closes somewhere |
 | steady motion | at once | a motor, and a mechanism that closes over the whole revolution |
 | forces | at once | bodies or loads, steady motion |
+| rod string | at once | a motion of the polished rod |
 | servo axes, DC bus, timing | at once | axes, or several cams, and a cycle time |
 | study | beside | – ; everything that `linkwright run` computes |
 | torsion | beside | a train, or a driveline with an elastic part |
@@ -41,8 +42,10 @@ from linkwright.kinetostatics.motion import Motion
 from linkwright.machine.analysis import Analysis, Results
 from linkwright.machine.machine import Machine
 from linkwright.machine.table import grouped, machine_parts
+from linkwright.rods.analyses import STRING
+from linkwright.rods.check import no_motion
 from linkwright.studio.drawing import drawing
-from linkwright.studio.shown import shown
+from linkwright.studio.shown import cards_plot, shown
 from linkwright.studio.timing import timing_view
 from linkwright.studio.views import knife_view, train_view
 
@@ -53,6 +56,9 @@ if TYPE_CHECKING:
 # a slider is held: no line shows more.
 _INTERVALS = 360
 _EVERY = 3
+
+# Accuracy of a rod string, and while a slider is held.
+_FINE, _COARSE = 1e-3, 0.05
 
 # Lanes in the order of their chips.
 _ORDER = ("fast", "study", "torsion")
@@ -103,8 +109,13 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     findings = Findings()
     train = findings.of(train_view, machine) if machine.twists else None
     views = [] if train is None else [train]
+    string = None
+    if STRING.applies(machine) and no_motion(machine) is None:
+        string = findings.of(STRING.analyse, machine, accuracy=_COARSE if held else _FINE)
     if not machine.has_crank:
-        return Answers([], findings.findings, findings.warnings, views=tuple(views))
+        scene = None if string is None else drawing(machine, None, None, string)
+        known = [] if string is None else [_cards(machine, string), shown(STRING.name, string)]
+        return Answers(known, findings.findings, findings.warnings, scene, views=tuple(views))
     steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
     acting = None
     if no_mass(machine) is None:
@@ -112,9 +123,11 @@ def fast(machine: Machine, *, held: bool) -> Answers:
             acting = findings.beside_of(_forces, machine, steady, _EVERY if held else 1)
         elif design_speed(machine):
             acting = findings.beside_of(forces, machine, n=_INTERVALS, contributions=False)
-    scene = findings.of(drawing, machine, steady, acting)
-    results: dict[str, Result | None] = {"steady_state": steady, "forces": acting}
+    scene = findings.of(drawing, machine, steady, acting, string)
+    results: dict[str, Result | None] = {"steady_state": steady, "forces": acting, STRING.name: string}
     known = [shown(name, result) for name, result in results.items() if result is not None]
+    if string is not None:
+        known.insert(0, _cards(machine, string))
     if scene is not None:
         known.append({"name": "transfer", "scalars": [], "plots": scene.pop("transfer")})
     axes = Results(machine)
@@ -128,6 +141,10 @@ def fast(machine: Machine, *, held: bool) -> Answers:
     if tracks := axes.each(TIMING.name):
         views.append(timing_view(machine, tracks))
     return Answers(known, findings.findings, findings.warnings, scene, views=tuple(views))
+
+
+def _cards(machine: Machine, string: Any) -> dict[str, Any]:
+    return {"name": "cards", "scalars": [], "plots": [cards_plot("cards", machine.rod_string, string)]}
 
 
 def _forces(machine: Machine, steady: SteadyState, every: int) -> Any:
@@ -156,6 +173,10 @@ def lanes(machine: Machine) -> list[str]:
 
 def _study(results: Study, to: Language) -> Answers:
     known = [shown(name, result) for name, result in _new_results(results)]
+    if results.card_diagnosis is not None:
+        string = results.machine.rod_string
+        plot = cards_plot("measured_cards", string, results.card_diagnosis, results.rod_string)
+        known.append({"name": "measured_cards", "scalars": [], "plots": [plot]})
     drawn = [figure for figure in results.figures() if figure.name not in _CURVES]
     knife = knife_view(results)
     # What the page does not find among scalars: peak torques, a row a shaft.
@@ -176,7 +197,7 @@ _CURVES = {"speed", "torque", "time", "reduction", "run_up"}
 
 
 def _new_results(results: Study) -> Iterator[tuple[str, Result]]:
-    known = ("steady_state", "forces", AXIS.name, BUS.name, TIMING.name)
+    known = ("steady_state", "forces", STRING.name, AXIS.name, BUS.name, TIMING.name)
     yield from ((name, result) for name, result in results.items() if name.partition(".")[0] not in known)
 
 

@@ -47,16 +47,26 @@ _KINDS: dict[Literal["stroke", "swing"], tuple[str, str, tuple[str, str, str]]] 
 }
 
 
-def drawing(machine: Machine, steady: SteadyState | None, acting: Forces | None) -> dict[str, Any] | None:
+def drawing(
+    machine: Machine, steady: SteadyState | None, acting: Forces | None, string: Any = None
+) -> dict[str, Any] | None:
     """All that the page draws of a mechanism along its steady motion, with forces; None where nothing moves.
 
     As of `moving_scene`; ``velocities`` and ``accelerations`` of moving points, (n, 2) each; ``forces`` with
     the point where they act; ``handles``, points that can be dragged with the entries that follow;
     ``transfer``, plots of transfer functions.
     """
-    scene = moving_scene(machine, steady)
+    scene = moving_scene(machine, steady, string=string)
     if scene is None:
         return None
+    if scene["motion"] is None:
+        # A rod string without a unit.
+        del scene["motion"]
+        return (
+            scene
+            | {key: {} for key in ("velocities", "accelerations", "centres")}
+            | {key: [] for key in ("forces", "handles", "transfer")}
+        )
     if steady is None and machine.drive is not None and machine.drive.speed:
         # Without a motor the crank turns at its design speed.
         ratio = machine.drive.speed / scene["speeds"]

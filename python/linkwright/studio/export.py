@@ -123,7 +123,7 @@ def _scene(machine: Machine, angle: float | None = None) -> tuple[Body, str]:
         steady = steady_state(machine) if machine.has_crank and has_motor(machine) else None
     except FindingError as error:
         words = f"Drawn at constant speed: {error}"
-    scene = moving_scene(machine, steady, angle) if machine.has_crank else None
+    scene = moving_scene(machine, steady, angle)
     if scene is None:
         raise InputError("nothing to draw: the machine has no mechanism that moves")
     return scene, words

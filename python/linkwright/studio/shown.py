@@ -116,6 +116,45 @@ def _plots(name: str, result: Result, declared: list[DeclaredQuantity]) -> Itera
             }
 
 
+# Samples of a card on the page.
+_CARD = 720
+
+
+def cards_plot(key: str, string: Any, result: Any, compared: Any = None) -> dict[str, Any]:
+    """Cards of a rod string as a plot: position and load of each station; `compared`: a prediction beside
+    a diagnosis.
+    """
+    from linkwright.rods.along import cards
+
+    angle = getattr(result, "crank_angle", None)
+    own, turn = (result.time, result.period) if angle is None else (angle % (2 * np.pi), 2 * np.pi)
+    order = np.argsort(own)[:: max(1, len(own) // _CARD)]
+    drawn = [(name, position[order], load[order]) for name, position, load in cards(string, result)]
+    if compared is not None:
+        places = np.linspace(0, len(compared.time) - 1, len(order)).astype(int)
+        drawn += [
+            (f"predicted: {name}", u[places], load[places]) for name, u, load in cards(string, compared)
+        ]
+    name, word, symbol, unit = (
+        ("time", "time", "t", "s") if angle is None else ("crank_angle", "crank angle", "φ", "rad")
+    )
+    x = {"name": name, "word": word, "symbol": symbol, "unit": unit}
+    return {
+        "key": key,
+        "title": "dynamometer cards" if key == "cards" else "measured dynamometer card",
+        "unit": "N",
+        "isHodograph": True,
+        "isCard": True,
+        "x": x | {"values": np.append(own[order], own[order[0]] + turn)},
+        "curves": [
+            {"name": f"{name}.{unit}", "word": name, "symbol": "", "unit": unit}
+            | {"values": np.append(values, values[0])}
+            for name, position, load in drawn
+            for unit, values in (("m", position), ("N", load))
+        ],
+    }
+
+
 def _common(drawn: list[tuple[DeclaredQuantity, Floats]]) -> str:
     """Title of a plot of several curves: their words, as many as a line holds."""
     words = [quantity.word for quantity, _ in drawn]

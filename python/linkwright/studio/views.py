@@ -146,7 +146,7 @@ def thumbnail(folder: Folder, place: str, name: str) -> View:
     """``scene`` at constant speed, or ``view``, of a machine; both None where nothing moves or is none."""
     try:
         machine = loads(opened(folder, place, name), path=base(folder, place, name))
-        scene = moving_scene(machine, None) if machine.has_crank else None
+        scene = moving_scene(machine, None)
         view = None if scene is not None else _view(machine)
     except LinkwrightError:
         # silent: a machine that cannot be drawn has no picture; opening it says why

@@ -39,6 +39,9 @@ def answered(answer: Answer, command: str) -> Content:
         return replace(answer.report(), command=command)
     machine, tables = answer.machine, answer.all_tables()
     figures = answer.all_figures()
+    known = {} if callable(answer.results) else answer.results
+    # The string of the drawing: as it was measured, or as it was predicted.
+    string = known.get("card_diagnosis", known.get("rod_string"))
     if not (tables or figures or answer.findings):
         raise InputError("there is nothing to report: this command gives neither tables nor figures")
     return Content(
@@ -49,7 +52,11 @@ def answered(answer: Answer, command: str) -> Content:
         warnings=sentences(answer.warnings),
         parts=[Part("Results", tables, figures)] if tables or figures else [],
         command=command,
-        **(machine_sections(machine) if answer.is_described and isinstance(machine, Machine) else {}),
+        **(
+            machine_sections(machine, None, string)
+            if answer.is_described and isinstance(machine, Machine)
+            else {}
+        ),
     )
 
 

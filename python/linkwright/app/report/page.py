@@ -93,7 +93,7 @@ def _content(study: Study, command: str) -> Content:
         Part("Results", list(shown(other, "tables")), list(shown(other, "figures"))),
         Part("Details", list(study.showing("details"))),
     )
-    sections = machine_sections(machine, study.steady_state)
+    sections = machine_sections(machine, study.steady_state, study.rod_string)
     knife = knife_scene(study)
     sections["scenes"] = {**({"topper": knife} if knife is not None else {}), **sections["scenes"]}
     sections["assumptions"] = list(study.showing("assumptions"))
@@ -124,25 +124,29 @@ def _passed(study: Study) -> str:
     )
 
 
-def machine_sections(machine: Machine, steady: SteadyState | None = None) -> dict[str, Any]:
-    """Sections of every report about a machine; `steady`: motion at whose speed the drawing moves."""
-    drawn = scene(machine, steady)
+def machine_sections(
+    machine: Machine, steady: SteadyState | None = None, string: Any = None
+) -> dict[str, Any]:
+    """Sections of every report about a machine; `steady`: motion at whose speed the drawing moves; `string`:
+    that of its rod string.
+    """
+    drawn = scene(machine, steady, string)
     return {
         "source": machine.source or "",
         "scenes": {} if drawn is None else {"mechanism": drawn},
-        "sketch": None if drawn is None else _sketch(machine, steady),
+        "sketch": None if drawn is None else _sketch(machine, steady, string),
         "groups": grouped(machine_parts(machine)),
         "assumptions": list(Study(machine).showing("assumptions")),
         "file": in_own_units(machine),
     }
 
 
-def _sketch(machine: Machine, steady: SteadyState | None) -> Callable[[], Figure]:
+def _sketch(machine: Machine, steady: SteadyState | None, string: Any) -> Callable[[], Figure]:
 
     def drawn() -> Figure:
         from linkwright.app.report.sketch import sketch_figure
 
-        moving = moving_scene(machine, steady)
+        moving = moving_scene(machine, steady, string=string)
         assert moving is not None
         return sketch_figure(moving)
 

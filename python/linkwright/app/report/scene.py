@@ -42,11 +42,14 @@ _DURATION = 4.0
 _FINENESS = 1e-5
 
 
-def scene(machine: Machine, steady: SteadyState | None = None) -> Scene | None:
+def scene(machine: Machine, steady: SteadyState | None = None, string: Any = None) -> Scene | None:
     """`moving_scene` as lists for JSON, without the motion, with no more digits than can be seen."""
-    moving = moving_scene(machine, steady)
-    if moving is None:
-        return None
+    moving = moving_scene(machine, steady, string=string)
+    return None if moving is None else listed(moving)
+
+
+def listed(moving: Scene) -> Scene:
+    """A moving scene as lists for JSON."""
     box = moving["box"]
     fineness = _FINENESS * max(box[2] - box[0], box[3] - box[1])
     times, speeds = moving["times"], moving["speeds"]
@@ -59,22 +62,44 @@ def scene(machine: Machine, steady: SteadyState | None = None) -> Scene | None:
             for name, xy in moving["points"].items()
         },
         "headings": {name: _rounded(angle, _FINENESS) for name, angle in moving["headings"].items()},
-        # Unit of the speed that is printed, and its size.
+        "rods": {
+            name: _rounded(values.ravel(), 1e-3 if name == "shares" else fineness)
+            for name, values in moving.get("rods", {}).items()
+        },
+        # Units of speed and stress that are printed, and their sizes.
         "speed_unit": reader().shown("rad/s"),
+        "stress_unit": reader().shown("Pa", "MPa"),
         # Crank angle from which the printed one counts.
         "angle_zero": zero_shown().angle,
         **{key: moving[key] for key in ("parts", "box", "swings", "true_speed")},
     }
 
 
-def moving_scene(machine: Machine, steady: SteadyState | None, through: float | None = None) -> Scene | None:
+def moving_scene(
+    machine: Machine, steady: SteadyState | None, through: float | None = None, string: Any = None
+) -> Scene | None:
     """All that is drawn of a mechanism in motion, with the crank angle `through` [rad] among those drawn.
 
     ``angles`` [rad], ``times`` [s], ``speeds`` [rad/s], ``points``, x and y [m] by name, ``headings``, angles
     of links [rad] by name, all arrays at the same instants; ``parts`` to draw; ``box``, minimum and maximum x
     and y; ``swings``, whether the motion goes back and forth; ``true_speed``, whether the times are those of
-    steady motion; ``motion``, the `Kinematics`. None if the mechanism closes nowhere, or nothing moves.
+    steady motion; ``motion``, the `Kinematics`; ``rods``, places and stresses of a rod string. None if the
+    mechanism closes nowhere, or nothing moves. ``string``: motion of the rod string, where it is known.
     """
+    if machine.rod_string is not None:
+        from linkwright.rods.diagnosis import CardDiagnosis
+        from linkwright.rods.scene import string_scene, string_shown, with_string
+
+        string = string_shown(machine) if string is None else string
+        if string is not None and (machine.is_rod_string_alone or isinstance(string, CardDiagnosis)):
+            return string_scene(machine.rod_string, string)
+        if machine.pumping_unit is not None and string is not None:
+            unit = _mechanism_scene(machine, string.drive or steady, through)
+            return None if unit is None else with_string(unit, machine.rod_string, string)
+    return _mechanism_scene(machine, steady, through)
+
+
+def _mechanism_scene(machine: Machine, steady: SteadyState | None, through: float | None) -> Scene | None:
     if not _closes(machine):
         return None
     closed = closure(machine)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.figure.style import INK, LINES, PAPER, SOFT, WIDTH, named, styled
+from linkwright.kernel.reader.numbers import quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,7 +82,7 @@ class _Painter:
 
     def __init__(self, axes: Axes, pose: Pose) -> None:
         self.axes, self.scene = axes, pose.scene
-        self.at, self.carried = pose.at, pose.carried
+        self.at, self.carried, self.place = pose.at, pose.carried, pose.place
         scene = pose.scene
         left, bottom, right, top = scene["box"]
         self.unit = max(right - left, top - bottom, 1e-9) / _ACROSS
@@ -218,6 +220,41 @@ class _Painter:
 
     def _spring(self, part: Scene) -> None:
         self.line(list(_coil(self.at(part["from"]), self.at(part["to"]), 9 * self.unit)), LINES[2], 1.2)
+
+    def _rods(self, part: Scene) -> None:
+        """A rod string in its well: tubing, barrel and plunger, rods in the colours of their stress."""
+        x, half, top, (foot, head) = part["x"], part["half"], part["top"], part["barrel"]
+        for side in (-half, half):
+            self.line([[x + side, top], [x + side, head]], SOFT, 1.0)
+            self.line([[x + 0.6 * side, head], [x + 0.6 * side, foot]], INK, 1.6)
+        self.line([[x - 0.6 * half, foot], [x + 0.6 * half, foot]], INK, 1.6)
+        self.hatch(np.array([x, top]), np.array([1.0, 0.0]), 6 * half)
+        places = np.arange(len(self.scene["angles"]))
+        heights, shares = (
+            np.array([np.interp(self.place, places, row) for row in self.scene["rods"][key]])
+            for key in ("heights", "shares")
+        )
+        for n in range(len(heights) - 1):
+            ends = [[x, heights[n]], [x, heights[n + 1]]]
+            self.mixed(ends, 0.5 * (shares[n] + shares[n + 1]), 4.0 * part["wide"][n])
+        plunger = np.array([[-0.45, -0.9], [0.45, -0.9], [0.45, 0.9], [-0.45, 0.9]]) * half
+        self.area(np.add(plunger, [x, heights[-1]]), INK, _FILL, 1.2)
+        self._stress_scale(part)
+
+    def _stress_scale(self, part: Scene) -> None:
+        x, top = part["x"] + 2 * part["half"], part["top"] - 2 * part["half"]
+        steps = np.linspace(top - 6 * part["half"], top, 13)
+        for n, (low, high) in enumerate(pairwise(steps)):
+            self.mixed([[x, low], [x, high]], n / 11, 4.0, capped=False)
+        for height, value in ((steps[0], part["range"][0]), (top, part["range"][1])):
+            words = quantity(value, "Pa", 3, usual="MPa")
+            self.words(np.array([x + 0.5 * part["half"], height]), words, ha="left", va="center")
+
+    def mixed(self, ends: Any, share: float, width: float, *, capped: bool = True) -> None:
+        """A line in a colour between those of the lowest and of the highest stress."""
+        more = {} if capped else {"solid_capstyle": "butt"}
+        for colour, alpha in ((LINES[0], 1.0), (LINES[1], float(np.clip(share, 0, 1)))):
+            self.line(ends, colour, width, alpha=alpha, **more)
 
     def _slider(self, part: Scene) -> None:
         width, height = np.array([44, 30] if part["heavy"] else [30, 22]) * self.unit

@@ -40,7 +40,11 @@ _EXAMPLES = {
     "record": "time [s], speed [rpm]",
     "torque_course": "times [s], torque [N m]",
     "speed_course": "times [s], speed [rpm]",
+    "card": "position [in], load [lbf]",
 }
+
+# Tables that are of one kind and do not say so.
+_KINDS: dict[tuple[str, ...], str] = {("rod_string", "card"): "card"}
 
 # Those that are laws: they may be written by a motion controller.
 _LAWS = ("spline", "table")
@@ -79,13 +83,14 @@ def with_points(tables: dict[str, Any], folder: Path, *, allow_outside: bool = F
     """
     columns: list[Column] = []
     for place, table in _tables(tables, ()):
-        if table.get("kind") in list(_EXAMPLES) and isinstance(table.get("file"), str):
+        kind = _KINDS.get(place) or table.get("kind")
+        if kind in list(_EXAMPLES) and isinstance(table.get("file"), str):
             name, key = table.pop("file"), join((*place, "file"))
             path = named_file(name, folder, key, allow_outside=allow_outside)
-            heads = table.pop("columns", None) if table["kind"] in _LAWS else None
-            own = _law_lines(path, key, heads) if table["kind"] in _LAWS else None
-            lists, lines = columns_of(path, key, table["kind"], lines=own)
-            for name in _UNUSED if table["kind"] in _LAWS else ():
+            heads = table.pop("columns", None) if kind in _LAWS else None
+            own = _law_lines(path, key, heads) if kind in _LAWS else None
+            lists, lines = columns_of(path, key, kind, lines=own)
+            for name in _UNUSED if kind in _LAWS else ():
                 lists.pop(name, None)
             table.update(lists)
             columns += [Column((*place, name), path, lines[0], tuple(lines[1:])) for name in lists]

@@ -50,8 +50,13 @@ _SAID = re.compile(r'\bsay\("([^"]+)"')
 def _page_words(content: Content) -> dict[str, Any]:
     scripts = (path.read_text(encoding="utf-8") for path in sorted(_FOLDER.glob("*.js")))
     texts = {text: content.language.template(text) for script in scripts for text in _SAID.findall(script)}
-    speeds = [scene["speed_unit"][0] for scene in content.scenes.values() if "speed_unit" in scene]
-    units = {unit: content.language.unit(unit) for unit in (*speeds, "mm", "m/s")}
+    shown = [
+        scene[key][0]
+        for scene in content.scenes.values()
+        for key in ("speed_unit", "stress_unit")
+        if key in scene
+    ]
+    units = {unit: content.language.unit(unit) for unit in (*shown, "mm", "m/s")}
     return {"texts": texts, "units": units, "decimal": content.language.decimal}
 
 

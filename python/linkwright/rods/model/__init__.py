@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `measured_card` | A measured surface card, by a file of points or by lists |
 | `pump` | The pump at the lower end of the string, and what it lifts |
 | `rod_sizes` | Sizes and grades of sucker rods |
 | `rod_string` | The string: sections, fluid, damping |

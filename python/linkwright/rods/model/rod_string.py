@@ -41,6 +41,7 @@ from linkwright.kernel.units.kinds import (
     SPEED,
 )
 from linkwright.kernel.units.marks import FRACTION, Bound, Quantity, not_negative, positive
+from linkwright.rods.model.measured_card import MeasuredCard
 from linkwright.rods.model.pump import SuckerRodPump
 from linkwright.rods.model.rod_sizes import GRADES, RODS, STEEL
 
@@ -172,6 +173,7 @@ class RodString(CheckedDescription):
     speed: Annotated[float, positive(SPEED)] | None = Field(
         None, description='Pumping speed, such as "8 rpm" for 8 strokes per minute, without a [drive].'
     )
+    card: MeasuredCard | None = Field(None, description="Surface card that was measured on the well.")
     inclination: Annotated[float, Quantity(ANGLE, _VERTICAL)] = Field(
         0.0, description="Maximum inclination of the well from the vertical: vertical wells only."
     )

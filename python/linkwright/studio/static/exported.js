@@ -33,11 +33,13 @@ export function ticks(low, high, most = 6) {
 }
 
 /** A plot as an SVG of its own, with axes, curves and a legend. @param {Sheet} sheet @param {string[]} colours */
-export function svg({ title, heads, rows, isToScale = false }, colours) {
+export function svg({ title, heads, rows, isToScale = false, isPairs = false }, colours) {
   const [width, height, left, top, right, bottom] = [720, 420, 80, 46 + 16 * Math.floor((heads.length - 2) / 4), 20, 54];
-  const [xs, ...ys] = rows;
+  // Of cards every load has its own positions.
+  const [across, ys] = isPairs ? [0, 1].map((side) => rows.filter((_, n) => n % 2 === side)) : [[rows[0]], rows.slice(1)];
+  const places = across.flatMap((row) => Array.from(row));
   const all = ys.flatMap((row) => Array.from(row).filter(Number.isFinite));
-  let [x0, x1] = [Math.min(...Array.from(xs)), Math.max(...Array.from(xs))];
+  let [x0, x1] = [Math.min(...places), Math.max(...places)];
   const pad = 0.05 * (Math.max(...all) - Math.min(...all)) || 1;
   let [y0, y1] = [Math.min(...all) - pad, Math.max(...all) + pad];
   if (isToScale) {
@@ -53,6 +55,7 @@ export function svg({ title, heads, rows, isToScale = false }, colours) {
     ...ticks(y0, y1).map((y) => `<path d="M${left} ${Y(y)}H${width - right}" stroke="#d9dde2"/><text x="${left - 8}" y="${Y(y) + 4}" text-anchor="end">${number(y, 4)}</text>`),
   ];
   const curves = ys.map((row, n) => {
+    const xs = across[n] ?? across[0];
     let move = "M";
     const path = Array.from(row, (y, k) => {
       if (!Number.isFinite(y)) return (move = "M"), "";
@@ -62,7 +65,7 @@ export function svg({ title, heads, rows, isToScale = false }, colours) {
     }).join("");
     return `<path d="${path}" fill="none" stroke="${colours[n % colours.length]}" stroke-width="2"/>`;
   });
-  const legend = heads.slice(1).map((head, n) => `<text x="${left + (n % 4) * 160}" y="${36 + 16 * Math.floor(n / 4)}" fill="${colours[n % colours.length]}">${escaped(head)}</text>`);
+  const legend = (isPairs ? heads.filter((_, n) => n % 2) : heads.slice(1)).map((head, n) => `<text x="${left + (n % 4) * 160}" y="${36 + 16 * Math.floor(n / 4)}" fill="${colours[n % colours.length]}">${escaped(head)}</text>`);
   const words = `<text x="${left}" y="20" font-size="15" font-weight="600">${escaped(title)}</text><text x="${(left + width - right) / 2}" y="${height - 12}" text-anchor="middle">${escaped(heads[0])}</text>`;
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12" fill="#1d2329"><rect width="${width}" height="${height}" fill="#fff"/>${grid.join("")}${curves.join("")}${words}${legend.join("")}</svg>`;
 }

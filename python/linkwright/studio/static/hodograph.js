@@ -1,4 +1,4 @@
-// A vector over the revolution to one scale, with its arrow at the instant: drag a part to enlarge it, double-click for all, click to move the machine there.
+// A vector over the revolution to one scale, with its arrow at the instant, or dynamometer cards, load over position: drag a part to enlarge it, double-click for all, click to move the machine there.
 import { html } from "./html.js";
 import { useEffect, useRef } from "./vendor/hooks.mjs";
 import { rows, short } from "./chart.js";
@@ -16,8 +16,24 @@ const HEIGHT = 260;
 /** Room for the numbers of the axes. */
 const [LEFT, BELOW] = [58, 34];
 
-/** Ends of a component and the origin. @param {Float64Array} values */
-const ends = (values) => [Math.min(0, ...values.filter(Number.isFinite)), Math.max(0, ...values.filter(Number.isFinite))];
+/** Height of a card over its width on the page. */
+const FLAT = 0.45;
+
+/** Ends of components and the origin. @param {ArrayLike<number>[]} rows */
+function ends(rows) {
+  const values = rows.flatMap((row) => Array.from(row)).filter(Number.isFinite);
+  return [Math.min(0, ...values), Math.max(0, ...values)];
+}
+
+/** Components along and across in turn, and what those across are multiplied by to be drawn to one scale. @param {Plot} plot @returns {{ phi: Float64Array, pairs: ArrayLike<number>[][], flat: number }} */
+function sized(plot) {
+  const [phi, ...columns] = rows(plot);
+  const pairs = columns.flatMap((xs, n) => (n % 2 ? [] : [[xs, columns[n + 1]]]));
+  if (!plot.isCard) return { phi, pairs, flat: 1 };
+  const [wide, high] = [0, 1].map((side) => ends(pairs.map((pair) => pair[side])).reduce((low, top) => top - low));
+  const flat = (FLAT * wide) / (high || 1);
+  return { phi, pairs: pairs.map(([xs, ys]) => [xs, Array.from(ys, (y) => y * flat)]), flat };
+}
 
 /** @param {{ plot: Plot }} props */
 export function Hodograph({ plot }) {
@@ -30,17 +46,19 @@ export function Hodograph({ plot }) {
     let seen = true;
     let [zoom, at, from] = /** @type {(number[] | null)[]} */ ([null, null, null]);
     let frame = { scale: 1, x: 0, y: 0 };
-    /** The sample that is nearest to the pointer. @param {Float64Array[]} own */
-    const nearest = ([, xs, ys]) => {
-      if (!at) return -1;
-      const away = Array.from(xs, (x, n) => Math.hypot(...toScreen(frame, x, ys[n]).map((place, k) => place - /** @type {number[]} */ (at)[k])));
-      const n = away.indexOf(Math.min(...away.filter(Number.isFinite)));
-      return away[n] < 40 ? n : -1;
+    /** The sample that is nearest to the pointer, and its pair. @param {ArrayLike<number>[][]} pairs */
+    const nearest = (pairs) => {
+      if (!at) return [-1, 0];
+      const [px, py] = at;
+      const away = pairs.flatMap(([xs, ys], p) => Array.from(xs, (x, n) => {
+        const [X, Y] = toScreen(frame, x, ys[n]);
+        return [Math.hypot(X - px, Y - py), n, p];
+      })).filter(([far]) => far < 40);
+      return away.length ? away.reduce((a, b) => (b[0] < a[0] ? b : a)).slice(1) : [-1, 0];
     };
     const draw = () => {
       if (!seen) return;
-      const own = rows(now.current);
-      const [phi, xs, ys] = own;
+      const { phi, pairs, flat } = sized(now.current);
       const ink = colours();
       const [width, height] = [canvas.clientWidth, HEIGHT];
       const ctx = blank(canvas, width, height);
@@ -49,7 +67,7 @@ export function Hodograph({ plot }) {
         circle(ctx, ...toScreen(frame, ...place), 4);
         fill(ctx, style);
       };
-      const [[left, right], [bottom, top]] = [ends(xs), ends(ys)];
+      const [[left, right], [bottom, top]] = [0, 1].map((side) => ends(pairs.map((pair) => pair[side])));
       frame = fit(zoom ?? [left, bottom, right, top], width - LEFT, height - BELOW, 18);
       frame.x += LEFT;
       const [x0, y1] = toMachine(frame, LEFT, 0);
@@ -75,11 +93,13 @@ export function Hodograph({ plot }) {
         ctx.fillText(number(x, 4), toScreen(frame, x, 0)[0], height - BELOW + 14);
       }
       ctx.textAlign = "right";
-      for (const y of ticks(y0, y1, 5)) {
-        line(y ? ink.grid : ink.soft, 1, [[x0, y], [x1, y]]);
-        ctx.fillText(number(y, 4), LEFT - 6, toScreen(frame, 0, y)[1] + 4);
+      for (const y of ticks(y0 / flat, y1 / flat, 5)) {
+        line(y ? ink.grid : ink.soft, 1, [[x0, y * flat], [x1, y * flat]]);
+        ctx.fillText(number(y, 4), LEFT - 6, toScreen(frame, 0, y * flat)[1] + 4);
       }
-      const [along, across] = now.current.curves.map(({ symbol, word }) => short(symbol, word));
+      const { curves, isCard } = now.current;
+      const units = curves.map(({ unit }) => shownUnit(unit, state.units.value));
+      const [along, across] = curves.map(({ symbol, word }, n) => (isCard ? units[n].unit : short(symbol, word)));
       ctx.fillText(along, width - 6, height - 4);
       ctx.textAlign = "left";
       ctx.fillText(across, LEFT + 12, 12);
@@ -87,27 +107,31 @@ export function Hodograph({ plot }) {
       ctx.beginPath();
       ctx.rect(LEFT, 0, width - LEFT, height - BELOW);
       ctx.clip();
-      const { factor } = shownUnit(now.current.unit, state.units.value);
       for (const { plots } of state.pins.value) {
         const old = plots[now.current.key];
         if (!old) continue;
-        const [u, v] = now.current.curves.map(({ name }) => old.curves[name]);
         ctx.setLineDash([5, 4]);
-        line(ink.series[0], 1.1, Array.from(u, (value, n) => [value / factor, v[n] / factor]));
+        pairs.forEach((_, p) => {
+          const [u, v] = [2 * p, 2 * p + 1].map((n) => old.curves[curves[n].name]);
+          if (u && v) line(ink.series[p % 6], 1.1, Array.from(u, (value, n) => [value / units[2 * p].factor, (v[n] / units[2 * p + 1].factor) * flat]));
+        });
         ctx.setLineDash([]);
       }
-      line(ink.series[0], 1.8, Array.from(xs, (x, n) => [x, ys[n]]));
+      pairs.forEach(([xs, ys], p) => line(ink.series[p % 6], 1.8, Array.from(xs, (x, n) => [x, ys[n]])));
       const scene = state.scene.value;
-      if (scene) {
+      if (scene && now.current.x.name === "crank_angle") {
         const k = placeOf(now.current.x.values, between(scene.angles, placeOf(scene.times, state.time.value)));
-        const tip = /** @type {[number, number]} */ ([between(xs, k), between(ys, k)]);
-        line(ink.accent, 2, [[0, 0], tip]);
-        dot(tip, ink.accent);
+        for (const [xs, ys] of pairs) {
+          const tip = /** @type {[number, number]} */ ([between(xs, k), between(ys, k)]);
+          if (!isCard) line(ink.accent, 2, [[0, 0], tip]);
+          dot(tip, ink.accent);
+        }
       }
-      const n = from ? -1 : nearest(own);
+      const [n, p] = from ? [-1, 0] : nearest(pairs);
       if (n >= 0) {
-        dot([xs[n], ys[n]], ink.ink);
-        const words = `${short(now.current.x.symbol, now.current.x.word)} ${number(phi[n], 4)}: ${number(xs[n], 4)}, ${number(ys[n], 4)}`;
+        const [x, y] = [pairs[p][0][n], pairs[p][1][n]];
+        dot([x, y], ink.ink);
+        const words = `${short(now.current.x.symbol, now.current.x.word)} ${number(phi[n], 4)}: ${number(x, 4)}, ${number(y / flat, 4)}`;
         ctx.fillStyle = ink.panel;
         ctx.fillRect(LEFT + 4, height - BELOW - 20, ctx.measureText(words).width + 10, 16);
         ctx.fillStyle = ink.ink;
@@ -130,9 +154,9 @@ export function Hodograph({ plot }) {
         const [a, b] = [began, ended].map(([x, y]) => toMachine(frame, x, y));
         zoom = [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[0], b[0]), Math.max(a[1], b[1])];
       } else if (ended) {
-        const n = nearest(rows(now.current));
+        const [n] = nearest(sized(now.current).pairs);
         const scene = state.scene.value;
-        if (n >= 0 && scene) {
+        if (n >= 0 && scene && now.current.x.name === "crank_angle") {
           state.playing.value = false;
           state.time.value = between(scene.times, placeOf(scene.angles, now.current.x.values[n]));
         }

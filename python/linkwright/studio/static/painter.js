@@ -58,6 +58,16 @@ function rod(ctx, part, s, style, x, y) {
   stroke(ctx, style, 6);
 }
 
+/** A line in a colour between those of the lowest and of the highest stress. @param {View} view @param {number[][]} places @param {number} share @param {number} width */
+function mixed({ ctx, series }, places, share, width) {
+  for (const [style, alpha] of /** @type {[string, number][]} */ ([[series[0], 1], [series[1], Math.min(Math.max(share, 0), 1)]])) {
+    ctx.globalAlpha = alpha;
+    line(ctx, places);
+    stroke(ctx, style, width);
+  }
+  ctx.globalAlpha = 1;
+}
+
 /** Parts that stand still. @type {Record<string, (view: View, part: Part) => void>} */
 export const STILL = {
   guide(view, part) {
@@ -229,6 +239,33 @@ export const MOVING = {
       return [a[0] + (n / 12) * (b[0] - a[0]) + side * nx, a[1] + (n / 12) * (b[1] - a[1]) + side * ny];
     }));
     stroke(view.ctx, view.ink.soft, 2);
+  },
+  rods(view, part) {
+    const { ctx, frame, ink, scene, k } = view;
+    const [{ heights, shares }, count] = [/** @type {Record<string, Float64Array>} */ (scene.rods), scene.times.length];
+    const half = part.half * frame.scale;
+    const [[x, top], foot, head] = [toScreen(frame, part.x, part.top), ...part.barrel.map((y) => toScreen(frame, 0, y)[1])];
+    for (const side of [-half, half]) {
+      line(ctx, [[x + side, top], [x + side, head]]);
+      stroke(ctx, ink.soft, 1.2);
+    }
+    line(ctx, [[x - 0.6 * half, head], [x - 0.6 * half, foot], [x + 0.6 * half, foot], [x + 0.6 * half, head]]);
+    stroke(ctx, ink.ink, 2);
+    ctx.save();
+    ctx.translate(x, top);
+    hatch(view, 6 * half);
+    ctx.restore();
+    const at = (/** @type {Float64Array} */ values, /** @type {number} */ n) => between(values.subarray(n * count, (n + 1) * count), k);
+    const ys = part.wide.map((_, n) => toScreen(frame, 0, at(heights, n))[1]);
+    part.wide.slice(1).forEach((wide, n) => mixed(view, [[x, ys[n]], [x, ys[n + 1]]], (at(shares, n) + at(shares, n + 1)) / 2, 6 * wide));
+    ctx.beginPath();
+    ctx.rect(x - 0.45 * half, ys[ys.length - 1] - 0.9 * half, 0.9 * half, 1.8 * half);
+    fill(ctx, ink.panel);
+    stroke(ctx, ink.ink, 1.5);
+    const [right, low] = [x + 2 * half, top + 8 * half];
+    for (let n = 0; n < 12; n += 1) mixed(view, [[right, low - (n * half) / 2], [right, low - ((n + 1) * half) / 2]], n / 11, 6);
+    const said = view.stress ?? ((value) => `${Number((value / 1e6).toPrecision(3))} MPa`);
+    part.range.forEach((value, n) => word(view, said(value), right + 8, (n ? low - 6 * half : low) + 4));
   },
   slider(view, part) {
     const [w, h] = part.heavy ? [44, 30] : [30, 22];

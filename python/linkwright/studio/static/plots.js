@@ -17,7 +17,7 @@ import { number, shownUnit } from "./units.js";
 const ROWS_MOST = 181;
 
 /** Plots that say the same as another, or nothing that one looks for first. */
-const ASIDE = /^hodograph\.joint|^forces\.(time|speed|acceleration|power_residual|crank_angle)$|\.time$|^forces\.shaking_force_|_moment$|^run_(up|down)\.crank_angle$|^(motion|reduction)\.|^(steady_state|forces)\.power|^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)|^stress\.(mean|greatest|continuous|transient)/;
+const ASIDE = /^hodograph\.joint|^forces\.(time|speed|acceleration|power_residual|crank_angle)$|\.time$|^rod_string\.(crank_angle|rod_position)$|^forces\.shaking_force_|_moment$|^run_(up|down)\.crank_angle$|^(motion|reduction)\.|^(steady_state|forces)\.power|^forced\.(mean_torques|torque_|.*_heat|power|unevenness_|shaft_torque_max)|^stress\.(mean|greatest|continuous|transient)/;
 
 const titled = (/** @type {string} */ words) => words[0].toUpperCase() + words.slice(1);
 
@@ -28,7 +28,7 @@ function sheet(plot, isDrawn = false) {
     return `${short(symbol, word)} [${shown || "-"}]`;
   });
   const from = isDrawn && plot.isHodograph ? 1 : 0;
-  return { title: titled(plot.title), heads: heads.slice(from), rows: rows(plot).slice(from), isToScale: from > 0 };
+  return { title: titled(plot.title), heads: heads.slice(from), rows: rows(plot).slice(from), isToScale: from > 0 && !plot.isCard, isPairs: from > 0 && plot.isCard };
 }
 
 /** @param {{ plot: Plot }} props */
@@ -44,6 +44,9 @@ function Data({ plot }) {
     </div>`;
 }
 
+/** Curves that the legend names: of a card its loads. @param {Plot} plot */
+const named = ({ curves, isHodograph, isCard }) => (isCard ? curves.filter((_, n) => n % 2) : isHodograph ? [] : curves);
+
 /** @param {{ plot: Plot }} props */
 function Panel({ plot }) {
   const [data, setData] = useState(false);
@@ -53,7 +56,7 @@ function Panel({ plot }) {
   const file = (/** @type {string} */ kind) => `${state.machine.value} ${now.current.title}.${kind}`;
   const asPng = async () => {
     const canvas = document.querySelector(`[data-plot="${CSS.escape(plot.key)}"] canvas`);
-    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, plot.isHodograph ? [] : plot.curves.map(({ symbol, word }) => short(symbol, word)), colours()), file("png"));
+    if (canvas instanceof HTMLCanvasElement) download(await png(canvas, `${titled(plot.title)} [${unit || "–"}]`, named(plot).map(({ symbol, word }) => short(symbol, word)), colours()), file("png"));
   };
   const asSvg = () => download(new Blob([svg(sheet(now.current, true), ["#0072b2", "#d55e00", "#009e73", "#a8478a", "#b97f00", "#56b4e9"])], { type: "image/svg+xml" }), file("svg"));
   const asCsv = () => download(new Blob([csv(sheet(now.current))], { type: "text/csv" }), file("csv"));
@@ -61,7 +64,7 @@ function Panel({ plot }) {
   const head = useMemo(() => html`
       <header>
         <h3>${titled(plot.title)} <small>${unit}</small></h3>
-        <span class="legend">${plot.curves.length > 1 && !plot.isHodograph ? plot.curves.map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6} ${n < 6 ? "" : "again"}"></i>${symbol ? html`<${Sign} symbol=${symbol} />` : word}</span>`) : null}</span>
+        <span class="legend">${plot.curves.length > 1 ? named(plot).map(({ symbol, word, own }, n) => html`<span key=${n} title=${word} translate=${own ? "no" : undefined}><i class="key c${n % 6} ${n < 6 ? "" : "again"}"></i>${symbol ? html`<${Sign} symbol=${symbol} />` : word}</span>`) : null}</span>
         <span class="tools">
           <button class="quiet" aria-pressed=${data} onClick=${() => setData(!data)} title="The numbers as a table">Data</button>
           ${[["CSV", asCsv], ["PNG", asPng], ["SVG", asSvg]].map(([kind, make]) => html`<button key=${kind} class="quiet" onClick=${make} title="Download ${kind}">${kind}</button>`)}

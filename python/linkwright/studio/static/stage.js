@@ -46,6 +46,12 @@ export function tellInstant() {
   words.textContent = `φ ${decimal(degrees.toFixed(1).replace("-", "−")).padStart(6, "\u2007")}°  ${scene.true_speed ? `ω ${number(between(scene.speeds, k) / factor, 4)} ${unit}` : ""}`;
 }
 
+/** A stress in words. @param {number} value */
+function stress(value) {
+  const { unit, factor } = shownUnit("Pa", state.units.value);
+  return `${number(value / factor, 3)} ${unit}`;
+}
+
 /** For the tests. */
 export const frames = { count: 0 };
 
@@ -131,7 +137,7 @@ function run(holder, canvas) {
       return;
     }
     const k = placeOf(scene.times, state.time.value);
-    const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value };
+    const view = { ctx, scene, frame, k, ink, series: ink.series, light: state.picked.value, stress };
     if (stillFor !== scene) {
       paintStill({ ...view, ctx: blank(still, width, height), scene: { ...scene, parts: [...scene.parts.filter(({ kind }) => state.layers.value.paths || kind !== "trace"), ...trails(scene)] } });
       stillFor = scene;

@@ -5,17 +5,17 @@
 type Part = { kind: string, name: string, series?: number, at: string, link?: string | null, angle: number, from: string, to: string,
   ends: number[][] & number[], span: number[], bar: number[], offset: number, radius: number, radii: number[], crossed: boolean,
   outlines: number[][][], place: number[], along: number, rod?: number[] | null, corners: string[], heavy: boolean, slides: boolean,
-  side: string, role: string };
+  side: string, role: string, x: number, half: number, top: number, barrel: number[], range: number[], wide: number[] };
 
 type Scene = { angles: Float64Array, times: Float64Array, speeds: Float64Array, points: Record<string, Float64Array>,
-  headings: Record<string, Float64Array>, parts: Part[], box: number[], swings: boolean, true_speed: boolean,
+  headings: Record<string, Float64Array>, rods?: Record<string, Float64Array>, parts: Part[], box: number[], swings: boolean, true_speed: boolean,
   velocities: Record<string, Float64Array>, accelerations: Record<string, Float64Array>,
   forces: { name: string, point: string, force: Float64Array }[], handles: { point: string, entries: string[] }[],
   centres: Record<string, { at: string, angle: Float64Array, fixed: Float64Array, moving: Float64Array }> };
 
 type Words = { name: string, word: string, symbol: string, unit: string };
 type Curve = Words & { values: Float64Array, own?: boolean };
-type Plot = { key: string, title: string, unit: string, x: Curve, curves: Curve[], isHodograph?: boolean };
+type Plot = { key: string, title: string, unit: string, x: Curve, curves: Curve[], isHodograph?: boolean, isCard?: boolean };
 type Shown = { name: string, scalars: (Words & { value: number })[], plots: Plot[] };
 type Table = { name: string, title: string, heads: string[], rows: string[][] };
 type Figure = { name: string, title: string, caption: string, svg: string };
@@ -37,11 +37,12 @@ type Pin = { name: string, text: string, scalars: Record<string, number>, plots:
 /** A list to choose from: values with their words, and whether these are the user's own. */
 type Options = [value: string | number, words: any, isOwn?: boolean][];
 type Ctx = CanvasRenderingContext2D;
-type Sheet = { title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean };
+type Sheet = { title: string, heads: string[], rows: ArrayLike<number>[], isToScale?: boolean, isPairs?: boolean };
 /** An end of a link that is drawn [m], at a point of the drawing with its name. */
 type Spot = { x: number, y: number, point: string };
 type Frame = { scale: number, x: number, y: number };
-type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string };
+type View = { ctx: Ctx, scene: Scene, frame: Frame, k: number, ink: Record<string, string>, series: string[], light?: string,
+  stress?: (value: number) => string };
 /** What a picture is drawn with; `passed` is the time since the last frame on the page [s], 0 while it stands. */
 type Paper = { ctx: Ctx, width: number, height: number, passed: number, ink: Record<string, string>, series: string[] };
 type Knife = { kind: "topper", law: Float64Array, rate: number, drift: number, phase: number, angle: number, length: number, speed: number,

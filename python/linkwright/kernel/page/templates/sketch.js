@@ -177,6 +177,38 @@
       title(path, label(part));
       return (k) => path.setAttribute("d", coil(at(part.from, k), at(part.to, k)));
     },
+    rods(part) {
+      const { heights, shares } = scene.rods, count = scene.times.length, half = part.half * scale;
+      const [x, top] = place(part.x, part.top), [foot, head] = part.barrel.map((y) => place(0, y)[1]);
+      add("path", "ground", { d: [-half, half].map((side) => `M${x + side} ${top}V${head}`).join(""), "stroke-width": 1.2 });
+      add("path", "barrel", { d: `M${x - 0.6 * half} ${head}V${foot}H${x + 0.6 * half}V${head}`, "stroke-width": 2 });
+      hatch(x, top, 6 * half, 0);
+      // The colour of high stress over that of low stress, more or less opaque.
+      const mixed = (width) => ["--blue", "--red"].map((name) => add("path", "rod", { stroke: `var(${name})`, "stroke-width": width }));
+      const rods = part.wide.slice(1).map((_, n) => mixed(6 * part.wide[n]));
+      const plunger = add("rect", "block", { x: x - 0.45 * half, width: 0.9 * half, height: 1.8 * half, stroke: "var(--ink)", "stroke-width": 1.5 });
+      const right = x + 2 * half, low = top + 8 * half;
+      for (let n = 0; n < 12; n++) {
+        for (const [k, step] of mixed(6).entries()) {
+          step.setAttribute("d", `M${right} ${low - n * half / 2}v${-half / 2}`);
+          if (k) step.setAttribute("stroke-opacity", n / 11);
+        }
+      }
+      const [unit, size] = scene.stress_unit;
+      for (const [n, value] of part.range.entries()) {
+        const words = add("text", "name", { x: right + 8, y: (n ? low - 6 * half : low) + 4 });
+        words.textContent = `${decimal(Number((value / size).toPrecision(3)).toString())} ${WORDS.units[unit] ?? unit}`;
+      }
+      return (k) => {
+        const at = (values, n) => between(values.slice(n * count, (n + 1) * count), k);
+        const ys = part.wide.map((_, n) => place(0, at(heights, n))[1]);
+        for (const [n, both] of rods.entries()) {
+          for (const line of both) line.setAttribute("d", `M${x} ${ys[n]}V${ys[n + 1]}`);
+          both[1].setAttribute("stroke-opacity", (at(shares, n) + at(shares, n + 1)) / 2);
+        }
+        plunger.setAttribute("y", ys[ys.length - 1] - 0.9 * half);
+      };
+    },
     slider(part) {
       const size = part.heavy ? [44, 30] : [30, 22];
       const box = { x: -size[0] / 2, y: -size[1] / 2, width: size[0], height: size[1], rx: 3, "stroke-width": 3 };
@@ -309,11 +341,12 @@
 
   const shown = usual / duration;
   const factor = shown > 1.05 ? say("# times slower than the machine", shown.toPrecision(2)) : say("as fast as the machine");
-  document.getElementById("sketch-words").textContent = scene.true_speed
+  const below = scene.parts.some(({ kind }) => kind === "rods") ? ` ${say("Displacements of the rods are to scale, their depth is shortened; colour: stress.")}` : "";
+  document.getElementById("sketch-words").textContent = (scene.true_speed
     ? say("Speed of steady motion; at the middle playback speed #. Dots: centres of mass.", factor)
     : scene.swings
       ? say("The mechanism does not close over the whole revolution: it oscillates within its range. Dots: centres of mass.")
-      : say("Drawn at constant speed. Dots: centres of mass.");
+      : say("Drawn at constant speed. Dots: centres of mass.")) + below;
   draw(0);
   setPlaying(playing);
 })();
