@@ -1,8 +1,9 @@
 """Diagnosis of a measured surface card: the cards of every taper and of the pump.
 
 Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
-fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever
-it sinks through it.
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and the same wherever
+it sinks through it. How large the latter is does not count: an offset of the load cell or friction of the
+plunger does not make damping.
 
 References
 ----------
@@ -40,6 +41,15 @@ _LEAST, _FOR_EACH = 512, 4
 
 # Largest damping factor that is sought, and how many are tried before the best is refined.
 _DAMPED, _TRIED = 1.0, 26
+
+# Damping factor up to which a string is one.
+_OVERDAMPED = 5.0
+
+# Periods of strokes [s], and what a period may differ from that of the file.
+_PERIODS, _PERIOD_AGREES = (1.0, 300.0), 1.5
+
+# Fluid load of a pump card over that of a full column of fluid, beyond which it is no pump's.
+_COLUMN = 1.75
 
 
 @dataclass(frozen=True)
@@ -161,6 +171,9 @@ def diagnose_card(
     card = checked_card(SurfaceCard(position, load, period), string, stroke)
     period = _period(machine, string, card.period)
     n = len(card.load)
+    if damping is not None and not 0 <= damping <= _OVERDAMPED * _damping_unit(string):
+        highest = _OVERDAMPED * _damping_unit(string)
+        raise InputError(f"damping: found {damping:.6g} 1/s, expected 0 to {highest:.4g} 1/s")
     if harmonics is not None and not 1 <= harmonics <= (n - 1) // 2:
         raise InputError(
             f"harmonics: found {harmonics}, expected 1 to {(n - 1) // 2}: {n} samples hold no more"
@@ -174,24 +187,37 @@ def diagnose_card(
 
 
 def _period(machine: Machine, string: RodString, given: float | None) -> float:
-    if given is not None:
-        if not (np.isfinite(given) and given > 0):
-            raise InputError(f"period: found {given}, expected a time greater than 0")
-        return float(given)
     speed = string.speed if machine.drive is None else machine.drive.speed
-    if speed is None:
+    known = None if speed is None else 2 * np.pi / speed
+    period = known if given is None else float(given)
+    if period is None:
         raise InputError(
             f"{machine.name}: the period of the card is unknown; expected a column time, drive.speed or "
             "rod_string.speed"
         )
-    return float(2 * np.pi / speed)
+    low, high = _PERIODS
+    if not low <= period <= high:
+        raise InputError(
+            f"period: found {period:.6g} s, expected {low:g} to {high:g} s; compare the unit of time"
+        )
+    if known is not None and not 1 / _PERIOD_AGREES <= period / known <= _PERIOD_AGREES:
+        raise InputError(
+            f"period: found {period:.4g} s, expected about that of the machine file, {known:.4g} s; compare "
+            "the unit of time and the speed"
+        )
+    return period
+
+
+def _damping_unit(string: RodString) -> float:
+    """Damping [1/s] of a damping factor of one."""
+    return float(np.pi * string.sound / (2 * string.length))
 
 
 def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) -> float:
     """Damping at which the pump load is even while the plunger lifts, and none while it sinks."""
     from scipy.optimize import minimize_scalar
 
-    unit = np.pi * float(string.sound) / (2 * float(string.length))
+    unit = _damping_unit(string)
 
     def unevenness(factor: float) -> float:
         cards = cards_of(string, period, moved.samples, own.samples, factor * unit)
@@ -220,6 +246,16 @@ def _no_pump_card() -> FindingError:
     )
 
 
+def _require_column(string: RodString, fluid_load: float) -> None:
+    column = float(string.discharge * string.pump.area)
+    if fluid_load > _COLUMN * column:
+        raise InputError(
+            f"card: its pump card has a fluid load of {fluid_load:.4g} N, a column of fluid from the pump to "
+            f"the surface {column:.4g} N; compare period, units, plunger and sections, which are not those "
+            "of the card"
+        )
+
+
 def _diagnosis(
     string: RodString,
     card: SurfaceCard,
@@ -234,6 +270,7 @@ def _diagnosis(
     pump: PlungerLoad | None = plunger_load(_against_barrel(string, cards), cards.load[-1])
     if pump is None:
         raise _no_pump_card()
+    _require_column(string, pump.fluid_load)
     area, stroke = float(string.pump.area), float(np.ptp(card.position))
     lost = float(cards.loss.sum())
     friction = 2 * string.stuffing_box * stroke
