@@ -23,6 +23,10 @@ _LEAST = 24
 # share, or some times the largest of its other steps.
 _GAP, _STEPS = 0.05, 3.0
 
+# Steps of the position, its mean one or those beside, that the step from end to start may have: samples that
+# are missing.
+_MISSING = 5.0
+
 # What a stroke may differ from that of the file, beyond which it is in another unit or of another hole.
 _STROKE_AGREES = 0.1
 
@@ -136,7 +140,9 @@ def _require_closed(position: Floats, load: Floats) -> None:
     steps = np.hypot(
         np.diff(position, append=position[0]) / np.ptp(position), np.diff(load, append=load[0]) / np.ptp(load)
     )
-    if steps[-1] > max(_GAP, _STEPS * np.sort(steps[:-1])[-2]):
+    moved = np.abs(np.diff(position, append=position[0]))
+    beside = max(moved[0], moved[-2], float(moved.mean()))
+    if steps[-1] > max(_GAP, _STEPS * np.sort(steps[:-1])[-2]) or moved[-1] > _MISSING * beside:
         raise InputError(
             f"card: it does not close: from its last sample to its first it is {100 * steps[-1]:.0f} % "
             "of its ranges; expected samples of one whole stroke"

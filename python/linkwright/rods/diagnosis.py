@@ -1,9 +1,9 @@
 """Diagnosis of a measured surface card: the cards of every taper and of the pump.
 
 Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
-fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and the same wherever
-it sinks through it. How large the latter is does not count: an offset of the load cell or friction of the
-plunger does not make damping.
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and the same
+wherever it sinks through it. How large the latter is does not count: an offset of the load cell or friction
+of the plunger does not make damping.
 
 References
 ----------
@@ -41,6 +41,9 @@ _LEAST, _FOR_EACH = 512, 4
 
 # Largest damping factor that is sought, and how many are tried before the best is refined.
 _DAMPED, _TRIED = 1.0, 26
+
+# F beyond which a parameter is significant at 95 % of confidence, with many observations.
+_SIGNIFICANT = 4.0
 
 # Damping factor up to which a string is one.
 _OVERDAMPED = 5.0
@@ -214,7 +217,11 @@ def _damping_unit(string: RodString) -> float:
 
 
 def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) -> float:
-    """Damping at which the pump load is even while the plunger lifts, and none while it sinks."""
+    """Damping at which the pump load is even while the plunger lifts, and while it sinks.
+
+    It is none where the scatter without damping is not significantly larger: an F test of one parameter, each
+    harmonic two observations.
+    """
     from scipy.optimize import minimize_scalar
 
     unit = _damping_unit(string)
@@ -231,7 +238,12 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
         raise _no_pump_card()
     around = factors[max(best - 1, 0)], factors[min(best + 1, _TRIED - 1)]
     refined = minimize_scalar(unevenness, bounds=around, method="bounded", options={"xatol": 1e-4})
-    return float(refined.x if refined.fun <= values[best] else factors[best]) * unit
+    factor, scatter = (
+        (refined.x, refined.fun) if refined.fun <= values[best] else (factors[best], values[best])
+    )
+    if (values[0] - scatter) * 2 * own.harmonics < _SIGNIFICANT * scatter:
+        return 0.0
+    return float(factor) * unit
 
 
 def _against_barrel(string: RodString, cards: Any) -> Floats:

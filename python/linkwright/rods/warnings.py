@@ -17,8 +17,8 @@ _INACCURATE = 2e-3
 # Fluid load of a card over that of the file beyond which they differ.
 _DIFFERS = 0.25
 
-# Harmonics of a load by which its damping can be fitted, and the factor at both ends of what is sought.
-_FEW, _NONE, _MUCH = 9, 1e-3, 0.9
+# Harmonics of a load by which its damping can be fitted, and a factor at the end of what is sought.
+_FEW, _MUCH = 9, 0.9
 
 # Speed over the natural frequency of the string beyond which it is close to resonance.
 _RESONANT = 0.6
@@ -141,7 +141,11 @@ def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]
             f"The damping is uncertain: {found.harmonics} harmonics of the load stand above its noise. "
             "Give it with --damping if it is known."
         )
-    elif found.is_fitted and not _NONE < found.damping_factor < _MUCH:
+    elif found.is_fitted and found.damping == 0:
+        yield (
+            "The card shows no damping of the rods: it is taken as 0. Give it with --damping if it is known."
+        )
+    elif found.is_fitted and found.damping_factor > _MUCH:
         yield (
             f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "
             "of its range: give rod_string.damping with --damping."
