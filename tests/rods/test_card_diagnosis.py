@@ -29,7 +29,7 @@ TUBING = {"tubing_diameter": "2.375 in", "tubing_bore": "1.995 in"}
     ],
 )
 def test_the_card_of_a_predicted_motion_leads_back_to_its_pump(pump, fillage, damping_factor):
-    """Plunger stroke to 0.3 %, fluid load to 2 %, damping to 5 %, fillage to 0.02, with the damping fitted."""
+    """With the damping fitted: stroke to 0.3 %, fluid load to 2 %, damping to 5 %, fillage to 0.02."""
     machine = well(pump, damping_factor=damping_factor)
     motion, position, load = card_of(machine)
     found = lw.diagnose_card(machine, position, load)

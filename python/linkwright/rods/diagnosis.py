@@ -33,7 +33,7 @@ from linkwright.rods.core import cards_of, sample_counts
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.plunger_load import PlungerLoad, plunger_load
 from linkwright.rods.prediction import station_names, string_of
-from linkwright.rods.spectrum import Filtered, filtered
+from linkwright.rods.spectrum import Filtered, filtered, smoothed
 from linkwright.rods.stress import RodStress, rod_stress
 
 # Samples of the cards at least, and for each of the measured ones.
@@ -225,9 +225,10 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
     from scipy.optimize import minimize_scalar
 
     unit = _damping_unit(string)
+    position, load = (smoothed(each.samples, own.harmonics) for each in (moved, own))
 
     def unevenness(factor: float) -> float:
-        cards = cards_of(string, period, moved.samples, own.samples, factor * unit)
+        cards = cards_of(string, period, position, load, factor * unit)
         found = plunger_load(_against_barrel(string, cards), cards.load[-1])
         return np.inf if found is None else found.unevenness
 

@@ -58,3 +58,10 @@ def _highest(above: Bools) -> int:
     counted = np.minimum(np.arange(1, len(above) + 1), _WINDOW)
     places = np.flatnonzero(above & (below >= counted / 2))
     return int(places[-1]) + 1 if len(places) else 0
+
+
+def smoothed(samples: Floats, harmonics: int) -> Floats:
+    """Samples under Lanczos' factors sin(πx)/(πx), x = n/(N + 1): a steep flank does not ripple."""
+    coefficients = np.fft.rfft(samples)
+    factors = np.sinc(np.arange(len(coefficients)) / (harmonics + 1))
+    return np.fft.irfft(coefficients * factors, len(samples))
