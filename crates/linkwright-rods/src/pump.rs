@@ -18,10 +18,14 @@
 use crate::complex::exp;
 use linkwright_kernel::real::Real;
 
-/// Rounds of Newton's method for gas; its convex balance is approached from above.
+/// Rounds of Newton's method for gas, and the largest change of the logarithm of its pressure in one.
 const ROUNDS: usize = 30;
+const LARGEST: f64 = 3.0;
 
-/// What shares Newton's method may err by.
+/// Step of Newton's method, as a share of the load, after which its solution is exact to rounding.
+const NEAR: f64 = 1e-9;
+
+/// Exponent of gas below which it has no pressure.
 const SMALL: f64 = 1e-14;
 
 /// A pump with its valves.
@@ -95,16 +99,24 @@ impl<R: Real> Pump<R> {
     /// Load with both valves shut, within what opens them.
     #[inline(always)]
     fn shut(&self, before: &Plunger<R>, balance: &Balance<R>) -> R {
-        let (zero, full) = (R::splat(0.0), self.load);
-        let mut load = full;
-        // Without gas the balance is linear.
-        let rounds = if self.softness.max_lane() > 0.0 { ROUNDS } else { 1 };
-        for _ in 0..rounds {
+        let (zero, full, most) = (R::splat(0.0), self.load, R::splat(LARGEST));
+        let mut load = before.load;
+        // Without gas the balance is linear; with gas it is nearly so in the logarithm of its pressure.
+        let has_gas = balance.soft.max_lane() > 0.0;
+        for _ in 0..if has_gas { ROUNDS } else { 1 } {
             let (excess, slope) = balance.at(self, before, load);
-            let next = (load - excess / slope).max(zero).min(full);
+            let step = excess / slope;
+            let mut next = load - step;
+            if has_gas {
+                let under = self.under(load);
+                let grown = exp((step / under).min(most).max(-most));
+                next = zero.select_lt(balance.soft, self.discharge - under * grown, next);
+            }
+            let next = next.max(zero).min(full);
             let moved = (next - load).abs();
             load = next;
-            if (moved - full * SMALL).max_lane() <= 0.0 {
+            // The next step would be the square of this one.
+            if (moved - full * NEAR).max_lane() <= 0.0 {
                 break;
             }
         }
@@ -145,7 +157,7 @@ impl<R: Real> Pump<R> {
             return zero;
         }
         let ratio = (self.discharge - self.load) / under;
-        zero.select_lt(self.softness, (ratio.ln() * self.softness).exp(), zero)
+        zero.select_lt(self.softness, exp(ratio.ln() * self.softness), zero)
     }
 }
 

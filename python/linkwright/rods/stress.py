@@ -24,6 +24,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.rods.model.rod_string import GRAVITY, RodString
+from linkwright.rods.scalars import goodman
 
 
 @dataclass(frozen=True)
@@ -72,8 +73,7 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
     high, low = load.max(axis=1) + below, load.min(axis=1) + below
     largest, smallest = high[:-1] / columns.area, low[:-1] / columns.area
     tensile = np.array([np.nan if s.strength is None else s.strength for s in string.sections])
-    permissible = (tensile / 4 + 0.5625 * smallest) * string.service_factor
-    room = permissible - smallest
+    permissible, loading = goodman(string, tensile, largest, smallest)
     return RodStress(
         sections=tuple(f"{s.rod} in" if s.rod else f"{1e3 * s.body:.4g} mm" for s in string.sections),
         length=columns.length,
@@ -83,9 +83,6 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
         stress_max=largest,
         stress_min=smallest,
         stress_permissible=permissible,
-        # Beyond what any range permits the loading is without bound.
-        loading=np.where(
-            room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * tensile
-        ),
+        loading=loading + 0 * tensile,
         tensile=tensile,
     )
