@@ -1792,47 +1792,48 @@ class TopperKnife:
         """Many heads: columns of one entry or one a head; `fine` stations per revolution of the law."""
 
 @final
-class RodCards:
-    """Cards along a rod string: rows of position [m] and load [N], work [J] a station, heat [J] a section."""
+class RodMotions:
+    """Periodic motions of rod strings, a row each: cards (rows, stations, n), wave, mean load and last change."""
 
     position: Final[_Floats]
     load: Final[_Floats]
     work: Final[_Floats]
-    loss: Final[_Floats]
-
-@final
-class RodMotion:
-    """Periodic motion of a rod string with its pump, the wave [N] to start from, sweeps, the last change."""
-
-    cards: Final[RodCards]
     wave: Final[_Floats]
+    ends: Final[_Floats]
     sweeps: Final[int]
-    change: Final[float]
 
-@final
-class RodString:
-    """Sections of sucker rods from the polished rod to the pump: EA [N], μ [kg/m], c [1/s], L [m]."""
+def predict_rods(
+    *,
+    sections: int,
+    numbers: _Floats,
+    motion: _Floats,
+    start: _Floats | None,
+    tolerance: float,
+    sweeps: int,
+) -> RodMotions:
+    """Motions under samples (rows, n) of the polished rods' positions, with cards of twice the samples.
 
-    def __new__(cls, *, rigidity: _Floats, mass: _Floats, damping: _Floats, length: _Floats) -> RodString: ...
-    def cards(self, *, period: float, position: _Floats, load: _Floats, harmonics: int) -> RodCards:
-        """The cards by samples of position and load at the polished rod, of which `harmonics` count."""
-    def predict(
-        self,
-        *,
-        period: float,
-        motion: _Floats,
-        load: float,
-        compliance: float,
-        compressibility: float,
-        slip: float,
-        fillage: float,
-        discharge: float,
-        softness: float,
-        start: _Floats | None,
-        tolerance: float,
-        sweeps: int,
-    ) -> RodMotion:
-        """The periodic motion under samples of the polished rod's position."""
+    Numbers: EA [N], μ [kg/m], c [1/s], L [m] of each section; F₀ [N], κ [m/N], 1/(KA) [1/N], slip [m/s],
+    fillage, D [N], 1/n of the pump; the period [s].
+    """
+
+def rods_along(
+    *,
+    sections: int,
+    numbers: _Floats,
+    motion: _Floats,
+    start: _Floats,
+    numbers_along: _Floats,
+    motion_along: _Floats,
+    tolerance: float,
+    sweeps: int,
+) -> RodMotions:
+    """Derivatives of one motion, whose wave is `start`, by rows of directions of its numbers and samples."""
+
+def rod_cards(
+    *, sections: int, numbers: _Floats, position: _Floats, load: _Floats, harmonics: int
+) -> RodMotions:
+    """Cards by samples (rows, n) of position and load at the polished rods, of which `harmonics` count."""
 
 def torsion_forced(
     *,

@@ -99,7 +99,7 @@ pub mod _core {
         third,
     };
     #[pymodule_export]
-    use super::rods::{RodCards, RodMotion, RodString};
+    use super::rods::{RodMotions, predict_rods, rod_cards, rods_along};
     #[pymodule_export]
     use super::status::Status;
     #[pymodule_export]

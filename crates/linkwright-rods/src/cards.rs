@@ -3,6 +3,7 @@
 use crate::complex::Complex;
 use crate::fourier::{Fourier, Room};
 use crate::string::{Section, State};
+use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use std::f64::consts::TAU;
 
@@ -19,6 +20,7 @@ pub struct Cards<R> {
 }
 
 /// The cards of a string whose top has the harmonics `top`, from the mean on; further ones are zero.
+#[inline(always)]
 pub fn cards<R: Real>(sections: &[Section<R>], period: R, top: &[State<R>], fourier: &Fourier) -> Cards<R> {
     let stations = sections.len() + 1;
     let none = Complex::splat(0.0, 0.0);
@@ -27,23 +29,25 @@ pub fn cards<R: Real>(sections: &[Section<R>], period: R, top: &[State<R>], four
     let mut waves = vec![vec![none; fourier.harmonics()]; 2 * stations];
     let mut work = vec![R::splat(0.0); stations];
     let mut loss = vec![R::splat(0.0); sections.len()];
-    for (n, &state) in top[..count].iter().enumerate() {
-        let omega = R::splat(TAU * n as f64) / period;
-        let mut here = state;
-        for station in 0..stations {
-            waves[2 * station][n] = here.position;
-            waves[2 * station + 1][n] = here.load;
-            // ∮ F dy of a harmonic: amplitudes are twice the coefficients.
-            let power = here.load * here.position.turned().conj();
-            work[station] = work[station] + power.0 * omega * period * 2.0;
-            if let Some(section) = sections.get(station) {
-                if n > 0 {
-                    loss[station] = loss[station] + section.loss(omega, here) * period * 4.0;
+    out_of_line!(R, {
+        for (n, &state) in top[..count].iter().enumerate() {
+            let omega = R::splat(TAU * n as f64) / period;
+            let mut here = state;
+            for station in 0..stations {
+                waves[2 * station][n] = here.position;
+                waves[2 * station + 1][n] = here.load;
+                // ∮ F dy of a harmonic: amplitudes are twice the coefficients.
+                let power = here.load * here.position.turned().conj();
+                work[station] = work[station] + power.0 * omega * period * 2.0;
+                if let Some(section) = sections.get(station) {
+                    if n > 0 {
+                        loss[station] = loss[station] + section.loss(omega, here) * period * 4.0;
+                    }
+                    here = section.at_harmonic(n, omega).below(here);
                 }
-                here = section.at_harmonic(n, omega).below(here);
             }
         }
-    }
+    });
     let mut found = [vec![], vec![]];
     let mut room = Room::new(fourier.samples);
     let mut samples = vec![R::splat(0.0); fourier.samples];

@@ -47,11 +47,43 @@ impl<R: Real> Complex<R> {
     /// Cosine and sine.
     #[inline(always)]
     pub fn cos_sin(self) -> (Self, Self) {
-        let ((sin, cos), grown) = (self.0.sin_cos(), self.1.exp());
+        let ((sin, cos), grown) = (self.0.sin_cos(), exp(self.1));
         let (cosh, sinh) = ((grown + grown.recip()) * 0.5, (grown - grown.recip()) * 0.5);
         (Complex(cos * cosh, -(sin * sinh)), Complex(sin * cosh, cos * sinh))
     }
 }
+
+/// eˣ by its series, which lanes sum side by side, and squares of it; of larger numbers than any damping has, lane by lane.
+#[inline(always)]
+pub fn exp<R: Real>(x: R) -> R {
+    let size = x.abs().max_lane();
+    let squares = match size {
+        ..1.0 => 2,
+        ..64.0 => 8,
+        _ => return x.exp(),
+    };
+    // Of a quarter at most: the term of order 13 is below 1e-17.
+    let x = x * 0.5_f64.powi(squares);
+    let mut sum = R::splat(1.0);
+    for inverse in INVERSES {
+        sum = (x * inverse).mul_add(sum, R::splat(1.0));
+    }
+    for _ in 0..squares {
+        sum = sum.squared();
+    }
+    sum
+}
+
+/// 1/12 to 1.
+const INVERSES: [f64; 12] = {
+    let mut list = [0.0; 12];
+    let mut n = 0;
+    while n < 12 {
+        list[n] = 1.0 / (12 - n) as f64;
+        n += 1;
+    }
+    list
+};
 
 impl<R: Real> Add for Complex<R> {
     type Output = Self;

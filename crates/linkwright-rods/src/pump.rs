@@ -15,12 +15,17 @@
 //! volume over a step weights both its ends as the exponential of a step does, which is exact for tubing under a wave of constant
 //! slope.
 
+use crate::complex::exp;
 use linkwright_kernel::real::Real;
 
-/// Rounds of Newton's method for gas; its convex balance is approached from above.
+/// Rounds of Newton's method for gas, and the largest change of the logarithm of its pressure in one.
 const ROUNDS: usize = 30;
+const LARGEST: f64 = 3.0;
 
-/// What shares Newton's method may err by.
+/// Step of Newton's method, as a share of the load, after which its solution is exact to rounding.
+const NEAR: f64 = 1e-9;
+
+/// Exponent of gas below which it has no pressure.
 const SMALL: f64 = 1e-14;
 
 /// A pump with its valves.
@@ -67,6 +72,7 @@ impl<R: Real> Plunger<R> {
 
 impl<R: Real> Pump<R> {
     /// The plunger after a step, when the wave W has come down.
+    #[inline(always)]
     pub fn step(&self, before: &Plunger<R>, wave: R, step: R) -> Plunger<R> {
         let (zero, full) = (R::splat(0.0), self.load);
         let balance = self.balance(before, wave, step);
@@ -93,14 +99,24 @@ impl<R: Real> Pump<R> {
     /// Load with both valves shut, within what opens them.
     #[inline(always)]
     fn shut(&self, before: &Plunger<R>, balance: &Balance<R>) -> R {
-        let (zero, full) = (R::splat(0.0), self.load);
-        let mut load = full;
-        for _ in 0..ROUNDS {
+        let (zero, full, most) = (R::splat(0.0), self.load, R::splat(LARGEST));
+        let mut load = before.load;
+        // Without gas the balance is linear; with gas it is nearly so in the logarithm of its pressure.
+        let has_gas = balance.soft.max_lane() > 0.0;
+        for _ in 0..if has_gas { ROUNDS } else { 1 } {
             let (excess, slope) = balance.at(self, before, load);
-            let next = (load - excess / slope).max(zero).min(full);
+            let step = excess / slope;
+            let mut next = load - step;
+            if has_gas {
+                let under = self.under(load);
+                let grown = exp((step / under).min(most).max(-most));
+                next = zero.select_lt(balance.soft, self.discharge - under * grown, next);
+            }
+            let next = next.max(zero).min(full);
             let moved = (next - load).abs();
             load = next;
-            if (moved - full * SMALL).max_lane() <= 0.0 {
+            // The next step would be the square of this one.
+            if (moved - full * NEAR).max_lane() <= 0.0 {
                 break;
             }
         }
@@ -117,7 +133,7 @@ impl<R: Real> Pump<R> {
         let give = compliance + soft * self.softness * self.relative(under) / under;
         let z = (step / (self.impedance * give.max(step * 1e-4 / self.impedance))).max(R::splat(1e-6));
         let weight =
-            z.select_lt(R::splat(1e-2), z * (1.0 / 12.0) + 0.5, (one - (-z).exp()).recip() - z.recip());
+            z.select_lt(R::splat(1e-2), z * (1.0 / 12.0) + 0.5, (one - faded(z)).recip() - z.recip());
         let weight = z.select_lt(R::splat(9.9e3), weight, one);
         // What moved while a valve was open is not held.
         let held = zero.select_lt(before.load, before.velocity, before.velocity.max(zero));
@@ -137,9 +153,18 @@ impl<R: Real> Pump<R> {
     #[inline(always)]
     fn relative(&self, under: R) -> R {
         let zero = R::splat(0.0);
+        if self.softness.max_lane() <= 0.0 {
+            return zero;
+        }
         let ratio = (self.discharge - self.load) / under;
-        zero.select_lt(self.softness, (ratio.ln() * self.softness).exp(), zero)
+        zero.select_lt(self.softness, exp(ratio.ln() * self.softness), zero)
     }
+}
+
+/// exp(−z); beyond 40 nothing is left beside 1.
+#[inline(always)]
+fn faded<R: Real>(z: R) -> R {
+    if (-z).max_lane() < -40.0 { R::splat(0.0) } else { exp(-z.min(R::splat(40.0))) }
 }
 
 /// The volume under the plunger over a step, with both valves shut.

@@ -12,7 +12,7 @@
 //! and for the mean y falls by FL/(EA). Source: Gibbs, "Predicting the Behavior of Sucker-Rod Pumping Systems", *J. Pet. Tech.* 15
 //! (1963) 769.
 
-use crate::complex::Complex;
+use crate::complex::{Complex, exp};
 use linkwright_kernel::real::Real;
 
 /// A section of one kind of rod.
@@ -48,15 +48,17 @@ impl<R: Real> Transfer<R> {
     /// y and F below, from those above.
     #[inline(always)]
     pub fn below(&self, above: State<R>) -> State<R> {
-        let row = |[y, f]: [Complex<R>; 2]| y * above.position + f * above.load;
-        State { position: row(self.rows[0]), load: row(self.rows[1]) }
+        let [[a, b], [c, d]] = self.rows;
+        let State { position: y, load: f } = above;
+        State { position: a * y + b * f, load: c * y + d * f }
     }
 
     /// First `above`, then this one.
     #[inline(always)]
     fn after(&self, above: &Self) -> Self {
-        let column = |j: usize| self.below(State { position: above.rows[0][j], load: above.rows[1][j] });
-        let (first, second) = (column(0), column(1));
+        let [[a, b], [c, d]] = above.rows;
+        let first = self.below(State { position: a, load: c });
+        let second = self.below(State { position: b, load: d });
         Transfer { rows: [[first.position, second.position], [first.load, second.load]] }
     }
 }
@@ -105,6 +107,7 @@ impl<R: Real> Section<R> {
     /// Mean power of the damping at a frequency, of amplitudes y and F at its top \[W\]: ½cμω² ∫|y|² dx.
     ///
     /// y = α exp(ikx) + β exp(−ikx), of which the square is integrated in closed form.
+    #[inline(always)]
     pub fn loss(&self, omega: R, top: State<R>) -> R {
         let k = self.wave_number(omega);
         let slope = (top.load * k.times(self.rigidity).recip()) * -1.0;
@@ -125,11 +128,15 @@ impl<R: Real> Section<R> {
 fn mean_of_exponential<R: Real>(z: R) -> R {
     let series = ((z * (1.0 / 24.0) + 1.0 / 6.0) * z + 0.5) * z + 1.0;
     let away = z.abs().select_lt(R::splat(1e-3), R::splat(1.0), z);
-    z.abs().select_lt(R::splat(1e-3), series, (z.exp() - R::splat(1.0)) / away)
+    z.abs().select_lt(R::splat(1e-3), series, (exp(z) - R::splat(1.0)) / away)
 }
 
 /// All sections of a string at harmonic `n`.
+#[inline(always)]
 pub fn whole<R: Real>(sections: &[Section<R>], n: usize, omega: R) -> Transfer<R> {
-    let first = sections[0].at_harmonic(n, omega);
-    sections[1..].iter().fold(first, |above, section| section.at_harmonic(n, omega).after(&above))
+    let mut all = sections[0].at_harmonic(n, omega);
+    for section in &sections[1..] {
+        all = section.at_harmonic(n, omega).after(&all);
+    }
+    all
 }

@@ -26,6 +26,7 @@ STRING = Analysis(
     obstacle=of("rods.check:no_motion"),
     findings=of("rods.warnings:string_findings", "rod_string"),
     warnings=of("rods.warnings:string_warnings", "machine.rod_string", "rod_string"),
+    tangents=of("rods.gradient:string_tangents"),
     check=of("rods.check:check_string"),
     summary=of("rods.check:string_summary"),
     tables=of("rods.tables:string_tables", "rod_string"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,18 +18,38 @@ _SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-11, 1e-6
 _FACTORS = (2, 3, 5)
 
 
-def core_string(string: RodString, damping: float | None = None) -> _core.RodString:
-    """The sections of a string, with another damping [1/s] if given."""
-    columns = string.columns
-    rate = columns.damping if damping is None else np.full(len(columns.mass), damping)
-    return _core.RodString(rigidity=columns.rigidity, mass=columns.mass, damping=rate, length=columns.length)
+def numbers_of(string: RodString, period: Any, damping: Any = None) -> list[Any]:
+    """Numbers of a string for the core, also of arrays or with derivatives; another damping [1/s] if given."""
+    pump, rate = string.pump, string.damping_rate if damping is None else damping
+    sections = [(s.modulus * s.area, s.mass, rate, s.length) for s in string.sections]
+    return [
+        *(number for section in sections for number in section),
+        string.fluid_load,
+        pump.tubing_compliance(string.length),
+        1 / (pump.bulk_modulus * pump.area),
+        pump.leak / pump.area,
+        pump.fillage,
+        string.discharge * pump.area,
+        0.0 if pump.gas_exponent is None else 1 / pump.gas_exponent,
+        period,
+    ]
+
+
+class Cards(NamedTuple):
+    """Cards along a string: position [m] and tension [N] of its stations, (stations, n)."""
+
+    position: Any
+    load: Any
+    work: Any  # past each station in a stroke [J]
+    loss: Any  # heat of each section in a stroke [J]
 
 
 class Solved(NamedTuple):
     """The periodic motion of a string with its pump."""
 
-    cards: _core.RodCards
+    cards: Cards
     wave: Floats  # (n,) wave that comes down, to start from [N]
+    mean_load: Any  # of the plunger [N]
     sweeps: int
     change: float  # of the wave in the last sweep, over the fluid load
 
@@ -42,26 +62,39 @@ class Solved(NamedTuple):
 def solve_string(string: RodString, period: float, motion: Floats, start: Floats | None = None) -> Solved:
     """The motion under samples (n,) of the polished rod's position [m, upward] over a period [s].
 
-    ``start``: a wave to start from, of any number of samples.
+    ``start``: a wave to start from, of any number of samples. The cards have twice the samples.
     """
-    n, pump = len(motion), string.pump
+    n = len(motion)
     if start is not None:
         start = np.interp(np.arange(n) / n, np.arange(len(start)) / len(start), start, period=1.0)
-    solved = core_string(string).predict(
-        period=period,
+    found = solve_rows(string, np.array([numbers_of(string, period)], dtype=float), motion[None], start)
+    mean_load, change = found.ends[0]
+    return Solved(cards_in(found, string, 0), found.wave[0], float(mean_load), found.sweeps, float(change))
+
+
+def solve_rows(
+    string: RodString,
+    numbers: Floats,
+    motion: Floats,
+    start: Floats | None = None,
+    *,
+    tolerance: float = _TOLERANCE,
+) -> _core.RodMotions:
+    """Motions of strings of the same sections by rows of `numbers_of` and samples (rows, n)."""
+    return _core.predict_rods(
+        sections=len(string.sections),
+        numbers=np.ascontiguousarray(numbers),
         motion=np.ascontiguousarray(motion, dtype=float),
-        load=float(string.fluid_load),
-        compliance=float(pump.tubing_compliance(string.length)),
-        compressibility=float(1 / (pump.bulk_modulus * pump.area)),
-        slip=float(pump.leak / pump.area),
-        fillage=pump.fillage,
-        discharge=float(string.discharge * pump.area),
-        softness=0.0 if pump.gas_exponent is None else 1 / pump.gas_exponent,
-        start=start,
-        tolerance=_TOLERANCE,
+        start=None if start is None else np.ascontiguousarray(np.atleast_2d(start)),
+        tolerance=tolerance,
         sweeps=_SWEEPS,
     )
-    return Solved(solved.cards, solved.wave, solved.sweeps, solved.change)
+
+
+def cards_in(found: _core.RodMotions, string: RodString, row: int) -> Cards:
+    """The cards of one row."""
+    work, stations = found.work[row], len(string.sections) + 1
+    return Cards(found.position[row], found.load[row], work[:stations], work[stations:])
 
 
 def sample_counts(string: RodString, period: float, least: int) -> list[int]:
@@ -85,13 +118,13 @@ def _is_smooth(n: int) -> bool:
     return n == 1
 
 
-def cards_of(
-    string: RodString, period: float, position: Floats, load: Floats, damping: float
-) -> _core.RodCards:
+def cards_of(string: RodString, period: float, position: Floats, load: Floats, damping: float) -> Cards:
     """Cards along a string by samples (n,) of position [m] and dynamic load [N] at the polished rod."""
-    return core_string(string, damping).cards(
-        period=period,
-        position=np.ascontiguousarray(position, dtype=float),
-        load=np.ascontiguousarray(load, dtype=float),
+    found = _core.rod_cards(
+        sections=len(string.sections),
+        numbers=np.array([numbers_of(string, period, damping)], dtype=float),
+        position=np.ascontiguousarray(position, dtype=float)[None],
+        load=np.ascontiguousarray(load, dtype=float)[None],
         harmonics=len(position) // 2 - 1,
     )
+    return cards_in(found, string, 0)

@@ -30,8 +30,9 @@ from linkwright.rods.along import AlongRods, along_rods, cards
 from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.prediction import RodStringMotion, string_of
+from linkwright.rods.scalars import permissible
 from linkwright.rods.scene import string_shown
-from linkwright.rods.stress import RodStress, permissible, tensile
+from linkwright.rods.stress import RodStress, tensile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

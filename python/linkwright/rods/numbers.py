@@ -9,12 +9,14 @@ with N_o′ the lowest natural frequency of the tapered string, fixed at the pol
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.implicit import solution_along
+from linkwright.kernel.numerics.tangent import Tangent, primal
 from linkwright.kernel.numerics.zeros import zero
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
@@ -79,50 +81,58 @@ class ApiNumbers(Result):
     ]
 
 
-def api_numbers(
-    string: RodString, stroke: float, period: float, plunger_stroke: float, load: Floats, torque: float | None
-) -> ApiNumbers:
-    """The terms of a motion: load (n,) of the polished rod [N], peak torque of the gearbox [N m]."""
-    uniform = float(string.sound / (4 * string.length))
+def api_numbers(string: RodString, scalars: Mapping[str, Any], torque: Any) -> ApiNumbers:
+    """The terms of a motion by its scalars and the peak torque of the gearbox [N m]."""
+    rounded = {
+        name: None if x is None else float(x) for name, x in api_terms(string, scalars, torque).items()
+    }
+    return ApiNumbers(**cast(Any, rounded))
+
+
+def api_terms(string: RodString, scalars: Mapping[str, Any], torque: Any = None) -> dict[str, Any]:
+    """The terms as numbers, or with derivatives."""
+    uniform = string.sound / (4 * string.length)
     tapered = natural_frequency(string)
-    force = float(stroke * string.stiffness)
-    weight = float(string.weight_fluid)
-    return ApiNumbers(
-        speed=1 / period,
-        natural_frequency=uniform,
-        natural_frequency_tapered=tapered,
-        frequency_factor=tapered / uniform,
-        spring_rate=float(string.stiffness),
-        stroke_force=force,
-        load_ratio=float(string.fluid_load) / force,
-        speed_ratio=1 / (period * uniform),
-        speed_ratio_tapered=1 / (period * tapered),
-        stroke_ratio=plunger_stroke / stroke,
-        peak_ratio=float(load.max() - weight) / force,
-        minimum_ratio=float(weight - load.min()) / force,
-        torque_ratio=None if torque is None else 2 * torque / (stroke * force),
-        counterbalance_effect=1.06 * (weight + 0.5 * float(string.fluid_load)),
-    )
+    stroke, period, weight = (scalars[name] for name in ("stroke", "period", "weight_fluid"))
+    force = stroke * string.stiffness
+    return {
+        "speed": 1 / period,
+        "natural_frequency": uniform,
+        "natural_frequency_tapered": tapered,
+        "frequency_factor": tapered / uniform,
+        "spring_rate": string.stiffness,
+        "stroke_force": force,
+        "load_ratio": string.fluid_load / force,
+        "speed_ratio": 1 / (period * uniform),
+        "speed_ratio_tapered": 1 / (period * tapered),
+        "stroke_ratio": scalars["plunger_stroke"] / stroke,
+        "peak_ratio": (scalars["load_max"] - weight) / force,
+        "minimum_ratio": (weight - scalars["load_min"]) / force,
+        "torque_ratio": None if torque is None else 2 * torque / (stroke * force),
+        "counterbalance_effect": 1.06 * (weight + 0.5 * string.fluid_load),
+    }
 
 
-def natural_frequency(string: RodString) -> float:
+def natural_frequency(string: RodString) -> Any:
     """Lowest natural frequency without damping, fixed at the top and free at the pump [Hz]."""
-    columns = string.columns
+    sections = [(s.length, s.modulus * s.area, s.mass) for s in string.sections]
+    plain = [tuple(map(primal, section)) for section in sections]
 
-    def free_load(omega: float) -> float:
+    def free_load(omega: Any, sections: Any = plain) -> Any:
         """Load at the pump for a load of one at the polished rod, which stands still."""
         position, load = 0.0, 1.0
-        for length, rigidity, mass in zip(columns.length, columns.rigidity, columns.mass, strict=True):
+        for length, rigidity, mass in sections:
             k = omega * np.sqrt(mass / rigidity)
             cos, sin = np.cos(k * length), np.sin(k * length)
             position, load = (
                 position * cos - load * sin / (rigidity * k),
                 position * rigidity * k * sin + load * cos,
             )
-        return float(load)
+        return load
 
     # That of any taper lies between none and the second one of the uniform string.
-    omega = np.linspace(1e-3, 3.0, 301) * 2 * np.pi * float(string.sound / (4 * string.length))
-    values = [free_load(float(each)) for each in omega]
-    first = next(n for n, value in enumerate(values) if value <= 0)
-    return zero(free_load, float(omega[first - 1]), float(omega[first])) / (2 * np.pi)
+    omega = np.linspace(1e-3, 3.0, 301) * 2 * np.pi * float(primal(string.sound / (4 * string.length)))
+    first = int(np.argmax(free_load(omega) <= 0))
+    found = zero(lambda at: float(free_load(at)), float(omega[first - 1]), float(omega[first]))
+    slope = free_load(Tangent(found, np.ones(1))).d[0]
+    return solution_along(found, free_load(found, sections), slope) / (2 * np.pi)

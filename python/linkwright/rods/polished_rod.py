@@ -76,7 +76,7 @@ class UnitRod:
         self.has_motor = machine.drive is not None and machine.drive.motor is not None
         self.steady: SteadyState | None = None
         self.rounds: list[tuple[Floats, Floats]] = []
-        speed = string.speed if machine.drive is None else machine.drive.speed
+        speed = crank_speed(machine, string)
         if self.has_motor:
             angles = self._table_angles()
             rises = self.rod.motion(angles)[1] > 0
@@ -197,12 +197,17 @@ def _by_angle(angles: Floats, load: Floats) -> tuple[Floats, Floats]:
     return angles[order], load[order]
 
 
+def crank_speed(machine: Machine, string: RodString) -> Any:
+    """The pumping speed as an angular one, where it is given [rad/s]."""
+    return string.speed if machine.drive is None else machine.drive.speed
+
+
 def polished_rod_of(machine: Machine, string: RodString) -> HarmonicRod | UnitRod:
     """What moves the polished rod of a string."""
     if machine.pumping_unit is not None:
         return UnitRod(machine, string)
     lacking = next((key for key in ("stroke", "speed") if getattr(string, key) is None), None)
-    speed = string.speed if machine.drive is None else machine.drive.speed
+    speed = crank_speed(machine, string)
     if string.stroke is None or speed is None:
         raise InputError(
             f"{machine.name}: found no rod_string.{lacking}, expected it, or a [pumping_unit] that moves the "

@@ -16,7 +16,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -32,10 +32,11 @@ from linkwright.rods.core import Solved, sample_counts, solve_string
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import ApiNumbers, api_numbers
 from linkwright.rods.polished_rod import HarmonicRod, RodMotion, UnitRod, polished_rod_of
+from linkwright.rods.scalars import string_scalars
 from linkwright.rods.stress import RodStress, rod_stress
 
 # Samples of the first solution, and of the finest.
-_FIRST, _MOST = 512, 20_000
+_FIRST, _MOST = 256, 8192
 
 # Rounds between string and drive at most, and the change of the motion at which they end, over the accuracy.
 _ROUNDS, _ALIKE = 40, 1e-3
@@ -170,6 +171,21 @@ def rod_string(machine: Machine, *, accuracy: float = 1e-3) -> RodStringMotion:
     Dynamic loads are tensions beyond the weight of the rods in the fluid; stresses and the tendency to buckle
     are those of the effective tension, which buoyancy at the lower end does not compress.
     """
+    return solution(machine, accuracy).result
+
+
+class Solution(NamedTuple):
+    """A rod string in motion, and how it was solved."""
+
+    string: RodString
+    rod: HarmonicRod | UnitRod
+    moved: RodMotion
+    solved: Solved
+    result: RodStringMotion
+
+
+def solution(machine: Machine, accuracy: float) -> Solution:
+    """The motion of a rod string with its solution; raises what `rod_string` raises."""
     string = string_of(machine)
     if not 1e-6 <= accuracy <= 0.1:
         raise InputError(f"accuracy: found {accuracy}, expected a number from 1e-6 to 0.1")
@@ -179,10 +195,10 @@ def rod_string(machine: Machine, *, accuracy: float = 1e-3) -> RodStringMotion:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         change = np.inf if before is None else _difference(result, before)
-        # Corners leave an error of first order, which falls now more, now less than by half.
+        # Corners are seen ever more sharply, by now more, now less than half of what was missed.
         reached = max(change, min(last, change * 4) / 2)
         if reached <= accuracy or 2 * least > _MOST:
-            return replace(result, accuracy=float(reached))
+            return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
         last = change
         least, before, start = 2 * least, result, np.asarray(solved.wave)
 
@@ -203,7 +219,7 @@ def _settled(
     for _ in range(_ROUNDS):
         moved, solved = _periodic(string, rod, counts, start)
         start = np.asarray(solved.wave)
-        if rod.take(polished_rod_load(string, moved, solved.cards.load[0])) <= alike:
+        if rod.take(polished_rod_load(string, moved, solved.cards.load[0][::2])) <= alike:
             return moved, solved
     raise ConvergenceError(
         "string and drive have not come to a common steady motion: the drive is close to its limit"
@@ -246,20 +262,16 @@ def _difference(fine: RodStringMotion, coarse: RodStringMotion) -> float:
 def _result(
     string: RodString, rod: HarmonicRod | UnitRod, moved: RodMotion, solved: Solved
 ) -> RodStringMotion:
-    cards, period, pump = solved.cards, moved.period, string.pump
+    cards, period = solved.cards, moved.period
+    moved = rod.motion(len(cards.load[0]))
     load = polished_rod_load(string, moved, cards.load[0])
-    plunger, pump_load = cards.position[-1], cards.load[-1]
-    stroke = float(np.ptp(plunger - pump.tubing_compliance(string.length) * pump_load))
-    leaked = pump.leak * float(pump_load.mean()) / string.fluid_load
-    # Liquid is sold at discharge pressure, to which the plunger compresses it.
-    compressed = 1 - (string.discharge - string.intake) / pump.bulk_modulus
-    production = max(pump.area * pump.fillage * stroke * compressed / period - leaked, 0.0)
+    found = string_scalars(string, moved.stroke, period, cards, solved.mean_load, moved.position)
+    scalars: dict[str, Any] = {name: float(number) for name, number in found.items()}
     gear = _gear(rod, moved, load, is_best=False)
     is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
     best = _gear(rod, moved, load, is_best=True) if is_given else gear
     peak = None if best is None else max(best.torque_net_up, best.torque_net_down)
-    numbers = api_numbers(string, moved.stroke, period, stroke, load, peak)
-    friction = 2 * string.stuffing_box * moved.stroke
+    numbers = api_numbers(string, scalars, peak)
     lost = float(cards.loss.sum())
     return RodStringMotion(
         time=period * np.arange(len(load)) / len(load),
@@ -269,21 +281,7 @@ def _result(
         rod_position=moved.position - moved.position.min(),
         rod_load=load,
         crank_angle=moved.crank_angle,
-        period=period,
-        stroke=moved.stroke,
-        plunger_stroke=stroke,
-        plunger_travel=float(np.ptp(plunger)),
-        load_max=float(load.max()),
-        load_min=float(load.min()),
-        weight_air=float(string.weight_air),
-        weight_fluid=float(string.weight_fluid),
-        fluid_load=float(string.fluid_load),
-        stretch=float(string.fluid_load / string.stiffness),
-        production=production,
-        power_rod=(float(cards.work[0]) + friction) / period,
-        power_pump=float(cards.work[-1]) / period,
-        power_damping=lost / period,
-        power_hydraulic=production * (string.discharge - string.intake),
+        **scalars,
         numbers=numbers,
         stress=rod_stress(string, cards.load),
         gear=gear,

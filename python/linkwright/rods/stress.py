@@ -24,6 +24,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.rods.model.rod_string import GRAVITY, RodString
+from linkwright.rods.scalars import goodman
 
 
 @dataclass(frozen=True)
@@ -75,19 +76,13 @@ def tensile(string: RodString) -> Floats:
     return np.array([np.nan if s.strength is None else s.strength for s in string.sections])
 
 
-def permissible(string: RodString, strength: Floats, smallest: Floats) -> Floats:
-    """Permissible maximum stress beside a minimum stress [Pa]."""
-    return np.asarray((strength / 4 + 0.5625 * smallest) * string.service_factor)
-
-
 def rod_stress(string: RodString, load: Floats) -> RodStress:
     """Of dynamic loads (stations, n) at the tops of sections and at the pump [N]."""
     columns, below = string.columns, weight_below(string)
     high, low = load.max(axis=1) + below, load.min(axis=1) + below
     largest, smallest = high[:-1] / columns.area, low[:-1] / columns.area
     strength = tensile(string)
-    limit = permissible(string, strength, smallest)
-    room = limit - smallest
+    limit, loading = goodman(string, strength, largest, smallest)
     return RodStress(
         sections=tuple(f"{s.rod} in" if s.rod else f"{1e3 * s.body:.4g} mm" for s in string.sections),
         length=columns.length,
@@ -97,9 +92,6 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
         stress_max=largest,
         stress_min=smallest,
         stress_permissible=limit,
-        # Beyond what any range permits the loading is without bound.
-        loading=np.where(
-            room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * strength
-        ),
+        loading=loading + 0 * strength,
         tensile=strength,
     )

@@ -1,0 +1,99 @@
+"""Numbers of a rod string in motion, by formulas that take numbers, arrays of many strings, or derivatives.
+
+An extreme of a curve has the derivative of the curve at its place.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from linkwright.kernel.arrays import Floats
+from linkwright.kernel.numerics.tangent import primal
+from linkwright.rods.core import Cards
+from linkwright.rods.model.rod_string import GRAVITY, RodString
+
+
+def string_scalars(
+    string: RodString, stroke: Any, period: Any, cards: Cards, mean_load: Any, moved: Floats
+) -> dict[str, Any]:
+    """Loads, strokes, production and powers of strings by their cards.
+
+    ``moved``: position of the polished rod at the samples of the cards, (…, n) [m].
+    """
+    pump, load = string.pump, cards.load
+    weight, fluid_load = string.weight_fluid, string.fluid_load
+    direction = np.sign(np.roll(moved, -1, axis=-1) - np.roll(moved, 1, axis=-1))
+    rod = load[..., 0, :] + along_curve(string.stuffing_box) * direction
+    plunger = cards.position[..., -1, :]
+    barrel = along_curve(pump.tubing_compliance(string.length)) * load[..., -1, :]
+    plunger_stroke = span(plunger - barrel)
+    # Liquid is sold at discharge pressure, to which the plunger compresses it.
+    rise = string.discharge - string.intake
+    leaked = pump.leak * mean_load / fluid_load
+    lifted = pump.area * pump.fillage * plunger_stroke * (1 - rise / pump.bulk_modulus) / period - leaked
+    production = np.where(primal(lifted) > 0, lifted, 0.0 * lifted)
+    friction = 2 * string.stuffing_box * stroke
+    return {
+        "period": period,
+        "stroke": stroke,
+        "plunger_stroke": plunger_stroke,
+        "plunger_travel": span(plunger),
+        "load_max": extreme(rod, +1) + weight,
+        "load_min": extreme(rod, -1) + weight,
+        "weight_air": string.weight_air,
+        "weight_fluid": weight,
+        "fluid_load": fluid_load,
+        "stretch": fluid_load / string.stiffness,
+        "production": production,
+        "power_rod": (cards.work[..., 0] + friction) / period,
+        "power_pump": cards.work[..., -1] / period,
+        "power_damping": cards.loss.sum(-1) / period,
+        "power_hydraulic": production * rise,
+    }
+
+
+def goodman_loadings(string: RodString, load: Any) -> dict[int, Any]:
+    """Stress range over the permissible range of each section with a strength, by loads (…, stations, n)."""
+    below: Any = string.weight_fluid
+    found = {}
+    for n, section in enumerate(string.sections):
+        if section.strength is not None:
+            high, low = (extreme(load[..., n, :], sign) + below for sign in (+1, -1))
+            found[n] = goodman(string, section.strength, high / section.area, low / section.area)[1]
+        below = below - GRAVITY * string.buoyancy_factor * section.length * section.mass
+    return found
+
+
+def permissible(string: RodString, tensile: Any, low: Any) -> Any:
+    """Permissible maximum stress beside a minimum stress [Pa]."""
+    return (tensile / 4 + 0.5625 * low) * string.service_factor
+
+
+def goodman(string: RodString, tensile: Any, high: Any, low: Any) -> tuple[Any, Any]:
+    """Permissible maximum stress, and the loading; without bound beyond what any range permits."""
+    limit = permissible(string, tensile, low)
+    room = limit - low
+    is_none = primal(room) <= 0
+    loading = (high - low) / np.where(is_none, 1.0, room)
+    return limit, np.where(is_none, np.inf, loading)
+
+
+def extreme(curve: Any, sign: int) -> Any:
+    """Maximum (+1) or minimum (−1) over the last axis."""
+    values = primal(curve)
+    at = (sign * values).argmax(axis=-1)
+    if values.ndim == 1:
+        return curve[int(at)]
+    return np.take_along_axis(values, at[..., None], axis=-1)[..., 0]
+
+
+def span(curve: Any) -> Any:
+    """Maximum less minimum over the last axis."""
+    return extreme(curve, +1) - extreme(curve, -1)
+
+
+def along_curve(number: Any) -> Any:
+    """A number, or one of each string, beside curves (…, n)."""
+    return number[..., None] if isinstance(number, np.ndarray) and number.ndim else number
