@@ -1268,8 +1268,8 @@ class DrivelineGradient:
 class DrivelineInTimeCurves:
     """Curves of a driveline over time, (parts, n) each, all referred to the crank.
 
-    Works count from the start of the motion: of the motor at its shaft, behind the gearbox, of the loads and
-    brakes, and the heat of the links; `impulse` is the integral of the motor's torque.
+    Works count from the start of the motion: of the drivers at their shafts, behind the gearboxes, of the
+    loads and brakes, and the heat of the links; `impulse` are integrals of the torques of the drivers.
     """
 
     angle: Final[_Floats]

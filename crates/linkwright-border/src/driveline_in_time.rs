@@ -29,12 +29,12 @@ pub(crate) struct DrivelineInTimeCurves {
     acceleration: Table,
     twist: Table,
     torque: Table,
-    torque_drive: Array,
+    torque_drive: Table,
     torque_load: Array,
     energy_kinetic: Array,
     energy_elastic: Array,
     work_shaft: Array,
-    impulse: Array,
+    impulse: Table,
     work_drive: Array,
     work_load: Array,
     work_brake: Array,
@@ -94,7 +94,8 @@ fn word(end: End) -> &'static str {
 
 fn named(&(at, event): &(usize, Event)) -> (usize, &'static str, Option<usize>) {
     match event {
-        Event::Kink(_) => (at, "kink", None),
+        Event::Kink(..) => (at, "kink", None),
+        Event::Bound(..) | Event::Limit(..) => (at, "link", None),
         Event::Last(_) => (at, "end", None),
         Event::Speed(mass, _) => (at, "speed", Some(mass)),
         Event::Rest(mass) => (at, "rest", Some(mass)),
@@ -107,27 +108,28 @@ fn named(&(at, event): &(usize, Event)) -> (usize, &'static str, Option<usize>) 
 impl DrivelineInTime {
     fn curves(&self, py: Python<'_>, time: Floats<'_>) -> PyResult<DrivelineInTimeCurves> {
         let (time, n, links) = (time.as_slice()?, self.chain.masses(), self.chain.links.len());
-        require_room(ANALYSIS, [9 + 3 * n + 3 * links, time.len()])?;
+        require_room(ANALYSIS, [8 + 2 * self.chain.drivers.len() + 3 * n + 3 * links, time.len()])?;
         let equation = Equation { plan: &self.plan.get().0, q: &self.q, chain: &self.chain };
         let found =
             guarded(py, ANALYSIS, || Reading::new(equation, &self.start, &self.trajectory).curves(time))?;
         let count = time.len();
         let work = |which: usize| column(py, found.works[which * count..][..count].to_vec()).unbind();
         let [kinetic, elastic] = found.energy;
-        let heat = found.works[5 * count..].to_vec();
+        let drivers = self.chain.drivers.len();
+        let (impulse, heat) = found.works[4 * count..].split_at(drivers * count);
         Ok(DrivelineInTimeCurves {
             work_shaft: work(0),
-            impulse: work(1),
-            work_drive: work(2),
-            work_load: work(3),
-            work_brake: work(4),
-            heat: rows(py, heat, links)?,
+            work_drive: work(1),
+            work_load: work(2),
+            work_brake: work(3),
+            impulse: rows(py, impulse.to_vec(), drivers)?,
+            heat: rows(py, heat.to_vec(), links)?,
             angle: rows(py, found.angle, n)?,
             speed: rows(py, found.speed, n)?,
             acceleration: rows(py, found.acceleration, n)?,
             twist: rows(py, found.twist, links)?,
             torque: rows(py, found.torque, links)?,
-            torque_drive: column(py, found.drive).unbind(),
+            torque_drive: rows(py, found.drive, drivers)?,
             torque_load: column(py, found.load).unbind(),
             energy_kinetic: column(py, kinetic).unbind(),
             energy_elastic: column(py, elastic).unbind(),

@@ -32,6 +32,9 @@ const SPEED_LEFT: f64 = 0.3;
 /// Largest correction, as a share of what it corrects, at which sweeps still come near.
 const FAR: f64 = 1e6;
 
+/// Share of the way to the stage before at which the end of a step is seen from inside.
+const INSIDE: f64 = 1e-6;
+
 /// Parts of a step that is not solved at once, and the length \[rad\] below which it is not solved at all.
 const PARTS: usize = 4;
 /// See [`PARTS`].
@@ -82,7 +85,11 @@ impl<'a> Cycle<'a> {
             let like = (i == S - 1 && self.mesh.at_kink[k]).then(|| &stages[(i - 1) * m..][..m]);
             let (row, y) = (self.mesh.rows.row(k * S + i), &stages[i * m..][..m]);
             if i == S - 1 {
-                self.equation.rates_before(&row, y, like, &mut self.rates);
+                // The step may end at a kink, which is seen from inside: values are taken on from there by their slopes.
+                let before = &stages[(i - 1) * m..][..m];
+                let inside: Vec<f64> = y.iter().zip(before).map(|(y, before)| y + INSIDE * (before - y)).collect();
+                self.equation.rates_before(&row, &inside, like, &mut self.rates);
+                self.rates.take_on(&inside, y);
             } else {
                 self.equation.rates(&row, y, &mut self.rates);
             }

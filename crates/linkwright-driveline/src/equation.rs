@@ -88,6 +88,16 @@ impl<N: Real> Rates<N> {
         }
     }
 
+    /// Takes rates on from one state to another that is near, by their derivatives.
+    pub fn take_on(&mut self, from: &[N], to: &[N]) {
+        let m = from.len();
+        for (rate, slopes) in self.rate.iter_mut().zip(self.jacobian.chunks_exact(m)) {
+            for ((&slope, &from), &to) in slopes.iter().zip(from).zip(to) {
+                *rate = *rate + slope * (to - from);
+            }
+        }
+    }
+
     /// Inertia of a mass \[kg m²\].
     pub fn inertia(&self, mass: usize) -> N {
         self.inertia[mass][0]

@@ -113,6 +113,61 @@ impl Law {
 }
 
 impl Law {
+    /// Twists between which a form holds \[rad\].
+    pub fn bounds(&self, zone: Zone) -> [f64; 2] {
+        if self.is_linear() {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        let Some(piece) = (zone.piece.unsigned_abs() as usize).checked_sub(1) else {
+            return [-self.gap, self.gap];
+        };
+        let point = |at: usize| match &self.curve {
+            None => (at == 0).then_some(0.0),
+            Some(curve) => curve.points.get(at).map(|point| point[0]),
+        };
+        let [low, high] = [piece, piece + 1].map(|at| point(at).map_or(f64::INFINITY, |x| self.gap + x));
+        if zone.piece < 0 { [-high, -low] } else { [low, high] }
+    }
+
+    /// The form behind the upper or the lower end of one, which the twist passes with a rate.
+    pub fn beyond(&self, zone: Zone, way: i32, rate: f64) -> Zone {
+        let piece = zone.piece + way;
+        if piece == 0 && self.gap > 0.0 {
+            return Zone { piece, held: 0 };
+        }
+        let piece = if piece == 0 { way } else { piece };
+        // At contact the spring has no torque: a damper that would add to it doubles it.
+        let meets = zone.piece == 0 && self.damping * rate * f64::from(piece) > 0.0;
+        Zone { piece, held: if meets { 1 } else { zone.held } }
+    }
+
+    /// Side on which the damper is of the torque of the spring, or of its opposite: positive where it exceeds it away from the
+    /// middle; nothing where there is no such limit.
+    pub fn over_spring(&self, zone: Zone, twist: f64, rate: f64, limit: i8) -> f64 {
+        let sign = f64::from(zone.piece.signum());
+        sign * (self.damping * rate - f64::from(limit) * self.spring(zone, twist)[0])
+    }
+
+    /// Sign of [`Law::over_spring`] in a form; 0 where the limit is not the next one.
+    pub fn side_of_limit(&self, zone: Zone, limit: i8) -> f64 {
+        match zone.held {
+            _ if zone.piece == 0 => 0.0,
+            0 => f64::from(-limit),
+            held if held == limit => f64::from(limit),
+            _ => 0.0,
+        }
+    }
+
+    /// The form behind a limit of the damper.
+    pub fn behind_limit(&self, zone: Zone, limit: i8) -> Zone {
+        Zone { held: if zone.held == 0 { limit } else { 0 }, ..zone }
+    }
+
+    /// Whether its damper is held back somewhere.
+    pub fn has_limits(&self) -> bool {
+        self.gap > 0.0 && self.damping > 0.0
+    }
+
     /// What its spring stores at a twist \[J\].
     pub fn stored(&self, twist: f64) -> f64 {
         let over = (twist.abs() - self.gap).max(0.0);

@@ -1,13 +1,12 @@
 //! What ends a step: kinks over the angle and over speeds, rest, and the end of rest.
 
 use super::system::System;
-use crate::equation::Equation;
 
 /// Something that happens where a quantity passes zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
-    /// The crank comes to the end of the interval between two kinks, in this direction.
-    Kink(f64),
+    /// The crank of a mechanism comes to the end of the interval between two kinks, in this direction.
+    Kink(usize, f64),
     /// It has turned as far as it may, in this direction.
     Last(f64),
     /// A mass passes a speed at which the characteristic of motor or loads has a kink.
@@ -18,6 +17,10 @@ pub enum Event {
     Slip(usize, f64),
     /// A law has a kink or a jump.
     Law(usize),
+    /// The twist of a link passes the end of a form of its law, in this direction: a flank, or a point of its curve.
+    Bound(usize, f64),
+    /// The damper of a link meets the torque of its spring, or its opposite.
+    Limit(usize, i8),
 }
 
 /// All that may happen, and on which side of each the motion is.
@@ -26,40 +29,53 @@ pub struct Events {
     pub list: Vec<Event>,
     /// Sign of the quantity before it happens; of no account where the event itself says it.
     sides: Vec<f64>,
-    /// Angles between two kinks, over a cycle, from 0 to its end.
-    kinks: Vec<f64>,
-    /// Number of the interval in which the crank is, counted on over all cycles.
-    interval: i64,
+    /// Number of the interval in which the crank of each mechanism is, counted on over all cycles.
+    intervals: Vec<i64>,
     /// Angles at which the motion ends.
     last: [f64; 2],
 }
 
 impl Events {
     /// Of a motion that starts from a state.
-    pub fn new(system: &mut System<'_>, kinks: Vec<f64>, t: f64, y: &[f64], turns: f64) -> Self {
-        let Equation { plan, q, .. } = system.equation;
+    pub fn new(system: &mut System<'_>, t: f64, y: &[f64], turns: f64) -> Self {
+        let (chain, places) = (system.equation.chain, system.mounted.len());
         let phi = y[system.layout.phi];
-        let mut list = vec![Event::Kink(1.0), Event::Kink(-1.0), Event::Last(1.0), Event::Last(-1.0)];
-        let speeds: Vec<f64> = plan.drive.speed_kinks(&plan.tables, q);
-        // The characteristic of the motor is that of its mass; loads over speed are those of the crank.
-        let crank = (!plan.drive.speed_loads.is_empty()).then_some(system.crank());
-        for mass in [system.driven].into_iter().chain(crank) {
-            list.extend(speeds.iter().flat_map(|&speed| [speed, -speed]).map(|at| Event::Speed(mass, at)));
+        let mut list = vec![Event::Last(1.0), Event::Last(-1.0)];
+        list.extend((0..places).flat_map(|place| [Event::Kink(place, 1.0), Event::Kink(place, -1.0)]));
+        // The characteristic of a motor is that of its mass; loads over speed are those of the mechanism's.
+        let mut speeds: Vec<(usize, f64)> = Vec::new();
+        for driver in &chain.drivers {
+            let kinks = system.program(driver).map(|(plan, q)| plan.drive.speed_kinks(&plan.tables, q));
+            speeds.extend(kinks.into_iter().flatten().map(|speed| (driver.mass, speed)));
         }
+        for one in &system.mounted {
+            speeds.extend(one.speed_kinks().into_iter().map(|speed| (one.mass, speed)));
+        }
+        list.extend(
+            speeds.iter().flat_map(|&(mass, speed)| [speed, -speed].map(|at| Event::Speed(mass, at))),
+        );
         for mass in system.holding() {
             list.extend([Event::Rest(mass), Event::Slip(mass, 1.0), Event::Slip(mass, -1.0)]);
         }
-        list.extend((0..system.law_kinks.len()).map(Event::Law));
+        let laws: usize = system.mounted.iter().map(|one| one.law_kinks.len()).sum();
+        list.extend((0..laws).map(Event::Law));
+        for (k, link) in chain.links.iter().enumerate().filter(|(_, link)| !link.law.is_linear()) {
+            list.extend([Event::Bound(k, 1.0), Event::Bound(k, -1.0)]);
+            if link.law.has_limits() {
+                list.extend([Event::Limit(k, 1), Event::Limit(k, -1)]);
+            }
+        }
         let angle = turns * std::f64::consts::TAU;
         let mut events = Events {
             sides: vec![0.0; list.len()],
             list,
-            kinks,
-            interval: 0,
+            intervals: vec![0; places],
             last: [phi - angle, phi + angle],
         };
-        events.find_interval(phi);
-        system.between = events.between();
+        for place in 0..places {
+            let psi = system.angle(place, y);
+            events.find_interval(system, place, psi);
+        }
         let laws = system.at_law_kinks(t, y);
         for i in 0..events.list.len() {
             events.sides[i] = events.value(system, &laws, (t, y), events.list[i]);
@@ -67,43 +83,63 @@ impl Events {
         events
     }
 
-    fn find_interval(&mut self, phi: f64) {
-        let (parts, cycle) = (self.kinks.len() - 1, self.kinks[self.kinks.len() - 1]);
-        let turn = (phi / cycle).floor();
-        let within = self.kinks.partition_point(|&kink| kink <= phi - turn * cycle).clamp(1, parts) - 1;
-        self.interval = turn as i64 * parts as i64 + within as i64;
+    fn find_interval(&mut self, system: &mut System<'_>, place: usize, psi: f64) {
+        let kinks = &system.mounted[place].kinks;
+        let (parts, cycle) = (kinks.len() - 1, kinks[kinks.len() - 1]);
+        let turn = (psi / cycle).floor();
+        let within = kinks.partition_point(|&kink| kink <= psi - turn * cycle).clamp(1, parts) - 1;
+        self.intervals[place] = turn as i64 * parts as i64 + within as i64;
+        self.enter(system, place);
     }
 
-    /// Angles of the interval.
-    pub fn between(&self) -> [f64; 2] {
-        let (parts, cycle) = (self.kinks.len() as i64 - 1, self.kinks[self.kinks.len() - 1]);
-        let (turn, k) = (self.interval.div_euclid(parts), self.interval.rem_euclid(parts) as usize);
-        [k, k + 1].map(|k| turn as f64 * cycle + self.kinks[k])
+    /// Lets a mechanism be in its interval.
+    fn enter(&self, system: &mut System<'_>, place: usize) {
+        let one = &mut system.mounted[place];
+        let (parts, cycle) = (one.kinks.len() as i64 - 1, one.kinks[one.kinks.len() - 1]);
+        let interval = self.intervals[place];
+        let (turn, k) = (interval.div_euclid(parts), interval.rem_euclid(parts) as usize);
+        one.between = [k, k + 1].map(|k| turn as f64 * cycle + one.kinks[k]);
     }
 
-    /// The next angle in a direction at which a step must end.
-    pub fn next_angle(&self, direction: f64) -> f64 {
-        let [low, high] = self.between();
-        if direction < 0.0 { low.max(self.last[0]) } else { high.min(self.last[1]) }
+    /// Angle of the crank at which the motion ends, in a direction.
+    pub fn last(&self, direction: f64) -> f64 {
+        self.last[usize::from(direction > 0.0)]
     }
 
     /// The quantity of an event.
     pub fn value(&self, system: &mut System<'_>, laws: &[f64], (t, y): (f64, &[f64]), event: Event) -> f64 {
-        let phi = y[system.layout.phi];
+        let twist = |link: usize| system.equation.chain.twist(&system.equation.chain.links[link], y);
         match event {
-            Event::Kink(way) => phi - self.between()[usize::from(way > 0.0)],
-            Event::Last(way) => phi - self.last[usize::from(way > 0.0)],
+            Event::Kink(place, way) => {
+                system.angle(place, y) - system.mounted[place].between[usize::from(way > 0.0)]
+            }
+            Event::Last(way) => y[system.layout.phi] - self.last(way),
             Event::Speed(mass, at) => system.speed(mass, y) - at,
             Event::Rest(mass) => system.speed(mass, y),
             Event::Slip(mass, way) => system.net_towards(t, y, mass, way),
             Event::Law(nth) => laws[nth],
+            Event::Bound(link, way) => {
+                twist(link)[0] - system.bounds(link)[usize::from(way > 0.0)]
+            }
+            Event::Limit(link, limit) => {
+                let [twist, rate] = twist(link);
+                let law = &system.equation.chain.links[link].law;
+                law.over_spring(system.zones[link], twist, rate, limit)
+            }
         }
     }
 
     /// Sign of the quantity before an event may happen; 0 where it cannot.
     pub fn side(&self, system: &System<'_>, nth: usize) -> f64 {
         match self.list[nth] {
-            Event::Kink(way) | Event::Last(way) => -way,
+            Event::Kink(_, way) | Event::Last(way) => -way,
+            // A form without an end on this side goes on for ever.
+            Event::Bound(link, way) => {
+                if system.bounds(link)[usize::from(way > 0.0)].is_finite() { -way } else { 0.0 }
+            }
+            Event::Limit(link, limit) => {
+                system.equation.chain.links[link].law.side_of_limit(system.zones[link], limit)
+            }
             Event::Speed(..) | Event::Law(_) => self.sides[nth],
             Event::Rest(mass) => system.senses[mass],
             Event::Slip(mass, way) => {
@@ -127,9 +163,18 @@ impl Events {
     pub fn happen(&mut self, system: &mut System<'_>, nth: usize, t: f64, y: &mut [f64]) {
         let layout = system.layout;
         match self.list[nth] {
-            Event::Kink(way) => {
-                self.interval += way as i64;
-                system.between = self.between();
+            Event::Kink(place, way) => {
+                self.intervals[place] += way as i64;
+                self.enter(system, place);
+            }
+            Event::Bound(link, way) => {
+                let own = &system.equation.chain.links[link];
+                let rate = system.equation.chain.twist(own, y)[1];
+                system.zones[link] = own.law.beyond(system.zones[link], way as i32, rate);
+            }
+            Event::Limit(link, limit) => {
+                let law = &system.equation.chain.links[link].law;
+                system.zones[link] = law.behind_limit(system.zones[link], limit);
             }
             Event::Last(_) => {}
             Event::Speed(..) | Event::Law(_) => self.sides[nth] = -self.sides[nth].signum(),

@@ -10,6 +10,7 @@
 //!
 //! | module | answers |
 //! | --- | --- |
+//! | [`mounted`] | a mechanism on a mass |
 //! | [`system`] | torques and rates at one instant |
 //! | [`events`] | what ends a step |
 //! | `attempt` | steps of any length from one instant, by either method |
@@ -20,6 +21,7 @@
 
 mod attempt;
 pub mod events;
+pub mod mounted;
 mod path;
 pub mod reading;
 pub mod start;

@@ -6,7 +6,6 @@ use super::start::Start;
 use super::system::System;
 use super::trajectory::{End, Trajectory};
 use crate::equation::Equation;
-use linkwright_core::drive::kinks::{kinks, landings};
 use linkwright_core::drive::mesh::crossing;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::rk::next_factor_of;
@@ -55,13 +54,11 @@ const ROUNDING_OF_TIME: f64 = 4.0 * f64::EPSILON;
 
 /// Follows the motion until the time, the revolutions or rest end it.
 pub fn follow(equation: Equation<'_>, start: &Start) -> Trajectory {
-    let Equation { plan, q, .. } = equation;
-    let kinks = landings(plan, q, kinks(plan, q));
-    let mut system = System::new(equation, &kinks, start);
+    let mut system = System::new(equation, start);
     let mut y = vec![0.0; system.layout.size];
     y[..start.state.len()].copy_from_slice(&start.state);
     set_senses(&mut system, start.time, &y);
-    let events = Events::new(&mut system, kinks, start.time, &y, start.turns);
+    let events = Events::new(&mut system, start.time, &y, start.turns);
     let mut path = Path::new(start, &system, y, events);
     path.trajectory.end = path.run(&mut system);
     path.finish(&mut system)
@@ -111,6 +108,7 @@ impl<'s> Path<'s> {
             between: Vec::new(),
             senses: Vec::new(),
             intervals: Vec::new(),
+            zones: Vec::new(),
             implicit: 0,
             events: Vec::new(),
             end: End::Time,
@@ -186,7 +184,8 @@ impl<'s> Path<'s> {
         self.trajectory.between.extend_from_slice(&attempt.between);
         self.trajectory.implicit += usize::from(attempt.is_stiff);
         self.trajectory.senses.extend_from_slice(&system.senses);
-        self.trajectory.intervals.push(system.between);
+        self.trajectory.intervals.extend(system.mounted.iter().map(|one| one.between));
+        self.trajectory.zones.extend_from_slice(&system.zones);
         self.y = end;
     }
 
@@ -197,7 +196,8 @@ impl<'s> Path<'s> {
         }
         let chain = system.equation.chain;
         let torques = chain.links.iter().map(|link| chain.torque(link, &self.y).value.abs());
-        self.torque = torques.fold(self.torque.max(system.drive.abs()), f64::max);
+        let drives = system.drives.iter().fold(self.torque, |most, drive| most.max(drive.abs()));
+        self.torque = torques.fold(drives, f64::max);
         self.work = self.y[system.layout.shaft..].iter().fold(self.work, |most, work| most.max(work.abs()));
     }
 
@@ -213,7 +213,7 @@ impl<'s> Path<'s> {
     /// Error that each number of the state may have: one part for all its sizes, and one in proportion to its size.
     fn tolerances(&self, system: &System<'_>) -> Vec<[f64; 2]> {
         let (layout, speed) = (system.layout, self.start.speed);
-        let work = self.work.max(system.crank_inertia * (SMALL * speed).powi(2));
+        let work = self.work.max(system.inertia[system.crank()] * (SMALL * speed).powi(2));
         let of = |n: usize| match n {
             n if n < layout.others => [SMALL * self.twists[n], 1.0],
             n if n <= layout.omega => [SMALL * speed, 1.0],
@@ -225,14 +225,8 @@ impl<'s> Path<'s> {
 
     /// The next step, at most of a length.
     fn step(&mut self, system: &mut System<'_>, attempt: &mut Attempt, longest: f64) -> Tried {
-        let (t, layout) = (self.t, system.layout);
-        let y = self.y.clone();
-        let (omega, epsilon) = (y[layout.omega], attempt.rate()[layout.omega]);
-        let landing = [1.0, -1.0].map(|way| {
-            let angle = way * (self.events.next_angle(way) - y[layout.phi]);
-            BEYOND * time_to(angle.max(0.0), way * omega, way * epsilon)
-        });
-        let landing = landing.into_iter().filter(|&time| time > 0.0).fold(f64::INFINITY, f64::min);
+        let (t, y) = (self.t, self.y.clone());
+        let landing = self.landing(system, attempt.rate());
         let tolerances = self.tolerances(system);
         let order = attempt.order();
         let mut limit = longest;
@@ -279,6 +273,26 @@ impl<'s> Path<'s> {
             }
         }
         Tried::Failed(reason)
+    }
+
+    /// Time in which a crank comes to a kink of its mechanism, or to where the motion ends, at this acceleration, and a little more.
+    fn landing(&self, system: &System<'_>, rate: &[f64]) -> f64 {
+        let (layout, y) = (system.layout, &self.y);
+        let mut soonest = f64::INFINITY;
+        let mut look = |angle: f64, omega: f64, epsilon: f64| {
+            let time = BEYOND * time_to(angle.max(0.0), omega, epsilon);
+            soonest = if time > 0.0 { soonest.min(time) } else { soonest };
+        };
+        for way in [1.0, -1.0] {
+            let [omega, epsilon] = [y[layout.omega], rate[layout.omega]].map(|rate| way * rate);
+            look(way * (self.events.last(way) - y[layout.phi]), omega, epsilon);
+            for (place, one) in system.mounted.iter().enumerate() {
+                let to = one.between[usize::from(way > 0.0)] - system.angle(place, y);
+                let [speed, acceleration] = [system.speed(one.mass, y), system.speed(one.mass, rate)];
+                look(way * to, way * one.ratio * speed, way * one.ratio * acceleration);
+            }
+        }
+        soonest
     }
 
     /// Time at which the first kink over a speed is passed in a step that errs too much, about: by start, rate and end.
@@ -375,9 +389,11 @@ impl<'s> Path<'s> {
     /// What a quantity may miss zero by.
     fn near(&self, system: &System<'_>, nth: usize) -> f64 {
         match self.events.list[nth] {
-            Event::Kink(_) | Event::Last(_) => THERE * (1.0 + self.y[system.layout.phi].abs()),
+            Event::Kink(place, _) => THERE * (1.0 + system.angle(place, &self.y).abs()),
+            Event::Last(_) => THERE * (1.0 + self.y[system.layout.phi].abs()),
+            Event::Bound(link, way) => THERE * system.bounds(link)[usize::from(way > 0.0)].abs(),
             Event::Speed(..) | Event::Rest(_) => THERE * self.start.speed,
-            Event::Slip(..) => THERE * self.torque,
+            Event::Slip(..) | Event::Limit(..) => THERE * self.torque,
             Event::Law(_) => 0.0,
         }
     }
@@ -401,9 +417,11 @@ impl<'s> Path<'s> {
             aside[omega] += sign * by_speed;
             let value = system.at_law_kinks(t + at + sign * by_time, &aside)[law];
             system.act(t + at + sign * by_time, &aside);
-            (value, system.acceleration(system.crank()))
+            let all: Vec<f64> = (0..=system.crank()).map(|mass| system.acceleration(mass)).collect();
+            (value, all)
         };
-        let leap = (side(1.0).1 - side(-1.0).1).abs();
+        let (ahead, behind) = (side(1.0).1, side(-1.0).1);
+        let leap = ahead.iter().zip(&behind).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let allowed = self.start.accuracy * (there[omega].abs() + SMALL * self.start.speed) / leap;
         let allowed = allowed.max(LEAST_PASSING * t);
         if h <= allowed || at + 0.5 * allowed >= h {
@@ -419,7 +437,7 @@ impl<'s> Path<'s> {
     fn finish(mut self, system: &mut System<'_>) -> Trajectory {
         system.senses.fill(self.start.motor);
         system.act(self.t, &self.y);
-        self.trajectory.torques = [system.drive, system.load];
+        self.trajectory.torques = [system.drives.iter().sum(), system.load];
         self.trajectory.evaluations = system.evaluations;
         self.trajectory
     }

@@ -5,7 +5,6 @@ use super::system::System;
 use super::trajectory::Trajectory;
 use crate::equation::Equation;
 use crate::reading::{Extremes, LOWER, peak};
-use linkwright_core::drive::kinks::kinks;
 use linkwright_kernel::rk::rise;
 
 /// Looks of a step for extremes.
@@ -27,7 +26,7 @@ pub struct Curves {
     pub twist: Vec<f64>,
     /// Of the links \[N m\].
     pub torque: Vec<f64>,
-    /// Of the motor, behind the gearbox \[N m\].
+    /// Of the drivers, behind their gearboxes \[N m\].
     pub drive: Vec<f64>,
     /// Of the loads at the crank \[N m\].
     pub load: Vec<f64>,
@@ -64,8 +63,7 @@ type Quantity<'q> = (bool, &'q dyn Fn(&System<'_>, &[f64]) -> f64);
 impl<'a> Reading<'a> {
     /// Of a motion that was followed.
     pub fn new(equation: Equation<'a>, start: &Start, trajectory: &'a Trajectory) -> Self {
-        let kinks = kinks(equation.plan, equation.q);
-        let system = System::new(equation, &kinks, start);
+        let system = System::new(equation, start);
         Reading { system, trajectory }
     }
 
@@ -86,7 +84,12 @@ impl<'a> Reading<'a> {
     fn enter(&mut self, k: usize) {
         let (path, masses) = (self.trajectory, self.system.senses.len());
         self.system.senses.copy_from_slice(&path.senses[k * masses..][..masses]);
-        self.system.between = path.intervals[k];
+        let places = self.system.mounted.len();
+        for (one, &between) in self.system.mounted.iter_mut().zip(&path.intervals[k * places..]) {
+            one.between = between;
+        }
+        let links = self.system.zones.len();
+        self.system.zones.copy_from_slice(&path.zones[k * links..][..links]);
     }
 
     fn time(&self, k: usize, share: f64) -> f64 {
@@ -101,6 +104,7 @@ impl<'a> Reading<'a> {
         let mut y = vec![0.0; layout.size];
         let mut found = Curves::default();
         let (mut masses, mut links, mut works) = (Vec::new(), Vec::new(), Vec::new());
+        let mut drives = Vec::new();
         for &time in times {
             let t = &self.trajectory.t;
             if self.steps() == 0 {
@@ -114,7 +118,7 @@ impl<'a> Reading<'a> {
             let [kinetic, elastic] = self.system.energy(time, &y);
             found.energy[0].push(kinetic);
             found.energy[1].push(elastic);
-            found.drive.push(self.system.drive);
+            drives.push(self.system.drives.clone());
             found.load.push(self.system.load);
             let angle = |mass: usize| y[layout.phi] + if mass < layout.others { y[mass] } else { 0.0 };
             let of_mass = |m: usize| [angle(m), self.system.speed(m, &y), self.system.acceleration(m)];
@@ -125,6 +129,7 @@ impl<'a> Reading<'a> {
         [found.angle, found.speed, found.acceleration] =
             [0, 1, 2].map(|which| by_part(&masses, chain.masses(), which));
         [found.twist, found.torque] = [0, 1].map(|which| by_part(&links, chain.links.len(), which));
+        found.drive = (0..chain.drivers.len()).flat_map(|k| drives.iter().map(move |row| row[k])).collect();
         found.works = by_part(&works, layout.size - layout.shaft, 0);
         found
     }

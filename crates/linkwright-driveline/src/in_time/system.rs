@@ -1,23 +1,23 @@
 //! Torques on the masses at one instant, and the rates of a state.
 //!
 //! A state has the twist and the speed of every mass against the crank, the speed of the crank, as [`Chain`] counts them, then
-//! the angle of the crank, and works: of the motor at its shaft, the integral of its torque, work behind the gearbox, of the
-//! loads, and what each link turns into heat.
+//! the angle of the crank, and works: of the drivers at their shafts, behind the gearboxes, of the loads and brakes, the
+//! integral of the torque of each driver, and what each link turns into heat.
 //!
-//! The torque on a mass may jump where its speed changes its sign: on the crank by dry loads, on the mass of the motor by the
-//! losses of the gearbox. A step takes the torque of one direction, or holds the mass at rest.
+//! The torque on a mass may jump where its speed changes its sign: by dry loads of its mechanism, by the losses of the gearbox of
+//! its motor, by a brake. A step takes the torque of one direction, or holds the mass at rest. A step also takes the laws of links
+//! in one form: behind a flank or a point of a curve they go on as before it, and the end of the step is there.
 
+use super::mounted::{Felt, Mounted};
 use super::start::Start;
-use crate::chain::Chain;
+use crate::chain::{Chain, Source, Torque};
 use crate::equation::Equation;
-use linkwright_core::drive::law::{LawGeometry, SpeedKink};
-use linkwright_core::drive::transient::reduced::{Reduced, ReducedCurves};
-use linkwright_core::linkage::motion::Motion;
+use crate::law::{Transmitted, Zone};
+use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::dual::Dual;
-use linkwright_kernel::plane::Angle;
 
-/// Works before those of the links: see the numbers below.
-const WORKS: usize = 5;
+/// Works before those of drivers and links: see the numbers below.
+const WORKS: usize = 4;
 
 /// Share of the working speed at which laws are taken at rest.
 const SLOW: f64 = 1e-11;
@@ -31,16 +31,16 @@ pub struct Layout {
     pub omega: usize,
     /// Angle of the crank.
     pub phi: usize,
-    /// Work of the motor at its shaft.
+    /// Work of the drivers at their shafts.
     pub shaft: usize,
-    /// Integral of the motor's torque over time, at the speed of the crank.
-    pub impulse: usize,
-    /// Work behind the gearbox.
+    /// Work behind the gearboxes.
     pub drive: usize,
     /// Work that the loads take.
     pub load: usize,
     /// Work that brakes take.
     pub brake: usize,
+    /// First of the integrals of the drivers' torques over time, at the speed of the crank.
+    pub impulse: usize,
     /// First of what links turn into heat.
     pub heat: usize,
     /// Numbers of a state.
@@ -52,82 +52,85 @@ impl Layout {
     pub fn of(chain: &Chain) -> Self {
         let others = chain.masses() - 1;
         let works = 2 * others + 2;
+        let heat = works + WORKS + chain.drivers.len();
         Layout {
             others,
             omega: 2 * others,
             phi: 2 * others + 1,
             shaft: works,
-            impulse: works + 1,
-            drive: works + 2,
-            load: works + 3,
-            brake: works + 4,
-            heat: works + WORKS,
-            size: works + WORKS + chain.links.len(),
+            drive: works + 1,
+            load: works + 2,
+            brake: works + 3,
+            impulse: works + WORKS,
+            heat,
+            size: heat + chain.links.len(),
         }
     }
 }
 
-/// A driveline with its mechanism, and what holds for the step that is taken.
+/// A driveline with its mechanisms, and what holds for the step that is taken.
 pub struct System<'a> {
     /// The machine.
     pub equation: Equation<'a>,
     /// Places in a state.
     pub layout: Layout,
-    /// Mass of the motor.
-    pub driven: usize,
-    /// Direction in which the motor drives, +1 or −1.
+    /// Its mechanisms, that at the crank first.
+    pub mounted: Vec<Mounted<'a>>,
+    /// Direction in which the drivers drive, +1 or −1.
     pub motor: f64,
     /// Torque of the brake on every mass \[N m\].
     pub brakes: Vec<f64>,
     /// Direction of every mass whose torque jumps at rest: +1, −1, or 0 where it is held.
     pub senses: Vec<f64>,
-    /// Crank angles between two kinks, in which the step is.
-    pub between: [f64; 2],
+    /// Form of the law of every link.
+    pub zones: Vec<Zone>,
     /// Speed that counts as none \[rad/s\].
     pub slow: f64,
-    /// Kinks of laws over speed and time.
-    pub law_kinks: Vec<SpeedKink>,
     /// Torque on every mass, of the last state \[N m\].
     pub net: Vec<f64>,
-    /// The motor's torque at its shaft, times the ratio \[N m\].
-    pub shaft: f64,
-    /// Torque behind the gearbox \[N m\].
-    pub drive: f64,
-    /// Torque of the loads \[N m\].
+    /// Inertia of every mass \[kg m²\].
+    pub inertia: Vec<f64>,
+    /// Torque of each driver at its shaft, times its ratio \[N m\].
+    pub shafts: Vec<f64>,
+    /// Torque of each behind its gearbox \[N m\].
+    pub drives: Vec<f64>,
+    /// Torque of the loads, referred to the crank \[N m\].
     pub load: f64,
-    /// Inertia at the crank \[kg m²\].
-    pub crank_inertia: f64,
+    /// Power that the loads take \[W\].
+    pub load_power: f64,
     /// Evaluations so far.
     pub evaluations: usize,
-    curves: [Option<ReducedCurves>; 2],
-    motion: Motion<f64>,
-    geometry: Vec<LawGeometry<f64>>,
+}
+
+fn direction(sense: f64) -> f64 {
+    if sense < 0.0 { -1.0 } else { 1.0 }
 }
 
 impl<'a> System<'a> {
-    /// Of a machine with kinks at crank angles of its cycle.
-    pub fn new(equation: Equation<'a>, kinks: &[f64], start: &Start) -> Self {
-        let Equation { plan, q, chain } = equation;
+    /// Of a machine at its start.
+    pub fn new(equation: Equation<'a>, start: &Start) -> Self {
+        let (chain, drivers) = (equation.chain, equation.chain.drivers.len());
         let Start { speed, motor, accuracy, .. } = *start;
+        let of_link = |link| {
+            let [twist, rate] = chain.twist(link, &start.state);
+            link.law.zone(twist, rate)
+        };
         System {
             equation,
             layout: Layout::of(chain),
-            driven: chain.drivers.first().map_or(0, |driver| driver.mass),
+            mounted: Mounted::all(equation, accuracy),
             motor,
             brakes: start.brakes.clone(),
             senses: vec![1.0; chain.masses()],
-            between: [f64::NEG_INFINITY, f64::INFINITY],
+            zones: chain.links.iter().map(of_link).collect(),
             slow: SLOW * speed,
-            law_kinks: plan.speed_kinks(),
             net: vec![0.0; chain.masses()],
-            shaft: 0.0,
-            drive: 0.0,
+            inertia: vec![0.0; chain.masses()],
+            shafts: vec![0.0; drivers],
+            drives: vec![0.0; drivers],
             load: 0.0,
-            crank_inertia: 0.0,
+            load_power: 0.0,
             evaluations: 0,
-            curves: [-1.0, 1.0].map(|sense| ReducedCurves::new(plan, kinks, sense, accuracy)),
-            motion: Motion::new(&plan.mechanism, q),
-            geometry: Vec::new(),
         }
     }
 
@@ -138,12 +141,27 @@ impl<'a> System<'a> {
 
     /// Masses whose torque may jump at rest.
     pub fn holding(&self) -> Vec<usize> {
-        let Equation { plan, q, chain } = self.equation;
-        let has_losses = q[plan.drive.forward] != q[plan.drive.reverse];
-        let holds = |&mass: &usize| {
-            mass == self.crank() || self.brakes[mass] > 0.0 || (has_losses && mass == self.driven)
-        };
-        (0..chain.masses()).filter(holds).collect()
+        let chain = self.equation.chain;
+        let mut holds: Vec<bool> = self.brakes.iter().map(|&brake| brake > 0.0).collect();
+        self.mounted.iter().for_each(|one| holds[one.mass] = true);
+        for driver in &chain.drivers {
+            holds[driver.mass] |= self.program(driver).is_some_and(|(plan, q)| {
+                q[plan.drive.forward] != q[plan.drive.reverse]
+            });
+        }
+        for load in &chain.loads {
+            holds[load.mass] |= matches!(load.source, Source::Power { exponent, .. } if exponent == 0.0);
+        }
+        (0..chain.masses()).filter(|&mass| holds[mass]).collect()
+    }
+
+    /// Structure and numbers of the machine whose motor a driver is.
+    pub fn program<'s>(&'s self, driver: &'s Torque) -> Option<(&'s Plan, &'s [f64])> {
+        match &driver.source {
+            Source::Own => Some((self.equation.plan, self.equation.q)),
+            Source::Motor(part) => Some((&part.plan, &part.q)),
+            Source::Held(_) | Source::Power { .. } => None,
+        }
     }
 
     /// Speed of a mass.
@@ -151,63 +169,111 @@ impl<'a> System<'a> {
         self.equation.chain.speed(mass, y)
     }
 
-    /// Inertia J, J′, torque that resists and viscous coefficient in a direction.
-    fn reduced(&mut self, phi: f64, sense: f64) -> Reduced {
-        let Equation { plan, q, .. } = self.equation;
-        let curves = &mut self.curves[usize::from(sense > 0.0)];
-        let between = self.between;
-        if let Some(found) = curves.as_mut().and_then(|curves| curves.at_between(plan, q, phi, between)) {
-            return found;
-        }
-        let r = plan.reduce::<f64, 2>(q, Angle::new(phi), sense, &mut self.motion);
-        [r.J, r.J_d1, sense * r.load + r.dry, r.viscous]
+    /// Angle of the crank of a mechanism.
+    pub fn angle(&self, place: usize, y: &[f64]) -> f64 {
+        self.mounted[place].angle(self.equation.chain, y[self.layout.phi], y)
     }
 
-    /// Torque of the laws where the mechanism was placed.
-    fn laws(&mut self, t: f64, phi: f64, omega: f64) -> f64 {
-        let Equation { plan, q, .. } = self.equation;
-        if plan.laws.is_empty() {
-            return 0.0;
+    /// Twists between which the form of a link holds.
+    pub fn bounds(&self, link: usize) -> [f64; 2] {
+        self.equation.chain.links[link].law.bounds(self.zones[link])
+    }
+
+    /// Torque of a link by the form of the step.
+    pub fn link(&self, link: usize, y: &[f64]) -> Transmitted {
+        let chain = self.equation.chain;
+        let [twist, rate] = chain.twist(&chain.links[link], y);
+        chain.links[link].law.of_zone(self.zones[link], twist, rate)
+    }
+
+    /// Torques of a driver at its shaft, times its ratio, and behind its gearbox, with the derivative of that by the speed.
+    fn driven(&self, driver: &Torque, speed: f64) -> (f64, Dual<f64>) {
+        let along = Dual::constant(direction(self.senses[driver.mass]));
+        let (motor, speed) = (Dual::constant(self.motor), Dual::variable(speed));
+        if let Some((plan, q)) = self.program(driver) {
+            let torque = motor * plan.drive.motor_torque::<f64, _>(&plan.tables, q, motor * speed);
+            let behind = along * plan.drive.geared_torque::<f64, _>(q, along * torque);
+            return (torque.value * q[plan.drive.ratio], behind);
         }
-        self.geometry.clear();
-        plan.add_geometry(q, phi, &self.motion, &mut self.geometry);
-        plan.law_torque::<f64, f64, f64>(q, &self.geometry, omega, t)
+        let Source::Power { torque, speed: at, exponent } = driver.source else {
+            return (0.0, Dual::constant(0.0));
+        };
+        // It drives in one direction, whichever way its mass turns.
+        let share = speed.value.abs() / at;
+        let value = self.motor * torque * share.powf(exponent);
+        let d = if exponent == 0.0 || share == 0.0 { 0.0 } else { exponent * value / speed.value };
+        (value, Dual { value, d })
+    }
+
+    /// Torque on a mass by a load over its speed, and its derivative.
+    fn loaded(&self, load: &Torque, speed: f64) -> Dual<f64> {
+        match load.source {
+            // Dry: as large at rest as in motion.
+            Source::Power { torque, exponent, .. } if exponent == 0.0 => {
+                Dual::constant(direction(self.senses[load.mass]) * torque)
+            }
+            _ => self.equation.outside(load, speed),
+        }
     }
 
     /// Torques on all masses at a time and a state.
     pub fn act(&mut self, t: f64, y: &[f64]) {
-        let Equation { plan, q, chain } = self.equation;
-        let (layout, crank) = (self.layout, self.crank());
+        let Equation { chain, .. } = self.equation;
         self.evaluations += 1;
         self.net.fill(0.0);
-        for link in &chain.links {
-            let torque = chain.torque(link, y).value;
+        self.inertia[..chain.inertia.len()].copy_from_slice(&chain.inertia);
+        self.inertia[chain.inertia.len()] = -chain.apart;
+        for (k, link) in chain.links.iter().enumerate() {
+            let torque = self.link(k, y).value;
             self.net[link.first] -= torque;
             self.net[link.second] += torque;
         }
-        let direction = |sense: f64| if sense < 0.0 { -1.0 } else { 1.0 };
         for ((net, brake), &sense) in self.net.iter_mut().zip(&self.brakes).zip(&self.senses) {
             *net -= direction(sense) * brake;
         }
-        let speed = chain.speed(self.driven, y);
-        let along = direction(self.senses[self.driven]);
-        let torque = self.motor * plan.drive.motor_torque::<f64, f64>(&plan.tables, q, self.motor * speed);
-        self.shaft = torque * q[plan.drive.ratio];
-        self.drive = along * plan.drive.geared_torque::<f64, f64>(q, along * torque);
-        self.net[self.driven] += self.drive;
-        let (omega, phi, sense) = (y[layout.omega], y[layout.phi], direction(self.senses[crank]));
-        let [inertia, slope, resisting, viscous] = self.reduced(phi, sense);
-        let over_speed = plan.drive.speed_load::<f64, f64>(&plan.tables, q, sense * omega);
-        let by_laws = self.laws(t, phi, sense * (sense * omega).max(self.slow));
-        self.load = sense * (resisting + over_speed) + viscous * omega + by_laws;
-        self.crank_inertia = inertia - chain.apart;
-        self.net[crank] -= self.load + 0.5 * slope * omega * omega;
+        for (k, driver) in chain.drivers.iter().enumerate() {
+            let (shaft, behind) = self.driven(driver, self.speed(driver.mass, y));
+            (self.shafts[k], self.drives[k]) = (shaft, behind.value);
+            self.net[driver.mass] += behind.value;
+        }
+        (self.load, self.load_power) = (0.0, 0.0);
+        for load in &chain.loads {
+            let speed = self.speed(load.mass, y);
+            self.add_load(load.mass, -self.loaded(load, speed).value, speed);
+        }
+        self.add_swing(y);
+        for place in 0..self.mounted.len() {
+            let (psi, mass) = (self.angle(place, y), self.mounted[place].mass);
+            let (speed, sense) = (self.speed(mass, y), direction(self.senses[mass]));
+            let Felt { inertia, slope, load } = self.mounted[place].felt(t, psi, speed, sense, self.slow);
+            self.inertia[mass] += inertia;
+            self.net[mass] -= 0.5 * slope * speed * speed;
+            self.add_load(mass, load, speed);
+        }
+    }
+
+    fn add_load(&mut self, mass: usize, torque: f64, speed: f64) {
+        self.net[mass] -= torque;
+        self.load += torque;
+        self.load_power += torque * speed;
+    }
+
+    /// Damping from outside against the rotation of all together.
+    fn add_swing(&mut self, y: &[f64]) {
+        let Some(swing) = &self.equation.chain.swing else { return };
+        let others = self.layout.others;
+        let beside = |mass: usize| if mass < others { y[others + mass] } else { 0.0 };
+        let together: f64 = (0..others).map(|mass| swing.share[mass] * beside(mass)).sum();
+        for (mass, &damping) in swing.damping.iter().enumerate() {
+            let torque = damping * (beside(mass) - together);
+            self.net[mass] -= torque;
+            self.load_power += torque * self.speed(mass, y);
+        }
     }
 
     /// Acceleration of a mass by the torques that were computed last.
     pub fn acceleration(&self, mass: usize) -> f64 {
-        let inertia = self.equation.chain.inertia.get(mass).copied().unwrap_or(self.crank_inertia);
-        if self.senses[mass] == 0.0 { 0.0 } else { self.net[mass] / inertia }
+        if self.senses[mass] == 0.0 { 0.0 } else { self.net[mass] / self.inertia[mass] }
     }
 
     /// Rates of a state.
@@ -219,17 +285,20 @@ impl<'a> System<'a> {
             to[mass] = y[layout.others + mass];
             to[layout.others + mass] = self.acceleration(mass) - a;
         }
-        let (omega, speed) = (y[layout.omega], self.speed(self.driven, y));
         to[layout.omega] = a;
-        to[layout.phi] = omega;
-        to[layout.shaft] = self.shaft * speed;
-        to[layout.impulse] = self.shaft;
-        to[layout.drive] = self.drive * speed;
-        to[layout.load] = self.load * omega;
+        to[layout.phi] = y[layout.omega];
+        (to[layout.shaft], to[layout.drive]) = (0.0, 0.0);
+        for (k, driver) in chain.drivers.iter().enumerate() {
+            let speed = self.speed(driver.mass, y);
+            to[layout.shaft] += self.shafts[k] * speed;
+            to[layout.drive] += self.drives[k] * speed;
+            to[layout.impulse + k] = self.shafts[k];
+        }
+        to[layout.load] = self.load_power;
         to[layout.brake] =
             (0..=layout.others).map(|mass| self.brakes[mass] * self.speed(mass, y).abs()).sum();
-        for (to, link) in to[layout.heat..].iter_mut().zip(&chain.links) {
-            *to = chain.torque(link, y).damper * chain.twist(link, y)[1];
+        for (k, link) in chain.links.iter().enumerate() {
+            to[layout.heat + k] = self.link(k, y).damper * chain.twist(link, y)[1];
         }
     }
 
@@ -240,8 +309,8 @@ impl<'a> System<'a> {
         let (others, m) = (layout.others, layout.phi + 1);
         to.fill(0.0);
         // First accelerations of all masses, in the rows of their speeds.
-        for link in &chain.links {
-            let torque = chain.torque(link, y);
+        for (k, link) in chain.links.iter().enumerate() {
+            let torque = self.link(k, y);
             for (mass, sign) in [(link.first, -1.0), (link.second, 1.0)] {
                 for (end, side) in [(link.first, sign), (link.second, -sign)] {
                     if end < others {
@@ -251,14 +320,34 @@ impl<'a> System<'a> {
                 }
             }
         }
-        let (driver, load) = self.speed_slopes(t, y);
-        for column in [others + self.driven, layout.omega] {
-            to[(others + self.driven) * m + column] += driver;
+        let mut add = |mass: usize, slope: f64| {
+            to[(others + mass) * m + layout.omega] += slope;
+            if mass < others {
+                to[(others + mass) * m + others + mass] += slope;
+            }
+        };
+        for driver in &chain.drivers {
+            add(driver.mass, self.driven(driver, self.speed(driver.mass, y)).1.d);
         }
-        to[layout.omega * m + layout.omega] -= load;
+        for load in &chain.loads {
+            add(load.mass, self.loaded(load, self.speed(load.mass, y)).d);
+        }
+        for place in 0..self.mounted.len() {
+            let (psi, mass) = (self.angle(place, y), self.mounted[place].mass);
+            let (speed, sense) = (self.speed(mass, y), direction(self.senses[mass]));
+            add(mass, -self.mounted[place].slope(t, psi, speed, sense, self.slow));
+        }
+        if let Some(swing) = &chain.swing {
+            for (mass, &damping) in swing.damping.iter().enumerate() {
+                let row = &mut to[(others + mass) * m..][..m];
+                (0..others).for_each(|other| row[others + other] += damping * swing.share[other]);
+                if mass < others {
+                    row[others + mass] -= damping;
+                }
+            }
+        }
         for mass in 0..=others {
-            let inertia = chain.inertia.get(mass).copied().unwrap_or(self.crank_inertia);
-            let factor = if self.senses[mass] == 0.0 { 0.0 } else { 1.0 / inertia };
+            let factor = if self.senses[mass] == 0.0 { 0.0 } else { 1.0 / self.inertia[mass] };
             to[(others + mass) * m..][..m].iter_mut().for_each(|slope| *slope *= factor);
         }
         for mass in 0..others {
@@ -268,27 +357,6 @@ impl<'a> System<'a> {
             to[mass * m + others + mass] = 1.0;
         }
         to[layout.phi * m + layout.omega] = 1.0;
-    }
-
-    /// Derivatives of the torque behind the gearbox by the speed of its mass, and of what brakes the crank by its own, where the
-    /// torques were computed last.
-    fn speed_slopes(&mut self, t: f64, y: &[f64]) -> (f64, f64) {
-        let Equation { plan, q, chain } = self.equation;
-        let direction = |sense: f64| if sense < 0.0 { -1.0 } else { 1.0 };
-        let (along, sense) = (direction(self.senses[self.driven]), direction(self.senses[self.crank()]));
-        let speed = Dual::variable(chain.speed(self.driven, y));
-        let motor = Dual::constant(self.motor);
-        let torque = motor * plan.drive.motor_torque::<f64, _>(&plan.tables, q, motor * speed);
-        let driver = plan.drive.geared_torque::<f64, _>(q, Dual::constant(along) * torque).d * along;
-        let (omega, phi) = (y[self.layout.omega], y[self.layout.phi]);
-        let [_, slope, _, viscous] = self.reduced(phi, sense);
-        let over_speed = plan.drive.speed_load::<f64, _>(&plan.tables, q, Dual::variable(sense * omega)).d;
-        let mut load = over_speed + viscous + slope * omega;
-        if !plan.laws.is_empty() {
-            let (omega, never) = (Dual::variable(sense * (sense * omega).max(self.slow)), Dual::constant(t));
-            load += plan.law_torque::<f64, f64, Dual<f64>>(q, &self.geometry, omega, never).d;
-        }
-        (driver, load)
     }
 
     /// Torque on a mass that would turn in a direction \[N m\].
@@ -314,23 +382,19 @@ impl<'a> System<'a> {
     pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
         self.act(t, y);
         let chain = self.equation.chain;
-        let inertia = chain.inertia.iter().copied().chain([self.crank_inertia]).enumerate();
-        let kinetic = inertia.map(|(mass, J)| 0.5 * J * self.speed(mass, y).powi(2)).sum();
+        let of_mass = |(mass, J): (usize, &f64)| 0.5 * J * self.speed(mass, y).powi(2);
+        let kinetic = self.inertia.iter().enumerate().map(of_mass).sum();
         let elastic = chain.links.iter().map(|link| link.law.stored(chain.twist(link, y)[0])).sum();
         [kinetic, elastic]
     }
 
-    /// The quantities whose zeros are kinks of laws.
+    /// The quantities whose zeros are kinks of laws, of all mechanisms.
     pub fn at_law_kinks(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
-        if self.law_kinks.is_empty() {
-            return Vec::new();
+        let mut found = Vec::new();
+        for place in 0..self.mounted.len() {
+            let (psi, speed) = (self.angle(place, y), self.speed(self.mounted[place].mass, y));
+            self.mounted[place].add_law_kinks(t, psi, speed, &mut found);
         }
-        let Equation { plan, q, .. } = self.equation;
-        let (omega, phi) = (y[self.layout.omega], y[self.layout.phi]);
-        plan.reduce::<f64, 2>(q, Angle::new(phi), 1.0, &mut self.motion);
-        self.geometry.clear();
-        plan.add_geometry(q, phi, &self.motion, &mut self.geometry);
-        let value = |&kink: &SpeedKink| plan.speed_kink_value(q, kink, &self.geometry, [omega, t]);
-        self.law_kinks.iter().map(value).collect()
+        found
     }
 }

@@ -1,6 +1,7 @@
 //! A motion that was followed.
 
 use super::events::Event;
+use crate::law::Zone;
 
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +29,10 @@ pub struct Trajectory {
     pub between: Vec<[f64; 7]>,
     /// Direction of every mass in every step, row by row.
     pub senses: Vec<f64>,
-    /// Crank angles between two kinks, in which each step is.
+    /// Angles of the crank of every mechanism between two kinks, in which each step is, row by row.
     pub intervals: Vec<[f64; 2]>,
+    /// Form of the law of every link in every step, row by row.
+    pub zones: Vec<Zone>,
     /// Steps by the implicit method.
     pub implicit: usize,
     /// What ended steps: number of the end, and the event.
