@@ -80,6 +80,29 @@ def driven_train(machine: Machine) -> Driven:
     return Driven(compiled, chain, _balance(machine, chain, mounted))
 
 
+def moving_train(machine: Machine, *, motor: bool = True) -> Driven:
+    """Masses, links, torques and mechanisms of a train that moves in time; the speed is that at work, about.
+
+    `motor`: whether what drives is on.
+    """
+    chain, mounted = _chain(machine)
+    if chain.held is not None:
+        kinds = [each.kind for each in chain.links["drivers"]]
+        raise InputError(
+            f"train.motors.{chain.motors[kinds.index('held')]}.motor.kind: found constant_speed, which has no "
+            "motion in time; expected a motor whose torque follows its speed"
+        )
+    if not motor:
+        off = [Outside(each.mass, "power", (0.0, 1.0, 0.0)) for each in chain.links["drivers"]]
+        chain = chain._replace(links=chain.links | {"drivers": off})
+    try:
+        speed = _balance(machine, chain, mounted)
+    except SteadyStateError:
+        # silent: it moves all the same; only sizes are compared with the speed
+        speed = _highest(machine, chain)
+    return Driven(mounted[0].compiled, chain, speed)
+
+
 def driveline_chain(machine: Machine) -> Chain:
     """Masses and links of a train with mechanisms, or of the driveline that [drive] describes."""
     return _chain(machine)[0] if machine.has_mounted_mechanisms else chain_of(machine)
@@ -206,19 +229,10 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
     """Highest speed of the first crank at which the mean torques balance stably, as if all was rigid."""
     train = machine.train
     assert train is not None
+    if chain.speed_held is not None:
+        return chain.speed_held
     ratio = dict(zip(chain.stations, chain.ratio.tolist(), strict=True))
-    known = [
-        float(motor.motor.speed_without_load) / ratio[motor.on]
-        for motor in train.motors.values()
-        if motor.motor.speed_without_load is not None
-    ]
-    for motor in train.motors.values():
-        if isinstance(motor.motor, ConstantSpeedMotor):
-            held: float = float(motor.motor.speed) / ratio[motor.on]
-            return held
-    known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
-    known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
-    highest = max(known, default=100.0)
+    highest = _highest(machine, chain)
     for _ in range(_DOUBLINGS):
         speeds = np.linspace(highest / _SPEEDS, highest, _SPEEDS)
         net = _net(train, ratio, mounted, speeds)
@@ -239,6 +253,21 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
         f"{highest / 2:.4g} rad/s of the first crank; give loads that grow with the speed, or motors whose "
         "torque falls with it"
     )
+
+
+def _highest(machine: Machine, chain: Chain) -> float:
+    """A speed of the first crank above that at which mean torques balance, about [rad/s]."""
+    train = machine.train
+    assert train is not None
+    ratio = dict(zip(chain.stations, chain.ratio.tolist(), strict=True))
+    known = [
+        float(motor.motor.speed_without_load) / ratio[motor.on]
+        for motor in train.motors.values()
+        if motor.motor.speed_without_load is not None
+    ]
+    known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
+    known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
+    return max(known, default=100.0)
 
 
 def _net(train: Train, ratio: dict[str, float], mounted: list[_Mounted], speeds: Floats) -> Floats:
