@@ -96,9 +96,7 @@ class ElasticTransient(Result):
     motors: Annotated[tuple[str, ...], About("What drives.")]
     torque_motor: Annotated[
         Floats,
-        Label(
-            "torque of each motor", "M_m", "N m", "At its speed, less gear losses.", shape="(motors, n)"
-        ),
+        Label("torque of each motor", "M_m", "N m", "At its speed, less gear losses.", shape="(motors, n)"),
     ]
     torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m")]
     speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s", shape="(stations,)")]
