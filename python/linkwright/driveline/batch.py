@@ -18,6 +18,7 @@ from linkwright.drive.load_checks import require_same_turns
 from linkwright.driveline.chain import Chain, chain_of, fastest_of, has_hysteresis, listed
 from linkwright.driveline.elastic_motion import ElasticMotion, measures
 from linkwright.driveline.solving import ANGLES, CYCLES
+from linkwright.driveline.train_chain import driveline_chain
 from linkwright.kernel.arrays import Bools, Floats
 from linkwright.kernel.errors import InputError, LinkwrightError
 from linkwright.kernel.numerics.tangent import lifted
@@ -73,7 +74,13 @@ def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMoti
     driveline with a motor, and what `chain_of` raises of the machine itself.
     """
     drive = machine.drive
-    if machine.has_mounted_mechanisms or drive is None or not drive.twists or drive.motor is None:
+    if machine.has_mounted_mechanisms:
+        # Each is solved alone.
+        chain, n = driveline_chain(machine), len(next(iter(entries.values())))
+        return ElasticMotions(
+            chain, 1, {name: np.full((*size, n), np.nan) for name, size in _shapes(chain).items()}
+        )
+    if drive is None or not drive.twists or drive.motor is None:
         raise InputError(f"{machine.name}: many machines at once need a motor and an elastic driveline")
     columns = columns_of(machine, entries)
     require_same_turns(machine)

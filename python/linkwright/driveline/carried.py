@@ -51,7 +51,7 @@ def _problems(train: Train) -> Iterator[Problem]:
 
 
 def _links(train: Train) -> Iterator[Problem]:
-    """Shafts, gears and couplings that are no linear link between two discs."""
+    """Shafts, gears and couplings that are no link between two discs, or with losses."""
     turns = "a train that turns freely"
     for table in ("shafts", "couplings"):
         for name, part in getattr(train, table).items():
@@ -71,13 +71,5 @@ def _links(train: Train) -> Iterator[Problem]:
             yield Problem(
                 f"train.gears.{name}.carrier", gear.carrier, "none beside [train.mechanisms]", _MODES
             )
-        if gear.backlash:
-            yield Problem(
-                f"train.gears.{name}.backlash", "a backlash", "none beside [train.mechanisms]", _IN_TIME
-            )
-    for name, coupling in train.couplings.items():
-        if coupling.twist is not None:
-            remedy = "give its stiffness at the mean torque; motion in time has curves"
-            yield Problem(
-                f"train.couplings.{name}.twist", "a curve", "a stiffness beside [train.mechanisms]", remedy
-            )
+        if gear.losses is not None:
+            yield Problem(f"train.gears.{name}.efficiency", "losses", "1 beside [train.mechanisms]", _IN_TIME)

@@ -24,6 +24,7 @@ from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.torsion.core.train import HELD, ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mean_inertia
 from linkwright.torsion.in_time.moving_train import shaft_damping
+from linkwright.torsion.model.coupling import Coupling
 from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
 from linkwright.torsion.model.train import Train
 
@@ -201,7 +202,7 @@ def _laws(train: Train, names: list[str], stiffness: Any, lead: Any) -> dict[str
     for k, (part, n) in enumerate(zip(parts, lead, strict=True)):
         curves.append(None)
         if getattr(part, "twist", None) is not None:
-            twist, torque, slope = part.points
+            twist, torque, slope = part.curve() if isinstance(part, Coupling) else part.points
             curves[k] = (twist / n, torque * n, slope * n**2)
             slopes[k] = _steepest(*(primal(points) for points in curves[k]))
     return {"stiffness": numbers(slopes), "gap": numbers(gaps) / lead, "curves": curves}

@@ -32,12 +32,14 @@ from linkwright.driveline.elastic_motion import (
     solved_motion,
 )
 from linkwright.driveline.solving import multipliers_of
+from linkwright.driveline.train_chain import driven_train, driveline_chain
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, Kinks, as_high, chosen, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.kernel.quantities import Label, declared, shown
 from linkwright.linkages.closure import turn_angles
+from linkwright.machine.address import entry_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine
@@ -79,7 +81,12 @@ def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     missing |= dict.fromkeys(
         _held(named, chain), "the motor keeps its speed: it is zero within rounding error"
     )
-    if steady.multiplier_max > _DIED_OUT:
+    if not chain.is_linear or chain.links["stations"]:
+        missing["multiplier_max"] = (
+            "kinks of links and of further mechanisms move with the motion, which multipliers feel; compare "
+            "two motions"
+        )
+    elif steady.multiplier_max > _DIED_OUT:
         largest = _largest_multiplier(motion, gradient, chain)
         named["multiplier_max"] = Tangent(steady.multiplier_max, largest)
     else:
@@ -99,6 +106,8 @@ def _directions(
     machine: Machine, variables: Sequence[str], refused: dict[str, str]
 ) -> tuple[Directions, Chain, Floats]:
     """Entries with derivatives, the driveline with tangents, and directions of all numbers of the core."""
+    if machine.has_mounted_mechanisms:
+        return _directions_of_train(machine, variables, refused)
     program = directions(machine, variables)
     refused.update(program.refused)
     inertia = mean_inertia(machine) if _is_lossy(machine) else None
@@ -109,6 +118,22 @@ def _directions(
         by_inertia = lifted(listed(chain_of(machine, Tangent(inertia, np.ones(1)))), 1).d
         of_chain = of_chain + by_inertia * _mean_inertia_along(machine, known)
     return along, moved, np.ascontiguousarray(np.vstack([along.values, of_chain]))
+
+
+def _directions_of_train(
+    machine: Machine, variables: Sequence[str], refused: dict[str, str]
+) -> tuple[Directions, Chain, Floats]:
+    """The same of a train, whose numbers are those of the driveline: mechanisms keep theirs."""
+    for name in variables:
+        if not name.startswith("train.") or ".machine." in name:
+            refused[name] = "a number of a mechanism on a train, of which the motion has only values"
+    own = [name for name in variables if name not in refused]
+    known, moved = followed(machine, own, driveline_chain, refused)
+    sizes = np.abs([float(entry_of(machine, name)) for name in known])
+    count = len(driven_train(machine).compiled.one)
+    along = Directions(known, np.zeros((count, len(known))), np.where(sizes > 0, sizes, 1.0), {})
+    of_chain = lifted(listed(moved), len(known)).d if known else np.zeros((0, 0))
+    return along, moved, np.ascontiguousarray(np.vstack([along.values, of_chain]) if known else of_chain)
 
 
 def _is_lossy(machine: Machine) -> bool:

@@ -20,10 +20,11 @@ from numpy.typing import ArrayLike
 from linkwright.drive.load_checks import require_half_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import NO_INERTIA
-from linkwright.driveline.chain import Chain, chain_of
+from linkwright.driveline.chain import Chain, Driven, chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion
 from linkwright.driveline.permitted import TorqueJudgement, in_motion
 from linkwright.driveline.solving import require_flexible
+from linkwright.driveline.train_chain import driveline_chain, moving_train
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
@@ -90,7 +91,12 @@ class ElasticTransient(Result):
     twist: Annotated[Floats, Label("twist of each shaft", "Δ", "rad", _OWN, shape="(shafts, n)")]
     torque_drive: Annotated[
         Floats,
-        Label("driving torque referred to the crank", "M_d", "N m", "Of the motor, behind the gearbox."),
+        Label("driving torque referred to the crank", "M_d", "N m", "Of all motors, behind their gearboxes."),
+    ]
+    motors: Annotated[tuple[str, ...], About("What drives.")]
+    torque_motor: Annotated[
+        Floats,
+        Label("torque of each motor", "M_m", "N m", "At its speed, less gear losses.", shape="(motors, n)"),
     ]
     torque_load: Annotated[Floats, Label("load torque referred to the crank", "M_r", "N m")]
     speed_min: Annotated[Floats, Label("minimum speed", "ω_min", "rad/s", shape="(stations,)")]
@@ -237,7 +243,7 @@ def elastic_transient(
     Parameters
     ----------
     machine : Machine
-        With a mechanism and a [drive] of which something twists.
+        With a mechanism and a [drive] of which something twists, or a train with mechanisms.
     angle, speed : float
         Angle [rad] and speed [rad/s] of the crank at the start, at which all turns and nothing is twisted.
     duration : float
@@ -400,7 +406,7 @@ def followed(
         machine = switch.machine or machine
         motor = motor if switch.motor is None else switch.motor
         brake = brake if switch.brake is None else switch.brake
-        compiled, chain = _compiled(machine, motor=motor), chain_of(machine)
+        compiled, chain, speed = ready_in_time(machine, motor=motor)
         if moving.stretches:
             _require_same_driveline(moving.stretches[0].chain, chain)
         left = turns - abs(float(state[-1]) - first) / (2 * np.pi)
@@ -410,7 +416,7 @@ def followed(
             brakes=_brakes(machine, chain) if brake else np.zeros(len(chain.links["inertia"]) + 1),
             time=time,
             motor=sense,
-            speed=compiled.speed_guess,
+            speed=speed,
             until=until,
             turns=left,
             accuracy=accuracy,
@@ -426,7 +432,10 @@ def followed(
     return moving
 
 
-def _compiled(machine: Machine, *, motor: bool) -> CompiledMachine:
+def ready_in_time(machine: Machine, *, motor: bool = True) -> Driven:
+    """A machine with an elastic driveline that moves in time, in the core's terms, with its speed at work."""
+    if machine.has_mounted_mechanisms:
+        return moving_train(machine, motor=motor)
     require_flexible(machine)
     drive = machine.drive
     assert drive is not None
@@ -440,7 +449,7 @@ def _compiled(machine: Machine, *, motor: bool) -> CompiledMachine:
     compiled = compile_machine(machine, motor=motor)
     require_half_turns(compiled, machine)
     require_finite_accelerations(machine)
-    return compiled
+    return Driven(compiled, chain_of(machine), compiled.speed_guess)
 
 
 def _require_same_driveline(chain: Chain, other: Chain) -> None:
@@ -466,6 +475,8 @@ def _require_end(
     motion: DrivelineInTime, compiled: CompiledMachine, machine: Machine, chain: Chain, accuracy: float
 ) -> None:
     if motion.end == "does not close":
+        if machine.has_mounted_mechanisms:
+            raise SteadyStateError(NO_INERTIA)
         require_full_turn(compiled, machine)
         require_sound_loads(compiled, machine)
         raise SteadyStateError(NO_INERTIA)
@@ -486,7 +497,7 @@ def _state(
     if isinstance(start, ElasticTransient):
         return start.state_end
     require_flexible(machine)
-    chain = chain_of(machine)
+    chain = driveline_chain(machine)
     masses = len(chain.links["inertia"]) + 1
     angle, speed = at_rest
     twists, speeds = np.zeros(masses - 1), np.full(masses, float(speed))
@@ -516,7 +527,9 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
         acceleration=ratio[:, None] * curves["acceleration"][at],
         torque=curves["torque"] / lead[:, None],
         twist=curves["twist"] * lead[:, None],
-        torque_drive=curves["torque_drive"],
+        motors=chain.motors,
+        torque_drive=curves["torque_drive"].sum(axis=0),
+        torque_motor=curves["torque_drive"] / chain.motor_ratio[:, None],
         torque_load=curves["torque_load"],
         **_extremes(moving, chain),
         energy_dissipated=ends["heat"],
@@ -526,7 +539,7 @@ def _result(moving: Followed, times: Floats) -> ElasticTransient:
         energy_brake=float(ends["work_brake"]),
         energy_kinetic=float(ends["energy_kinetic"] - start.energy_kinetic[0]),
         energy_elastic=float(ends["energy_elastic"] - start.energy_elastic[0]),
-        heat_motor=_heat(machine, ends, moving.sense),
+        heat_motor=_heat(machine, chain, ends, moving.sense),
         accuracy=moving.accuracy,
         energy_error=max(each.motion.energy_error for each in moving.stretches),
         steps=sum(len(each.motion.time) - 1 for each in moving.stretches),
@@ -566,14 +579,23 @@ def _extremes(moving: Followed, chain: Chain) -> dict[str, Any]:
     return found
 
 
-def _heat(machine: Machine, ends: Mapping[str, Floats], sense: float) -> float | None:
-    """Heat of a rotor: its torque times what it lags behind the field, or behind the speed without load."""
-    assert machine.drive is not None
-    motor = machine.drive.motor
-    if isinstance(motor, InductionMotor) or (isinstance(motor, DcMotor) and motor.torque_max is None):
-        without_load = float(motor.speed_without_load) / machine.drive.gearbox.ratio
-        return float(sense * without_load * ends["impulse"] - ends["work_shaft"])
-    return None
+def _heat(machine: Machine, chain: Chain, ends: Mapping[str, Floats], sense: float) -> float | None:
+    """Heat of rotors: their torques times what they lag behind the field, or the speed without load."""
+    motors = [_motor(machine, name) for name in chain.motors]
+    if not all(
+        isinstance(motor, InductionMotor) or (isinstance(motor, DcMotor) and motor.torque_max is None)
+        for motor in motors
+    ):
+        return None
+    without_load = [float(motor.speed_without_load) for motor in motors] / chain.motor_ratio
+    return float(sense * without_load @ ends["impulse"] - ends["work_shaft"])
+
+
+def _motor(machine: Machine, name: str) -> Any:
+    """A motor by its name; None of a driver that is none."""
+    if machine.train is not None:
+        return machine.train.motors[name].motor if name in machine.train.motors else None
+    return machine.drive.motor if machine.drive is not None else None
 
 
 def _slips(moving: Followed) -> Iterator[float]:

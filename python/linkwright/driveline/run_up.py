@@ -12,12 +12,11 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from linkwright.driveline.chain import chain_of
 from linkwright.driveline.elastic_motion import (
     SteadySolution,
     solved_motion,
 )
-from linkwright.driveline.in_time import ElasticTransient, Followed, followed
+from linkwright.driveline.in_time import ElasticTransient, Followed, followed, ready_in_time
 from linkwright.driveline.permitted import TorqueJudgement
 from linkwright.driveline.solving import require_flexible
 from linkwright.kernel.arrays import Floats
@@ -28,7 +27,6 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.whole_cycle import cycle_of
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import compile_machine
 
 # Relative accuracy of a step, and of the steady motion that is approached.
 _ACCURACY = 1e-9
@@ -140,7 +138,7 @@ def elastic_run_up(machine: Machine, *, accuracy: float = _ACCURACY) -> ElasticR
         See `elastic_motion`.
     """
     require_flexible(machine)
-    if machine.drive is None or machine.drive.motor is None:
+    if not machine.has_mounted_mechanisms and (machine.drive is None or machine.drive.motor is None):
         raise InputError(f"{machine.name}: a run-up needs a motor; add [drive.motor]")
     options = machine.run_up
     turns = min(_FIRST_TURNS, options.turns_max)
@@ -183,10 +181,10 @@ def require_elastic_start(machine: Machine) -> None:
 
 def _from_start(machine: Machine, turns: float, accuracy: float, after: Followed | None = None) -> Followed:
     """The motion from the start of the run-up, or further on, for a number of revolutions."""
-    options, chain = machine.run_up, chain_of(machine)
+    options, (_, chain, speed) = machine.run_up, ready_in_time(machine)
     others = np.zeros(2 * len(chain.links["inertia"]))
     state = np.concatenate([others, [options.speed_start, options.angle_start]])
-    duration = _SLOWEST * options.turns_max * 2 * np.pi / compile_machine(machine).speed_guess
+    duration = _SLOWEST * options.turns_max * 2 * np.pi / speed
     return followed(machine, state, limits=(duration, turns), accuracy=accuracy, after=after)
 
 
@@ -195,7 +193,8 @@ def _require_forward(moving: Followed, machine: Machine) -> None:
     last = moving.last
     turned = float(last.crank_angle[-1] - moving.stretches[0].motion.crank_angle[0]) / (2 * np.pi)
     drive, load = last.torque_drive_end, last.torque_load_end
-    angle = f"{np.degrees(last.crank_angle[-1] % cycle_of(machine)):.1f}°"
+    cycle = 2 * np.pi if machine.has_mounted_mechanisms else cycle_of(machine)
+    angle = f"{np.degrees(last.crank_angle[-1] % cycle):.1f}°"
     balance = f"at {angle} the motor gives {drive:.0f} N m at the crank, the load needs {load:.0f} N m"
     remedy = "choose a motor with more starting torque, a larger ratio, or another start angle"
     after = f"after {abs(turned):.2f} revolutions and {last.time[-1]:.2f} s"

@@ -26,9 +26,11 @@ from linkwright.driveline.chain import Chain, Driven, Outside, Stand, chain_of, 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
 from linkwright.linkages.closure import turn_angles
+from linkwright.kernel.numerics.tangent import Tangent, numbers, primal
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
-from linkwright.torsion.core.torque import motor_program
+from linkwright.machine.tangents import directions
+from linkwright.torsion.core.torque import motor_machine, motor_program
 from linkwright.torsion.core.train import ReferredTrain, refer
 from linkwright.torsion.excitation.drive_line import mounted_mechanism
 from linkwright.torsion.in_time.moving_train import shaft_damping
@@ -57,10 +59,10 @@ class _Mounted(NamedTuple):
     phase: float  # its crank angle where that of the first is zero, without twist [rad]
 
     @property
-    def inertia(self) -> float:
+    def inertia(self) -> Any:
         """Its mean inertia, referred to the first crank [kg m²]."""
         at = self.compiled.reductions(turn_angles(_ANGLES, self.compiled.turns)[:-1])
-        return float(self.ratio**2 * at.inertia.mean())
+        return self.ratio**2 * float(at.inertia.mean())
 
     def torque(self, speeds: Floats) -> Floats:
         """Its mean resistance at constant speeds of the first crank, referred to that [N m]."""
@@ -80,6 +82,29 @@ def driven_train(machine: Machine) -> Driven:
     return Driven(compiled, chain, _balance(machine, chain, mounted))
 
 
+def moving_train(machine: Machine, *, motor: bool = True) -> Driven:
+    """Masses, links, torques and mechanisms of a train that moves in time; the speed is that at work, about.
+
+    `motor`: whether what drives is on.
+    """
+    chain, mounted = _chain(machine)
+    if chain.held is not None:
+        kinds = [each.kind for each in chain.links["drivers"]]
+        raise InputError(
+            f"train.motors.{chain.motors[kinds.index('held')]}.motor.kind: found constant_speed, which has no "
+            "motion in time; expected a motor whose torque follows its speed"
+        )
+    if not motor:
+        off = [Outside(each.mass, "power", (0.0, 1.0, 0.0)) for each in chain.links["drivers"]]
+        chain = chain._replace(links=chain.links | {"drivers": off})
+    try:
+        speed = _balance(machine, chain, mounted)
+    except SteadyStateError:
+        # silent: it moves all the same; only sizes are compared with the speed
+        speed = _highest(machine, chain)
+    return Driven(mounted[0].compiled, chain, speed)
+
+
 def driveline_chain(machine: Machine) -> Chain:
     """Masses and links of a train with mechanisms, or of the driveline that [drive] describes."""
     return _chain(machine)[0] if machine.has_mounted_mechanisms else chain_of(machine)
@@ -92,32 +117,29 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
     referred = refer(train)
     mounted = _mounted(machine, train, referred)
     first = mounted[0]
-    n = 1.0 / float(referred.speed[first.disc])
+    n = 1.0 / referred.speed[first.disc]
     order = order_of(len(referred.inertia), int(referred.mass[first.disc]))
     mass, ratio, last = order[referred.mass], referred.speed * n, len(order) - 1
-    felt = np.zeros(len(order))
+    own, by_mass = (referred.inertia * n**2)[np.argsort(order)], [0.0] * len(order)
     for one in mounted[1:]:
-        felt[mass[one.disc]] += one.inertia
-    own = np.empty(len(order))
-    own[order] = referred.inertia * n**2
-    mean = own + felt
-    mean[last] += first.inertia
+        by_mass[mass[one.disc]] = by_mass[mass[one.disc]] + one.inertia
+    felt = numbers(by_mass)
+    mean = own + felt + first.inertia * (np.arange(len(order)) == last)
     # Frequencies at which hysteresis counts are those with the mean inertia of the mechanisms.
     whole = replace(referred, inertia=mean[order] / n**2)
     damping, notes = shaft_damping(whole)
     links = links_of(train, referred, n, order, list(range(len(referred.shafts))), damping)
-    place = {name: (int(mass[k]), float(ratio[k])) for k, name in enumerate(referred.discs)}
+    place = {name: (int(mass[k]), ratio[k]) for k, name in enumerate(referred.discs)}
     drivers = dict(_drivers(machine, train, place))
-    damped = np.empty(len(order))
-    damped[order] = referred.disc_damping * n**2
+    damped = (referred.disc_damping * n**2)[np.argsort(order)]
     links |= {
-        "apart": -float(own[last]),
+        "apart": -own[last],
         "drivers": list(drivers.values()),
         "loads": [
             _power(place[load.on], -load.torque, load.speed, load.exponent) for load in train.loads.values()
         ],
         "stations": [Stand(int(mass[one.disc]), one.compiled, one.ratio, one.phase) for one in mounted[1:]],
-        "swing": (damped, mean / mean.sum()) if damped.any() else None,
+        "swing": (damped, mean / mean.sum()) if primal(damped).any() else None,
     }
     on = [_on(train, name) for name in drivers]
     held = [
@@ -132,8 +154,8 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
         links,
         crank=referred.discs[first.disc],
         motors=tuple(drivers),
-        motor_ratio=np.array([place[disc][1] for disc in on]),
-        felt=felt,
+        motor_ratio=numbers([place[disc][1] for disc in on]),
+        felt=primal(felt),
         held=held[0] if held else None,
         notes=tuple(notes),
     )
@@ -146,7 +168,7 @@ def _mounted(machine: Machine, train: Train, referred: ReferredTrain) -> list[_M
     for name, mechanism in train.mechanisms.items():
         disc = referred.discs.index(mechanism.on)
         compiled = mounted_mechanism(machine, name)
-        ratio = float(referred.speed[disc] / referred.speed[found[0].disc]) if found else 1.0
+        ratio = referred.speed[disc] / referred.speed[found[0].disc] if found else 1.0
         lead = lead if found else mechanism.phase
         found.append(_Mounted(name, compiled, disc, ratio, mechanism.phase - ratio * lead))
     return found
@@ -193,8 +215,19 @@ def _motor(motor: Any, mass: int, ratio: float) -> Outside:
     """A motor whose disc turns at a ratio to the crank, which stands for its gears."""
     if isinstance(motor, ConstantSpeedMotor):
         return Outside(mass, "held", (motor.speed / ratio,))
-    compiled = motor_program(motor, ratio)
-    return Outside(mass, "motor", compiled.one, compiled)
+    moving = {name: x for name, x in vars(motor).items() if isinstance(x, Tangent)}
+    known = motor.model_copy(update={name: float(primal(x)) for name, x in moving.items()})
+    compiled = motor_program(known, float(primal(ratio)))
+    slopes = {f"drive.motor.{name}": x.d for name, x in moving.items() if x.d.any()}
+    if isinstance(ratio, Tangent) and ratio.d.any():
+        slopes["drive.gearbox.ratio"] = ratio.d
+    if not slopes:
+        return Outside(mass, "motor", compiled.one, compiled)
+    along = directions(motor_machine(known, float(primal(ratio))), [*slopes])
+    if along.refused:
+        raise InputError(next(iter(along.refused.values())))
+    values = along.values @ np.array([slopes[name] for name in along.variables])
+    return Outside(mass, "motor", Tangent(compiled.one, values), compiled)
 
 
 def _power(place: tuple[int, float], torque: float, speed: float, exponent: float) -> Outside:
@@ -206,19 +239,10 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
     """Highest speed of the first crank at which the mean torques balance stably, as if all was rigid."""
     train = machine.train
     assert train is not None
+    if chain.speed_held is not None:
+        return chain.speed_held
     ratio = dict(zip(chain.stations, chain.ratio.tolist(), strict=True))
-    known = [
-        float(motor.motor.speed_without_load) / ratio[motor.on]
-        for motor in train.motors.values()
-        if motor.motor.speed_without_load is not None
-    ]
-    for motor in train.motors.values():
-        if isinstance(motor.motor, ConstantSpeedMotor):
-            held: float = float(motor.motor.speed) / ratio[motor.on]
-            return held
-    known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
-    known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
-    highest = max(known, default=100.0)
+    highest = _highest(machine, chain)
     for _ in range(_DOUBLINGS):
         speeds = np.linspace(highest / _SPEEDS, highest, _SPEEDS)
         net = _net(train, ratio, mounted, speeds)
@@ -239,6 +263,21 @@ def _balance(machine: Machine, chain: Chain, mounted: list[_Mounted]) -> float:
         f"{highest / 2:.4g} rad/s of the first crank; give loads that grow with the speed, or motors whose "
         "torque falls with it"
     )
+
+
+def _highest(machine: Machine, chain: Chain) -> float:
+    """A speed of the first crank above that at which mean torques balance, about [rad/s]."""
+    train = machine.train
+    assert train is not None
+    ratio = dict(zip(chain.stations, chain.ratio.tolist(), strict=True))
+    known = [
+        float(motor.motor.speed_without_load) / ratio[motor.on]
+        for motor in train.motors.values()
+        if motor.motor.speed_without_load is not None
+    ]
+    known += [2 * load.speed / ratio[load.on] for load in train.loads.values()]
+    known += [2 * one.speed / ratio[one.on] for one in train.drivers.values() if one.speed is not None]
+    return max(known, default=100.0)
 
 
 def _net(train: Train, ratio: dict[str, float], mounted: list[_Mounted], speeds: Floats) -> Floats:

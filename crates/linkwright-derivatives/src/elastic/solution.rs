@@ -12,7 +12,7 @@ use linkwright_driveline::steady::Steady;
 use linkwright_driveline::work::Work;
 use linkwright_kernel::dual::Dual;
 use linkwright_kernel::out_of_line;
-use linkwright_kernel::radau::{A, AT, B, N, S, through, value};
+use linkwright_kernel::radau::{A, B, N, S, through, value};
 use linkwright_kernel::real::Real;
 
 /// An end of a step this near to a kink of loads or motion \[rad\] moves with it.
@@ -142,7 +142,8 @@ impl<'a, R: Real> Along<'a, R> {
             let (mut work, mut rates) = (Work::new(chain), Rates::new(chain));
             for k in 0..self.steady.mesh.steps() {
                 for i in 0..S {
-                    let y = self.state(k, AT[i + 1]);
+                    // Where a step ends at a kink, derivatives are those inside.
+                    let y = self.state(k, READ[i]);
                     let angle = self.length(k) * B[i];
                     self.equation.rates(&self.rows[k * S + i].row(), &y, &mut rates);
                     work.add(chain, &rates, &y, angle);

@@ -138,10 +138,14 @@ def motor_curve(motor: Motor) -> Curve:
 
 def motor_program(motor: Motor, ratio: float = 1.0) -> CompiledMachine:
     """A machine with nothing but a motor and gears in the core's terms, for the core's own torque."""
-    bare = Machine(
+    return compile_machine(motor_machine(motor, ratio))
+
+
+def motor_machine(motor: Motor, ratio: float = 1.0) -> Machine:
+    """A machine with nothing but a motor and gears."""
+    return Machine(
         format=1,
         name="motor",
         drive=Drive(motor=motor, gearbox=Gearbox(ratio=ratio)),
         mechanism=Mechanism(cranks={"A": Crank(radius=1.0)}),
     )
-    return compile_machine(bare)
