@@ -319,7 +319,7 @@ def test_what_is_wrong_is_named() -> None:
         shafts=shafts,
         brakes={"k": {"on": "a", "sliding": 1.0}},
     )
-    with pytest.raises(MachineError, match="turns together with"):
+    with pytest.raises(MachineError, match="rotates with"):
         torsion_transient(twice)
 
 

@@ -74,7 +74,7 @@ def start_speeds(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
         disc = train.discs.index(name)
         part = parts[train.mass[disc]]
         if part in given:
-            expected = f"no second speed: {name} turns together with {given[part]}"
+            expected = f"no second speed: {name} rotates with {given[part]}"
             raise MachineError([Problem(f"train.transient.speeds.{name}", f"{speed:.6g} rad/s", expected)])
         given[part] = name
         speeds[[of == part for of in parts]] = speed / train.speed[disc]
