@@ -1,5 +1,6 @@
 """Reference trains of Modelica's Rotational.Examples by their equations, integrated here by SciPy.
 
+Parameters are those of the Modelica Standard Library, version 4, Modelica/Mechanics/Rotational/Examples.
 Each phase between two kinks or changes of state is integrated by itself, up to its event.
 """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 
 import numpy as np
 
@@ -55,9 +56,12 @@ def _engagement(name: str, part: EngagedPart, manoeuvre: TrainTransient) -> Curv
 
 
 def part_numbers(train: MovingTrain) -> list[int]:
-    """Number of the part that each mass belongs to: shafts join masses, and friction does not."""
-    pairs = [pair for pair in np.where(train.tip < 0, -1, train.mass[train.tip]).tolist() if -1 not in pair]
-    parts = parts_of(range(train.masses), ((a, b) for a, b in pairs))
+    """Number of the part that each mass belongs to: shafts join masses, and friction does not.
+
+    What rests while the train runs, such as a housing, joins nothing.
+    """
+    joined = (np.flatnonzero(row * train.turning).tolist() for row in train.joins)
+    parts = parts_of(range(train.masses), (pair for masses in joined for pair in pairwise(masses)))
     return [number for _, number in sorted((mass, k) for k, part in enumerate(parts) for mass in part)]
 
 
@@ -70,8 +74,8 @@ def start_speeds(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:
         disc = train.discs.index(name)
         part = parts[train.mass[disc]]
         if part in given:
-            expected = f"one speed for each part that turns together: {given[part]} belongs to it"
-            raise MachineError([Problem(f"train.transient.speeds.{name}", name, expected)])
+            expected = f"no second speed: {name} rotates with {given[part]}"
+            raise MachineError([Problem(f"train.transient.speeds.{name}", f"{speed:.6g} rad/s", expected)])
         given[part] = name
         speeds[[of == part for of in parts]] = speed / train.speed[disc]
     _require_free_sense(train, speeds)

@@ -21,6 +21,7 @@ from linkwright.kernel.core.curve import straight
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.torsion.core.train import ReferredTrain
 from linkwright.torsion.core.transient import PLAIN, Controller, Manner, MovingPendulum, MovingTrain
+from linkwright.torsion.in_time.friction_parts import start_speeds
 from linkwright.torsion.model.train import GROUND, Train
 from linkwright.torsion.model.train_transient import TrainTransient
 from linkwright.torsion.model.whole_train import parts_of
@@ -107,8 +108,8 @@ def _controller(name: str, moving: MovingTrain, train: Train, manoeuvre: TrainTr
     if control.times is not None and control.speeds is not None:
         course = straight(control.times, control.speeds)
     else:
-        speed = float(moving.speed[disc]) * manoeuvre.speed if control.speed is None else control.speed
-        course = straight([0.0], [speed])
+        start = float(moving.speed[disc] * start_speeds(moving, manoeuvre)[moving.mass[disc]])
+        course = straight([0.0], [start if control.speed is None else control.speed])
     return Controller(
         name,
         disc,

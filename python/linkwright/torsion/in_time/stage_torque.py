@@ -17,6 +17,7 @@ import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.torsion.core.transient import MovingTrain
+from linkwright.torsion.in_time.friction_parts import part_numbers
 from linkwright.torsion.model.train import TrainGear
 from linkwright.torsion.response.mesh_torque import passed_on
 
@@ -85,10 +86,7 @@ def _left_over(
         net[first] -= flow
         net[second] += flow
     net = net[:-1]
-    turning = train.turning[train.mass][:, None]
-    inertia = train.mean_inertia[:, None] * n**2 * turning
-    together = turning * (inertia * speed[train.mass]).sum(axis=0) / inertia.sum()
-    swing = train.swing_damping[:, None] * (speed[train.mass] - together)
+    swing = train.swing_damping[:, None] * (speed[train.mass] - _together(train, speed))
     net -= n**2 * (train.damping[:, None] * speed[train.mass] + swing)
     loaded = {disc: own for disc in joined if (own := tuple(one for one in train.torques if one.on == disc))}
     bare = _net(replace(train, torques=()), time, angle, speed) if loaded else net
@@ -96,6 +94,19 @@ def _left_over(
         alone = _net(replace(train, torques=own), time, angle, speed)
         net[disc] += (alone - bare)[train.mass[disc]]
     return _shared(train, joined, net)
+
+
+def _together(train: MovingTrain, speed: Floats) -> Floats:
+    """Speed of each disc as it turns with its part as a whole, (discs, n); a train that is held stands."""
+    turning = train.turning[train.mass]
+    together = np.zeros((len(turning), speed.shape[1]))
+    parts = np.array(part_numbers(train))[train.mass] if train.is_free else np.zeros(0)
+    for part in set(parts.tolist()):
+        inertia = np.where(parts == part, train.mean_inertia * train.speed**2 * turning, 0.0)
+        if inertia.any():
+            together[parts == part] = inertia @ speed[train.mass] / inertia.sum()
+    together *= turning[:, None]
+    return together
 
 
 def friction_lead(train: MovingTrain) -> Floats:

@@ -85,9 +85,19 @@ def balanced_start(
         moving, manoeuvre, lambda factor: _driven(moving, _drives(moving, train, -left * factor))
     )
     drives = _drives(moving, train, total)
-    given = " and ".join(f"{moving.discs[drive.on]} by a constant {drive.scale:.5g} N m" for drive in drives)
-    words = f"{given.replace(' by', ' is driven by', 1)}, what the loads need at the start"
+    words = f"{_given(moving, drives)}, what the loads need at the start"
     return _with_offsets(moving, drives), speed, words
+
+
+def _given(moving: MovingTrain, drives: list[TrainTorque]) -> str:
+    """What drives at the start, in words; the torque of a controller changes afterwards."""
+    if {drive.on for drive in drives} <= {one.on for one in moving.controllers}:
+        return " and ".join(
+            f"the controller of {moving.discs[drive.on]} begins with {drive.scale:.5g} N m"
+            for drive in drives
+        )
+    given = " and ".join(f"{moving.discs[drive.on]} by a constant {drive.scale:.5g} N m" for drive in drives)
+    return given.replace(" by", " is driven by", 1)
 
 
 def _drives(moving: MovingTrain, train: Train, total: float) -> list[TrainTorque]:

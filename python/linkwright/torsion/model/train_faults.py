@@ -12,7 +12,7 @@ from linkwright.kernel.description.base import close_match, fault, suggestion
 from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.errors import AssemblyError, InputError
 from linkwright.kernel.limits import DISCS
-from linkwright.torsion.model.train import GROUND, Train
+from linkwright.torsion.model.train import GROUND, Planetary, Train
 from linkwright.torsion.model.train_torques import crank_names, throw_names
 from linkwright.torsion.model.train_transient import transient_faults
 from linkwright.torsion.model.whole_train import Contradiction, RodShaft, parts_of, speeds, whole_train
@@ -47,7 +47,7 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         remedy = "it is the name of the fixed frame"
         yield fault("train", "discs", GROUND, found=GROUND, expected="another name", remedy=remedy)
         return
-    if keys(look(train, "pendulums")) and look(train, "run") is None:
+    if keys(look(train, "pendulums")) and look(train, "run") is None and look(train, "transient") is None:
         remedy = "give [train.run] speed_min and speed_max"
         yield fault(
             "train", "pendulums", expected="speeds, which set the stiffness of pendulums", remedy=remedy
@@ -252,13 +252,15 @@ def _parts_faults(train: object, discs: Sequence[str]) -> Iterator[InitErrorDeta
 
 def _carried(train: object) -> Iterator[tuple[str, ...]]:
     """Discs that gears on a carrier join: all of a planetary stage, or gears and their carrier."""
-    if not isinstance(train, Train):
-        return
-    for name, stage in train.planetaries.items():
-        yield (stage.sun, stage.ring, stage.carrier, *stage.planet_names(name))
-    for gear in train.gears.values():
-        if gear.carrier is not None:
-            yield (*gear.between, gear.carrier)
+    for name in keys(look(train, "planetaries")):
+        stage = look(look(train, "planetaries"), name)
+        members = [look(stage, member) for member in _MEMBERS]
+        planets = stage.planet_names(name) if isinstance(stage, Planetary) else ()
+        yield (*(member for member in members if isinstance(member, str)), *planets)
+    for name, ends in _pairs(train, "gears"):
+        carrier = look(look(look(train, "gears"), name), "carrier")
+        if isinstance(carrier, str):
+            yield (*ends, carrier)
 
 
 def _speed_faults(train: Train, expanded: Train) -> Iterator[InitErrorDetails]:

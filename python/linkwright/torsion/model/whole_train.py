@@ -63,8 +63,9 @@ def whole_train(train: Train) -> Train:
 
 
 def _at_service(train: Train, expanded: Train) -> Train:
-    """A train whose pendulums have the stiffness of the speed of service."""
-    service, turning = 0.0 if train.run is None else train.run.service, speeds(expanded).discs
+    """A train whose pendulums have the stiffness of the speed of service, or of the start of a manoeuvre."""
+    start = 0.0 if train.transient is None else train.transient.speed
+    service, turning = start if train.run is None else train.run.service, speeds(expanded).discs
     swinging = {
         name: expanded.shafts[name].model_copy(
             update={"stiffness": pendulum.stiffness(service * turning[pendulum.on])}
