@@ -8,11 +8,14 @@
 | `commands` | ``linkwright rods``: prediction, and diagnosis of a card |
 | `core` | The core's string of sucker rods |
 | `diagnosis` | Diagnosis of a measured surface card |
+| `gradient` | Derivatives of a predicted rod string by entries |
+| `many` | Many predictions at once |
 | `model/` | A rod string with its pump in a machine file |
 | `numbers` | Terms of API RP 11L |
 | `plunger_load` | What a pump card tells: plunger stroke, fluid load, fillage |
 | `polished_rod` | Motion of the polished rod in time, with the drive that moves it |
 | `prediction` | Predicted motion of a rod string |
+| `scalars` | Loads, strokes, powers: formulas for numbers, rows and derivatives |
 | `spectrum` | Harmonics of a measured card that stand above its noise |
 | `stress` | Loads and stresses of the sections, by the modified Goodman diagram |
 | `tables` | Results of rod strings as tables of text |

@@ -47,9 +47,11 @@ class _Along(NamedTuple):
     numbers: list[Any]
 
 
-def string_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+def string_tangents(
+    machine: Machine, variables: Sequence[str], accuracy: float = _ACCURACY
+) -> Derivatives:
     """Scalars of a predicted rod string by some entries. Raises what `rod_string` raises."""
-    solved = solution(machine, _ACCURACY)
+    solved = solution(machine, accuracy)
     refused: dict[str, str] = {}
     if isinstance(solved.rod, UnitRod) and solved.rod.has_motor:
         return Derivatives((), {}, {}, {}, dict.fromkeys(variables, _WITH_MOTOR))
