@@ -10,6 +10,7 @@
 | `diagnosis` | Diagnosis of a measured surface card |
 | `gradient` | Derivatives of a predicted rod string by entries |
 | `many` | Many predictions at once |
+| `many_cards` | Measured cards of a field day at once |
 | `model/` | A rod string with its pump in a machine file |
 | `numbers` | Terms of API RP 11L |
 | `plunger_load` | What a pump card tells: plunger stroke, fluid load, fillage |

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -128,3 +129,20 @@ def cards_of(string: RodString, period: float, position: Floats, load: Floats, d
         harmonics=len(position) // 2 - 1,
     )
     return cards_in(found, string, 0)
+
+
+def cards_in_rows(
+    string: RodString, periods: Sequence[float], position: Floats, load: Floats, damping: float
+) -> tuple[Floats, Floats, Floats]:
+    """Position and load of the plunger, (cards, n), of many cards, and the work at both ends, (cards, 2)."""
+    last = len(string.sections)
+    numbers = np.repeat(np.array([numbers_of(string, 1.0, damping)], dtype=float), len(periods), axis=0)
+    numbers[:, -1] = periods
+    found = _core.rod_cards(
+        sections=last,
+        numbers=numbers,
+        position=np.ascontiguousarray(position),
+        load=np.ascontiguousarray(load),
+        harmonics=position.shape[1] // 2 - 1,
+    )
+    return found.position[:, last], found.load[:, last], found.work[:, [0, last]]

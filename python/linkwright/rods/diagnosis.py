@@ -159,7 +159,7 @@ def diagnose_card(
     unit = machine.pumping_unit
     stroke = string.stroke if unit is None else float(unit.stroke)
     card = checked_card(SurfaceCard(position, load, period), string, stroke)
-    period = _period(machine, string, card.period)
+    period = card_period(machine, string, card.period)
     n = len(card.load)
     if harmonics is not None and not 1 <= harmonics <= (n - 1) // 2:
         raise InputError(
@@ -173,7 +173,8 @@ def diagnose_card(
     return _diagnosis(string, card, period, (moved, own), fitted, is_fitted=damping is None)
 
 
-def _period(machine: Machine, string: RodString, given: float | None) -> float:
+def card_period(machine: Machine, string: RodString, given: float | None) -> float:
+    """Period of a card [s]: as given, or that of the machine's speed."""
     if given is not None:
         if not (np.isfinite(given) and given > 0):
             raise InputError(f"period: found {given}, expected a time greater than 0")
