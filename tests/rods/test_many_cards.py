@@ -14,9 +14,7 @@ def card_of(fillage, n):
     """The predicted surface card at n samples."""
     motion = lw.rod_string(well({"fillage": fillage} if fillage < 1 else {}))
     at, own = np.arange(n) / n, np.arange(len(motion.time)) / len(motion.time)
-    position, load = (
-        np.interp(at, own, curve, period=1) for curve in (motion.rod_position, motion.rod_load)
-    )
+    position, load = (np.interp(at, own, curve, period=1) for curve in (motion.rod_position, motion.rod_load))
     return SurfaceCard(position, load, motion.period)
 
 

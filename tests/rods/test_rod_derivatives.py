@@ -87,9 +87,7 @@ def test_terms_of_api_have_derivatives_too():
     machine, name = well(), "rod_string.sections.0.length"
     derived = string_tangents(machine, [name]).tangents
     length = float(get(machine, name))
-    ends = [
-        lw.rod_string(exchanged(machine, {name: length * (1 + sign * 1e-3)})).numbers for sign in (1, -1)
-    ]
+    ends = [lw.rod_string(exchanged(machine, {name: length * (1 + sign * 1e-3)})).numbers for sign in (1, -1)]
     for key in ("natural_frequency_tapered", "frequency_factor", "spring_rate", "stroke_force"):
         slope = (getattr(ends[0], key) - getattr(ends[1], key)) / (2e-3 * length)
         assert derived[f"numbers.{key}"].d[0] == pytest.approx(slope, rel=1e-5), key

@@ -20,7 +20,7 @@ _FACTORS = (2, 3, 5)
 
 
 def numbers_of(string: RodString, period: Any, damping: Any = None) -> list[Any]:
-    """Numbers of a string for the core, also of arrays or with derivatives; another damping [1/s] if given."""
+    """Numbers of a string for the core, arrays or with derivatives too; another damping [1/s] if given."""
     pump, rate = string.pump, string.damping_rate if damping is None else damping
     sections = [(s.modulus * s.area, s.mass, rate, s.length) for s in string.sections]
     return [
@@ -89,6 +89,23 @@ def solve_rows(
         start=None if start is None else np.ascontiguousarray(np.atleast_2d(start)),
         tolerance=tolerance,
         sweeps=_SWEEPS,
+    )
+
+
+def solve_along(
+    string: RodString, period: float, motion: Floats, wave: Floats, along: tuple[Floats, Floats]
+) -> _core.RodMotions:
+    """Derivatives of a motion, whose wave is known, by directions (k, …) of its numbers and its samples."""
+    numbers, samples = along
+    return _core.rods_along(
+        sections=len(string.sections),
+        numbers=np.array(numbers_of(string, period), dtype=float),
+        motion=np.ascontiguousarray(motion, dtype=float),
+        start=np.ascontiguousarray(wave),
+        numbers_along=np.ascontiguousarray(numbers),
+        motion_along=np.ascontiguousarray(samples),
+        tolerance=_TOLERANCE,
+        sweeps=2 * _SWEEPS,
     )
 
 

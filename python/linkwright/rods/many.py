@@ -1,7 +1,6 @@
-"""Many predictions and many measured cards at once: strings that differ in numbers, a card a row.
+"""Many predictions at once: strings that differ in numbers, each a lane of the core's kernel.
 
-A string of `rod_strings` is one lane of the core's kernel; all have one number of samples, so that loads that peak
-at a corner miss up to some thousandths of their range (docs/theory/rod_string.md).
+All have one number of samples: loads that peak at a corner miss up to some thousandths of their range.
 """
 
 from __future__ import annotations
@@ -99,7 +98,11 @@ def rod_strings(machine: Machine, values: Mapping[str, Floats]) -> RodStrings:
 def _checked(machine: Machine, values: Mapping[str, Floats]) -> dict[str, Floats]:
     """Columns of one length, of entries that may vary and values that the machine may have."""
     rows = {name: np.atleast_1d(np.asarray(column, dtype=float)) for name, column in values.items()}
-    if not rows or len({column.shape for column in rows.values()}) != 1 or next(iter(rows.values())).ndim != 1:
+    if (
+        not rows
+        or len({column.shape for column in rows.values()}) != 1
+        or next(iter(rows.values())).ndim != 1
+    ):
         shapes = ", ".join(f"{name} {column.shape}" for name, column in rows.items()) or "none"
         raise InputError(f"values: found {shapes}, expected columns of one length")
     for name, column in rows.items():

@@ -1,4 +1,7 @@
-"""Measured cards of a field day at once: the damping is the well's, fitted to some of its cards and held for all."""
+"""Measured cards of a field day at once.
+
+The damping is the well's: it is fitted to some of the cards and held for all.
+"""
 
 from __future__ import annotations
 
@@ -128,7 +131,11 @@ def _diagnosed(
         except InputError as error:
             faults[row] = str(error)
             continue
-        m = _SAMPLES if len(card.load) <= _SAMPLES // 2 else sample_counts(string, period, 2 * len(card.load))[0]
+        m = (
+            _SAMPLES
+            if len(card.load) <= _SAMPLES // 2
+            else sample_counts(string, period, 2 * len(card.load))[0]
+        )
         friction = box * np.sign(np.roll(card.position, -1) - np.roll(card.position, 1)) if box else 0.0
         rows.append((row, card))
         periods.append(period)
@@ -139,8 +146,9 @@ def _diagnosed(
     # Records of one length go down the string together.
     for m in {len(samples) for samples in own}:
         at = [i for i, samples in enumerate(own) if len(samples) == m]
+        records = [np.array([curves[i] for i in at]) for curves in (moved, own)]
         position, load, work = cards_in_rows(
-            string, [periods[i] for i in at], *(np.array([x[i] for i in at]) for x in (moved, own)), damping
+            string, [periods[i] for i in at], records[0], records[1], damping
         )
         for k, i in enumerate(at):
             (row, card), period = rows[i], periods[i]

@@ -83,7 +83,9 @@ class ApiNumbers(Result):
 
 def api_numbers(string: RodString, scalars: Mapping[str, Any], torque: Any) -> ApiNumbers:
     """The terms of a motion by its scalars and the peak torque of the gearbox [N m]."""
-    rounded = {name: None if x is None else float(x) for name, x in api_terms(string, scalars, torque).items()}
+    rounded = {
+        name: None if x is None else float(x) for name, x in api_terms(string, scalars, torque).items()
+    }
     return ApiNumbers(**cast(Any, rounded))
 
 
