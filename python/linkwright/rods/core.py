@@ -13,7 +13,10 @@ from linkwright.rods.model.rod_string import RodString
 
 # Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load;
 # the change that is still a solution.
-_SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-11, 1e-6
+_SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-9, 1e-6
+
+# Change of derivatives in a sweep over their size, at which they have converged.
+_TOLERANCE_ALONG = 1e-11
 
 # Prime factors of a number of samples.
 _FACTORS = (2, 3, 5)
@@ -104,7 +107,7 @@ def solve_along(
         start=np.ascontiguousarray(wave),
         numbers_along=np.ascontiguousarray(numbers),
         motion_along=np.ascontiguousarray(samples),
-        tolerance=_TOLERANCE,
+        tolerance=_TOLERANCE_ALONG,
         sweeps=2 * _SWEEPS,
     )
 

@@ -16,7 +16,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, directions, followed, scalars_of
-from linkwright.pumping.unit import PumpingUnit
+from linkwright.pumping.model.unit import PumpingUnit
 from linkwright.rods.core import Cards, numbers_of, solve_along
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import api_terms
