@@ -32,6 +32,7 @@ CASES = (
     "cam_one",
     "cams_many",
     "topper_heads",
+    "rods_many",
     "servo_choice",
     "elastic_many",
     "torsion_modes",

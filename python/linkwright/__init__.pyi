@@ -109,6 +109,8 @@ from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
 from linkwright.pumping.unit import pumping_unit as pumping_unit
 from linkwright.rods.card import read_card as read_card
 from linkwright.rods.diagnosis import diagnose_card as diagnose_card
+from linkwright.rods.many import rod_strings as rod_strings
+from linkwright.rods.many_cards import diagnose_cards as diagnose_cards
 from linkwright.rods.prediction import rod_string as rod_string
 from linkwright.sensitivity.gradient import gradient as gradient
 from linkwright.sizing.flywheel import choose_flywheel as choose_flywheel

@@ -1793,7 +1793,7 @@ class TopperKnife:
 
 @final
 class RodMotions:
-    """Periodic motions of rod strings, a row each: cards (rows, stations, n), wave, mean load and last change."""
+    """Periodic motions of rod strings, a row each: cards (rows, stations, n), wave, mean load and change."""
 
     position: Final[_Floats]
     load: Final[_Floats]

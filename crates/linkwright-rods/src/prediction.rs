@@ -24,7 +24,7 @@ use linkwright_kernel::out_of_line;
 use linkwright_kernel::real::Real;
 use std::f64::consts::{PI, TAU};
 
-/// How often the harmonics of samples are repeated; beyond, too little of a straight line is left.
+/// How often the harmonics of samples are repeated; beyond, little of a straight line is left.
 const REPEATED: usize = 2;
 
 /// Change of the wave over the load of the fluid at which a solution of fewer samples is good enough to start from.
@@ -165,13 +165,15 @@ fn share(k: usize, n: usize) -> f64 {
 /// R of harmonic k of waves that are straight between n samples: over all harmonics that have the same samples.
 #[inline(always)]
 fn straight<R: Real>(exact: &[Complex<R>], k: usize, n: usize) -> Complex<R> {
-    let (mut sum, mut shares) = (exact[k] * share(k, n), share(k, n));
+    let (mut sum, mut rest) = (exact[k] * share(k, n), 1.0 - share(k, n));
     for repeat in 1..=REPEATED {
         let (above, below) = (repeat * n + k, repeat * n - k);
-        sum = sum + exact[above] * share(above, n) + exact[below].conj() * share(below, n);
-        shares += share(above, n) + share(below, n);
+        rest -= share(above, n) + share(below, n);
+        // All shares are one. Where waves are so short, damping no longer depends on their length: the last two stand for the rest.
+        let more = if repeat == REPEATED { 0.5 * rest } else { 0.0 };
+        sum = sum + exact[above] * (share(above, n) + more) + exact[below].conj() * (share(below, n) + more);
     }
-    sum * (1.0 / shares)
+    sum
 }
 
 /// Samples and harmonics of a sweep.

@@ -55,7 +55,9 @@ impl Wells<'_> {
 
     /// The motions of all strings.
     pub fn solved(&self) -> Vec<Found> {
-        self.bundles(self.numbers, in_lanes(Lanes), |first, count| in_lanes(RowsJob { wells: self, first, count }))
+        self.bundles(self.numbers, in_lanes(Lanes), |first, count| {
+            in_lanes(RowsJob { wells: self, first, count })
+        })
     }
 
     /// The cards by samples of load at the polished rod beside those of its motion, of which `harmonics` count.
@@ -65,7 +67,12 @@ impl Wells<'_> {
     }
 
     /// Work on the rows of a table of numbers, as many at once as there are lanes.
-    fn bundles(&self, numbers: &[f64], lanes: usize, work: impl Fn(usize, usize) -> Found + Sync) -> Vec<Found> {
+    fn bundles(
+        &self,
+        numbers: &[f64],
+        lanes: usize,
+        work: impl Fn(usize, usize) -> Found + Sync,
+    ) -> Vec<Found> {
         let rows = numbers.len() / self.width();
         let task = |&first: &usize| work(first, lanes.min(rows - first));
         let firsts: Vec<usize> = (0..rows).step_by(lanes).collect();

@@ -11,11 +11,15 @@
 | `diagnosis` | Diagnosis of a measured surface card |
 | `figures` | Figures of rod strings: cards, torque of the gearbox, Goodman diagram, loads by depth |
 | `measured` | The measured card of a machine file, diagnosed |
+| `gradient` | Derivatives of a predicted rod string by entries |
+| `many` | Many predictions at once |
+| `many_cards` | Measured cards of a field day at once |
 | `model/` | A rod string with its pump in a machine file |
 | `numbers` | Terms of API RP 11L |
 | `plunger_load` | What a pump card tells: plunger stroke, fluid load, fillage |
 | `polished_rod` | Motion of the polished rod in time, with the drive that moves it |
 | `prediction` | Predicted motion of a rod string |
+| `scalars` | Loads, strokes, powers: formulas for numbers, rows and derivatives |
 | `scene` | A rod string under its polished rod, as the moving drawing shows it |
 | `spectrum` | Harmonics of a measured card that stand above its noise |
 | `stress` | Loads and stresses of the sections, by the modified Goodman diagram |

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,14 +13,17 @@ from linkwright.rods.model.rod_string import RodString
 
 # Sweeps between string and pump at most, and the change of the wave at which they end, over the fluid load;
 # the change that is still a solution.
-_SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-11, 1e-6
+_SWEEPS, _TOLERANCE, _SMALL = 2000, 1e-9, 1e-6
+
+# Change of derivatives in a sweep over their size, at which they have converged.
+_TOLERANCE_ALONG = 1e-11
 
 # Prime factors of a number of samples.
 _FACTORS = (2, 3, 5)
 
 
 def numbers_of(string: RodString, period: Any, damping: Any = None) -> list[Any]:
-    """Numbers of a string for the core, also of arrays or with derivatives; another damping [1/s] if given."""
+    """Numbers of a string for the core, arrays or with derivatives too; another damping [1/s] if given."""
     pump, rate = string.pump, string.damping_rate if damping is None else damping
     sections = [(s.modulus * s.area, s.mass, rate, s.length) for s in string.sections]
     return [
@@ -91,6 +95,23 @@ def solve_rows(
     )
 
 
+def solve_along(
+    string: RodString, period: float, motion: Floats, wave: Floats, along: tuple[Floats, Floats]
+) -> _core.RodMotions:
+    """Derivatives of a motion, whose wave is known, by directions (k, …) of its numbers and its samples."""
+    numbers, samples = along
+    return _core.rods_along(
+        sections=len(string.sections),
+        numbers=np.array(numbers_of(string, period), dtype=float),
+        motion=np.ascontiguousarray(motion, dtype=float),
+        start=np.ascontiguousarray(wave),
+        numbers_along=np.ascontiguousarray(numbers),
+        motion_along=np.ascontiguousarray(samples),
+        tolerance=_TOLERANCE_ALONG,
+        sweeps=2 * _SWEEPS,
+    )
+
+
 def cards_in(found: _core.RodMotions, string: RodString, row: int) -> Cards:
     """The cards of one row."""
     work, stations = found.work[row], len(string.sections) + 1
@@ -128,3 +149,20 @@ def cards_of(string: RodString, period: float, position: Floats, load: Floats, d
         harmonics=len(position) // 2 - 1,
     )
     return cards_in(found, string, 0)
+
+
+def cards_in_rows(
+    string: RodString, periods: Sequence[float], position: Floats, load: Floats, damping: float
+) -> tuple[Floats, Floats, Floats]:
+    """Position and load of the plunger, (cards, n), of many cards, and the work at both ends, (cards, 2)."""
+    last = len(string.sections)
+    numbers = np.repeat(np.array([numbers_of(string, 1.0, damping)], dtype=float), len(periods), axis=0)
+    numbers[:, -1] = periods
+    found = _core.rod_cards(
+        sections=last,
+        numbers=numbers,
+        position=np.ascontiguousarray(position),
+        load=np.ascontiguousarray(load),
+        harmonics=position.shape[1] // 2 - 1,
+    )
+    return found.position[:, last], found.load[:, last], found.work[:, [0, last]]

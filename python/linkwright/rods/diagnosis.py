@@ -172,7 +172,7 @@ def diagnose_card(
     unit = machine.pumping_unit
     stroke = string.stroke if unit is None else float(unit.stroke)
     card = checked_card(SurfaceCard(position, load, period), string, stroke)
-    period = _period(machine, string, card.period)
+    period = card_period(machine, string, card.period)
     n = len(card.load)
     if damping is not None and not 0 <= damping <= _OVERDAMPED * _damping_unit(string):
         highest = _OVERDAMPED * _damping_unit(string)
@@ -189,7 +189,8 @@ def diagnose_card(
     return _diagnosis(string, card, period, (moved, own), fitted, is_fitted=damping is None)
 
 
-def _period(machine: Machine, string: RodString, given: float | None) -> float:
+def card_period(machine: Machine, string: RodString, given: float | None) -> float:
+    """Period of a card [s]: as given, or that of the machine's speed; the two must not contradict."""
     speed = string.speed if machine.drive is None else machine.drive.speed
     known = None if speed is None else 2 * np.pi / speed
     period = known if given is None else float(given)

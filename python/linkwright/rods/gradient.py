@@ -1,8 +1,8 @@
 """Derivatives of a predicted rod string by the entries of the machine.
 
-The core follows the periodic motion in duals, from its solution: what a sweep between string and pump makes of
-the wave's derivative is that derivative again. A valve that opens a little later moves no load by itself, since
-loads are continuous there. An extreme has the derivative of the curve at its place (envelope theorem).
+The core follows the periodic motion in duals, from its solution: what a sweep between string and pump makes
+of the wave's derivative is that derivative again. A valve that opens a little later moves no load by itself,
+since loads are continuous there. An extreme has the derivative of the curve at its place (envelope theorem).
 """
 
 from __future__ import annotations
@@ -12,22 +12,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkwright import _core
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import Tangent, lifted
 from linkwright.machine.machine import Machine
 from linkwright.machine.tangents import Derivatives, directions, followed, scalars_of
-from linkwright.pumping.unit import PumpingUnit
-from linkwright.rods.core import Cards, numbers_of
+from linkwright.pumping.model.unit import PumpingUnit
+from linkwright.rods.core import Cards, numbers_of, solve_along
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import api_terms
 from linkwright.rods.polished_rod import HarmonicRod, UnitRod, crank_speed
 from linkwright.rods.prediction import Solution, solution
 from linkwright.rods.scalars import goodman_loadings, string_scalars
 
-# Accuracy of the solution that is differentiated; change of derivatives over their size at which sweeps end,
-# and how many there may be.
-_ACCURACY, _TOLERANCE, _SWEEPS = 1e-3, 1e-11, 4000
+# Accuracy of the solution that is differentiated, that of a prediction.
+_ACCURACY = 1e-3
 
 _UNIT = "pumping_unit."
 
@@ -47,9 +45,9 @@ class _Along(NamedTuple):
     numbers: list[Any]
 
 
-def string_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+def string_tangents(machine: Machine, variables: Sequence[str], accuracy: float = _ACCURACY) -> Derivatives:
     """Scalars of a predicted rod string by some entries. Raises what `rod_string` raises."""
-    solved = solution(machine, _ACCURACY)
+    solved = solution(machine, accuracy)
     refused: dict[str, str] = {}
     if isinstance(solved.rod, UnitRod) and solved.rod.has_motor:
         return Derivatives((), {}, {}, {}, dict.fromkeys(variables, _WITH_MOTOR))
@@ -109,16 +107,8 @@ def _cards(
         motion = np.outer(lifted(along.stroke, k).d, solved.moved.position / solved.rod.stroke)
     for name, row in rows.items():
         motion[known.index(name)] = row
-    values = [float(number) for number in numbers_of(solved.string, solved.moved.period)]
-    found = _core.rods_along(
-        sections=len(solved.string.sections),
-        numbers=np.array(values),
-        motion=np.ascontiguousarray(solved.moved.position, dtype=float),
-        start=np.ascontiguousarray(own.wave),
-        numbers_along=np.ascontiguousarray(numbers.T),
-        motion_along=np.ascontiguousarray(motion),
-        tolerance=_TOLERANCE,
-        sweeps=_SWEEPS,
+    found = solve_along(
+        solved.string, solved.moved.period, solved.moved.position, own.wave, (numbers.T, motion)
     )
     stations = len(solved.string.sections) + 1
     work = found.work.T
