@@ -29,15 +29,13 @@ TUBING = {"tubing_diameter": "2.375 in", "tubing_bore": "1.995 in"}
     ],
 )
 def test_the_card_of_a_predicted_motion_leads_back_to_its_pump(pump, fillage, damping_factor):
-    """Plunger stroke to 1 %, fluid load to 4.5 % where gas rounds the card, damping and fillage, with the
-    damping fitted.
-    """
+    """With the damping fitted: stroke to 0.3 %, fluid load to 2 %, damping to 5 %, fillage to 0.02."""
     machine = well(pump, damping_factor=damping_factor)
     motion, position, load = card_of(machine)
     found = lw.diagnose_card(machine, position, load)
-    assert found.plunger_stroke == pytest.approx(motion.plunger_stroke, rel=0.01)
-    assert found.fluid_load == pytest.approx(motion.fluid_load, rel=0.045)
-    assert found.damping == pytest.approx(machine.rod_string.damping_rate, rel=0.12)
+    assert found.plunger_stroke == pytest.approx(motion.plunger_stroke, rel=0.003)
+    assert found.fluid_load == pytest.approx(motion.fluid_load, rel=0.02)
+    assert found.damping == pytest.approx(machine.rod_string.damping_rate, rel=0.05)
     assert abs(found.balance) < 1e-10
     if fillage is not None:
         assert found.fillage == pytest.approx(fillage, abs=0.02)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,8 +23,18 @@ _LEAST = 24
 # share, or some times the largest of its other steps.
 _GAP, _STEPS = 0.05, 3.0
 
-# What a stroke may differ from that of the unit, beyond which it is in another unit or of another hole.
+# Steps of the position, its mean one or those beside, that the step from end to start may have: samples that
+# are missing.
+_MISSING = 5.0
+
+# What a stroke may differ from that of the file, beyond which it is in another unit or of another hole.
 _STROKE_AGREES = 0.1
+
+# Stroke that any unit may have [m].
+_STROKES = 0.1, 15.0
+
+# Shares of the stroke below and above which the polished rod is near its ends.
+_BELOW_UP, _ABOVE_UP = 0.25, 0.75
 
 # Mean dynamic load that a card may have: above the load of a fluid column from the pump, or below none.
 _ABOVE, _BELOW = 1.25, 0.15
@@ -105,7 +116,7 @@ def timed_card(position: Floats, load: Floats, time: Floats | None, place: str) 
 def checked_card(card: SurfaceCard, string: RodString, stroke: float | None) -> SurfaceCard:
     """The card without a repeated last sample; an `InputError` says why it cannot be one of the string's.
 
-    ``stroke``: that of the pumping unit [m], where it is known.
+    ``stroke``: that of the machine file [m], where it is known.
     """
     position, load = np.asarray(card.position, dtype=float), np.asarray(card.load, dtype=float)
     if position.shape != load.shape or position.ndim != 1:
@@ -121,10 +132,11 @@ def checked_card(card: SurfaceCard, string: RodString, stroke: float | None) -> 
     if np.ptp(position) == 0 or np.ptp(load) == 0:
         what = "position" if np.ptp(position) == 0 else "load"
         raise InputError(f"card: found a {what} that does not change, expected that of a stroke")
+    _require_stroke(float(np.ptp(position)), stroke, float(np.ptp(load)))
+    _require_load(float(load.mean()), string)
+    _require_one_stroke(position)
     _require_closed(position, load)
     _require_forward(position, load)
-    _require_stroke(float(np.ptp(position)), stroke)
-    _require_load(float(load.mean()), string)
     return SurfaceCard(position, load, card.period)
 
 
@@ -132,7 +144,9 @@ def _require_closed(position: Floats, load: Floats) -> None:
     steps = np.hypot(
         np.diff(position, append=position[0]) / np.ptp(position), np.diff(load, append=load[0]) / np.ptp(load)
     )
-    if steps[-1] > max(_GAP, _STEPS * np.sort(steps[:-1])[-2]):
+    moved = np.abs(np.diff(position, append=position[0]))
+    beside = max(moved[0], moved[-2], float(moved.mean()))
+    if steps[-1] > max(_GAP, _STEPS * np.sort(steps[:-1])[-2]) or moved[-1] > _MISSING * beside:
         raise InputError(
             f"card: it does not close: from its last sample to its first it is {100 * steps[-1]:.0f} % "
             "of its ranges; expected samples of one whole stroke"
@@ -150,14 +164,30 @@ def _require_forward(position: Floats, load: Floats) -> None:
         )
 
 
-def _require_stroke(stroke: float, known: float | None) -> None:
-    if known is None or abs(stroke / known - 1) <= _STROKE_AGREES:
+def _require_one_stroke(position: Floats) -> None:
+    """The polished rod goes from its lower to its upper end once."""
+    share = (position - position.min()) / np.ptp(position)
+    ends = np.where(share > _ABOVE_UP, 1, np.where(share < _BELOW_UP, -1, 0))
+    ends = ends[ends != 0]
+    strokes = int(np.count_nonzero((ends == 1) & (np.roll(ends, 1) == -1)))
+    if strokes != 1:
+        raise InputError(f"card: found {strokes} strokes, expected the samples of one")
+
+
+def _require_stroke(stroke: float, known: float | None, range_of_load: float) -> None:
+    low, high = _STROKES if known is None else (known * (1 - _STROKE_AGREES), known * (1 + _STROKE_AGREES))
+    if low <= stroke <= high:
         return
-    remedy = _unit_remedy(_LENGTHS, lambda factor: abs(stroke * factor / known - 1) <= _STROKE_AGREES)
-    raise InputError(
-        f"card: found a stroke of {stroke:.4g} m, expected that of the pumping unit, {known:.4g} m"
-        + (remedy or "; compare the crank hole")
-    )
+    if low <= range_of_load <= high:
+        remedy = "; position and load are probably exchanged"
+    elif known is None:
+        remedy = "; the positions are in another unit than their header says"
+    else:
+        remedy = _unit_remedy(_LENGTHS, lambda factor: low <= stroke * factor <= high) or (
+            "; compare the stroke of the machine file"
+        )
+    expected = f"{low:g} to {high:g} m" if known is None else f"that of the machine file, {known:.4g} m"
+    raise InputError(f"card: found a stroke of {stroke:.4g} m, expected {expected}{remedy}")
 
 
 def _require_load(mean: float, string: RodString) -> None:
@@ -168,6 +198,8 @@ def _require_load(mean: float, string: RodString) -> None:
     if low <= mean <= high:
         return
     remedy = _unit_remedy(_FORCES, lambda factor: low <= mean * factor <= high)
+    if low <= -mean <= high:
+        remedy = "; the loads count downward: reverse their sign"
     raise InputError(
         f"card: found a mean load of {mean:.4g} N, expected {low:.4g} to {high:.4g} N by the weight of the "
         f"rods in the fluid, {weight:.4g} N, and the column of fluid on the plunger"
@@ -175,8 +207,7 @@ def _require_load(mean: float, string: RodString) -> None:
     )
 
 
-def _unit_remedy(factors: dict[str, float], fits: object) -> str:
-    assert callable(fits)
+def _unit_remedy(factors: Mapping[str, float], fits: Callable[[float], bool]) -> str:
     for unit, factor in factors.items():
         if fits(factor):
             return f"; the numbers are probably in {unit}"

@@ -1,8 +1,9 @@
 """Diagnosis of a measured surface card: the cards of every taper and of the pump.
 
 Each harmonic of position and load goes down the string by its transfer matrices (Gibbs). Damping is
-fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and none wherever
-it sinks through it.
+fitted: with the right one, the pump load is the same wherever the plunger lifts the fluid, and the same
+wherever it sinks through it. How large the latter is does not count: an offset of the load cell or friction
+of the plunger does not make damping.
 
 References
 ----------
@@ -32,7 +33,7 @@ from linkwright.rods.core import cards_of, sample_counts
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.plunger_load import PlungerLoad, plunger_load
 from linkwright.rods.prediction import station_names, string_of
-from linkwright.rods.spectrum import Filtered, filtered
+from linkwright.rods.spectrum import Filtered, filtered, smoothed
 from linkwright.rods.stress import RodStress, rod_stress
 
 # Samples of the cards at least, and for each of the measured ones.
@@ -40,6 +41,18 @@ _LEAST, _FOR_EACH = 512, 4
 
 # Largest damping factor that is sought, and how many are tried before the best is refined.
 _DAMPED, _TRIED = 1.0, 26
+
+# F beyond which a parameter is significant at 95 % of confidence, with many observations.
+_SIGNIFICANT = 4.0
+
+# Damping factor up to which a string is one.
+_OVERDAMPED = 5.0
+
+# Periods of strokes [s], and what a period may differ from that of the file.
+_PERIODS, _PERIOD_AGREES = (1.0, 300.0), 1.5
+
+# Fluid load of a pump card over that of a full column of fluid, beyond which it is no pump's.
+_COLUMN = 1.75
 
 
 @dataclass(frozen=True)
@@ -161,6 +174,9 @@ def diagnose_card(
     card = checked_card(SurfaceCard(position, load, period), string, stroke)
     period = _period(machine, string, card.period)
     n = len(card.load)
+    if damping is not None and not 0 <= damping <= _OVERDAMPED * _damping_unit(string):
+        highest = _OVERDAMPED * _damping_unit(string)
+        raise InputError(f"damping: found {damping:.6g} 1/s, expected 0 to {highest:.4g} 1/s")
     if harmonics is not None and not 1 <= harmonics <= (n - 1) // 2:
         raise InputError(
             f"harmonics: found {harmonics}, expected 1 to {(n - 1) // 2}: {n} samples hold no more"
@@ -174,27 +190,45 @@ def diagnose_card(
 
 
 def _period(machine: Machine, string: RodString, given: float | None) -> float:
-    if given is not None:
-        if not (np.isfinite(given) and given > 0):
-            raise InputError(f"period: found {given}, expected a time greater than 0")
-        return float(given)
     speed = string.speed if machine.drive is None else machine.drive.speed
-    if speed is None:
+    known = None if speed is None else 2 * np.pi / speed
+    period = known if given is None else float(given)
+    if period is None:
         raise InputError(
             f"{machine.name}: the period of the card is unknown; expected a column time, drive.speed or "
             "rod_string.speed"
         )
-    return float(2 * np.pi / speed)
+    low, high = _PERIODS
+    if not low <= period <= high:
+        raise InputError(
+            f"period: found {period:.6g} s, expected {low:g} to {high:g} s; compare the unit of time"
+        )
+    if known is not None and not 1 / _PERIOD_AGREES <= period / known <= _PERIOD_AGREES:
+        raise InputError(
+            f"period: found {period:.4g} s, expected about that of the machine file, {known:.4g} s; compare "
+            "the unit of time and the speed"
+        )
+    return period
+
+
+def _damping_unit(string: RodString) -> float:
+    """Damping [1/s] of a damping factor of one."""
+    return float(np.pi * string.sound / (2 * string.length))
 
 
 def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) -> float:
-    """Damping at which the pump load is even while the plunger lifts, and none while it sinks."""
+    """Damping at which the pump load is even while the plunger lifts, and while it sinks.
+
+    It is none where the scatter without damping is not significantly larger: an F test of one parameter, each
+    harmonic two observations.
+    """
     from scipy.optimize import minimize_scalar
 
-    unit = np.pi * float(string.sound) / (2 * float(string.length))
+    unit = _damping_unit(string)
+    position, load = (smoothed(each.samples, own.harmonics) for each in (moved, own))
 
     def unevenness(factor: float) -> float:
-        cards = cards_of(string, period, moved.samples, own.samples, factor * unit)
+        cards = cards_of(string, period, position, load, factor * unit)
         found = plunger_load(_against_barrel(string, cards), cards.load[-1])
         return np.inf if found is None else found.unevenness
 
@@ -205,7 +239,12 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
         raise _no_pump_card()
     around = factors[max(best - 1, 0)], factors[min(best + 1, _TRIED - 1)]
     refined = minimize_scalar(unevenness, bounds=around, method="bounded", options={"xatol": 1e-4})
-    return float(refined.x if refined.fun <= values[best] else factors[best]) * unit
+    factor, scatter = (
+        (refined.x, refined.fun) if refined.fun <= values[best] else (factors[best], values[best])
+    )
+    if (values[0] - scatter) * 2 * own.harmonics < _SIGNIFICANT * scatter:
+        return 0.0
+    return float(factor) * unit
 
 
 def _against_barrel(string: RodString, cards: Any) -> Floats:
@@ -218,6 +257,16 @@ def _no_pump_card() -> FindingError:
         "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, "
         "or sections and card are of different wells"
     )
+
+
+def _require_column(string: RodString, fluid_load: float) -> None:
+    column = float(string.discharge * string.pump.area)
+    if fluid_load > _COLUMN * column:
+        raise InputError(
+            f"card: its pump card has a fluid load of {fluid_load:.4g} N, a column of fluid from the pump to "
+            f"the surface {column:.4g} N; compare period, units, plunger and sections, which are not those "
+            "of the card"
+        )
 
 
 def _diagnosis(
@@ -234,6 +283,7 @@ def _diagnosis(
     pump: PlungerLoad | None = plunger_load(_against_barrel(string, cards), cards.load[-1])
     if pump is None:
         raise _no_pump_card()
+    _require_column(string, pump.fluid_load)
     area, stroke = float(string.pump.area), float(np.ptp(card.position))
     lost = float(cards.loss.sum())
     friction = 2 * string.stuffing_box * stroke

@@ -11,9 +11,6 @@ from linkwright.kernel.arrays import Floats
 # Share of the extreme velocity from which on the plunger counts as moving.
 _MOVING = 0.3
 
-# Weight of a load while the plunger sinks, which is none with the travelling valve open, beside the scatter.
-_NO_LOAD = 0.5
-
 # Share of the fluid load beyond which a sample is no scatter about a level but a change of it.
 _SCATTER = 0.25
 
@@ -25,7 +22,7 @@ class PlungerLoad(NamedTuple):
     fluid_load: float  # level of the upstroke over that of the downstroke [N]
     level: float  # load while the plunger sinks through the fluid [N]
     fillage: float  # share of the stroke left when half the fluid load has fallen
-    # Mean square of scatter about both levels and of load with the travelling valve open, over its square.
+    # Mean square of the scatter about both levels, over the square of the fluid load.
     unevenness: float
 
 
@@ -50,7 +47,7 @@ def plunger_load(position: Floats, load: Floats) -> PlungerLoad | None:
     scatter = np.concatenate(
         [np.minimum((load[up] - high) ** 2, limit), np.minimum((load[sinking] - low) ** 2, limit)]
     )
-    unevenness = (float(scatter.mean()) + _NO_LOAD * low**2) / span**2
+    unevenness = float(scatter.mean()) / span**2
     fillage = _fillage(position, load, 0.5 * (high + low))
     return PlungerLoad(float(np.ptp(position)), span, low, fillage, unevenness)
 

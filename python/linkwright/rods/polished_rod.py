@@ -31,6 +31,9 @@ _INTERVALS = 1440
 # Steps of Newton's method for the time at the bottom of the stroke.
 _NEWTON = 5
 
+# Rounds before that the next load is extrapolated from.
+_ROUNDS = 6
+
 # Name of the load of the crankshaft.
 _LOAD = "rod_string"
 
@@ -72,11 +75,13 @@ class UnitRod:
         self.ends = self.rod.bottom, self.rod.top
         self.has_motor = machine.drive is not None and machine.drive.motor is not None
         self.steady: SteadyState | None = None
+        self.rounds: list[tuple[Floats, Floats]] = []
         speed = string.speed if machine.drive is None else machine.drive.speed
         if self.has_motor:
             angles = self._table_angles()
             rises = self.rod.motion(angles)[1] > 0
-            self._drive(np.where(rises, string.weight_fluid + string.fluid_load, string.weight_fluid))
+            self.load = np.where(rises, string.weight_fluid + string.fluid_load, string.weight_fluid)
+            self._drive(self.load)
         elif speed is None:
             raise InputError(
                 f"{machine.name}: the rod string has no pumping speed; expected drive.speed, a motor or "
@@ -149,11 +154,25 @@ class UnitRod:
             return 0.0
         before = self.motion(len(load))
         assert before.crank_angle is not None
-        angles = self._table_angles()
-        self._drive(np.interp(angles, *_by_angle(before.crank_angle, load), period=2 * np.pi))
+        target = np.interp(self._table_angles(), *_by_angle(before.crank_angle, load), period=2 * np.pi)
+        self.load = self._extrapolated(target)
+        self._drive(self.load)
         after = self.motion(len(load))
         moved = float(np.abs(after.position - before.position).max()) / before.stroke
         return max(moved, abs(after.period / before.period - 1))
+
+    def _extrapolated(self, target: Floats) -> Floats:
+        """The load that answers itself, by those of the last rounds and what they were answered with.
+
+        Method: Anderson, Iterative Procedures for Nonlinear Integral Equations, J. ACM 12 (1965) 547.
+        """
+        self.rounds = [*self.rounds[-_ROUNDS:], (self.load, target - self.load)]
+        loads, changes = (np.array(each) for each in zip(*self.rounds, strict=True))
+        if len(loads) == 1:
+            return target
+        steps = np.diff(changes, axis=0)
+        weights = np.linalg.lstsq(steps.T, changes[-1], rcond=1e-8)[0]
+        return np.asarray(target - weights @ (np.diff(loads, axis=0) + steps))
 
     def _drive(self, load: Floats) -> None:
         """The steady motion of the drive under loads at the angles of the table."""

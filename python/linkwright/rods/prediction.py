@@ -253,7 +253,7 @@ def _result(
     leaked = pump.leak * float(pump_load.mean()) / string.fluid_load
     # Liquid is sold at discharge pressure, to which the plunger compresses it.
     compressed = 1 - (string.discharge - string.intake) / pump.bulk_modulus
-    production = pump.area * pump.fillage * stroke * compressed / period - leaked
+    production = max(pump.area * pump.fillage * stroke * compressed / period - leaked, 0.0)
     gear = _gear(rod, moved, load, is_best=False)
     is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
     best = _gear(rod, moved, load, is_best=True) if is_given else gear

@@ -17,6 +17,18 @@ _INACCURATE = 2e-3
 # Fluid load of a card over that of the file beyond which they differ.
 _DIFFERS = 0.25
 
+# Harmonics of a load by which its damping can be fitted, and a factor at the end of what is sought.
+_FEW, _MUCH = 9, 0.9
+
+# Speed over the natural frequency of the string beyond which it is close to resonance.
+_RESONANT = 0.6
+
+# Plunger stroke over the stroke below which the rods only stretch.
+_STRETCHED = 0.05
+
+# Share of the pump's depth by which the sections may be shorter without a word.
+_SHORT = 0.005
+
 # Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence.
 _SMALL = 0.01
 
@@ -54,6 +66,8 @@ def _goodman(stress: RodStress) -> Iterator[str]:
 def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]:
     """What should be known of a predicted motion."""
     yield from _buckling(motion.stress, motion.fluid_load)
+    yield from _well(string)
+    yield from _pumping(motion)
     if motion.load_min < 0:
         yield (
             f"The load of the polished rod falls to {motion.load_min:.4g} N: the rods fall more slowly "
@@ -68,6 +82,38 @@ def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]
         yield (
             f"The damping of the rod string is assumed: a damping factor of {string.damping_factor:.3g}. A "
             "measured card tells it: `linkwright rods FILE --card`."
+        )
+
+
+def _pumping(motion: RodStringMotion) -> Iterator[str]:
+    """A string that only stretches, that resonates, or whose pump loses all that it lifts."""
+    ratio = motion.numbers.speed_ratio_tapered
+    if ratio > _RESONANT:
+        yield (
+            f"The rod string is close to resonance: its pumping speed is {ratio:.2f} of its natural "
+            "frequency; reduce the speed."
+        )
+    if motion.plunger_stroke < _STRETCHED * motion.stroke:
+        yield (
+            f"The rods stretch by {motion.stretch:.4g} m under the fluid load and take up the stroke of "
+            f"{motion.stroke:.4g} m: the plunger hardly moves."
+        )
+    elif motion.production <= 0:
+        yield "The pump delivers nothing: slippage takes all that the plunger displaces."
+
+
+def _well(string: RodString) -> Iterator[str]:
+    """What the description leaves out of the well."""
+    gap = float(string.pump_depth - string.length)
+    if gap > _SHORT * string.pump_depth:
+        yield (
+            f"The sections end {gap:.4g} m above the pump at {float(string.pump_depth):.4g} m: missing rods "
+            "neither weigh nor stretch."
+        )
+    if string.inclination > np.radians(3):
+        yield (
+            "The well is inclined: friction of the rods on the tubing is left out; a card counts it as "
+            "load of the pump."
         )
 
 
@@ -90,13 +136,18 @@ def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]
             f"The pump card shows a fluid load of {found.fluid_load:.4g} N, the machine file "
             f"{found.fluid_load_file:.4g} N: compare fluid level, plunger and calibration of the load cell."
         )
-    if found.is_fitted and (found.damping == 0 or found.damping_factor > 0.9):
+    if found.is_fitted and found.harmonics < _FEW:
+        yield (
+            f"The damping is uncertain: {found.harmonics} harmonics of the load stand above its noise. "
+            "Give it with --damping if it is known."
+        )
+    elif found.is_fitted and found.damping == 0:
+        yield (
+            "The card shows no damping of the rods: it is taken as 0. Give it with --damping if it is known."
+        )
+    elif found.is_fitted and found.damping_factor > _MUCH:
         yield (
             f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "
             "of its range: give rod_string.damping with --damping."
         )
-    if np.isfinite(string.inclination) and string.inclination > np.radians(3):
-        yield (
-            "The well is inclined: friction of the rods on the tubing, which is left out, counts as load of "
-            "the pump."
-        )
+    yield from _well(string)

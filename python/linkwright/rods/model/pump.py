@@ -12,7 +12,10 @@ from pydantic_core import InitErrorDetails
 from linkwright.kernel.description.base import CheckedDescription, fault
 from linkwright.kernel.units.kinds import LENGTH, PRESSURE, RATIO, VOLUME_FLOW
 from linkwright.kernel.units.marks import FRACTION, Bound, Quantity, not_negative, positive
-from linkwright.rods.model.rod_sizes import PSI
+from linkwright.rods.model.rod_sizes import PSI, within
+
+# Less is a mixture with gas, of which fillage and gas_exponent tell.
+_LIQUID = Bound(" of 1e8 Pa or more,", {"minimum": 1e8}, lambda value: value >= 1e8)
 
 _FROM_ONE = Bound(" of 1 or more,", {"minimum": 1}, lambda value: value >= 1)
 
@@ -20,7 +23,9 @@ _FROM_ONE = Bound(" of 1 or more,", {"minimum": 1}, lambda value: value >= 1)
 class SuckerRodPump(CheckedDescription):
     """A sucker-rod pump: plunger, fillage, tubing."""
 
-    plunger: Annotated[float, positive(LENGTH)] = Field(description="Diameter of the plunger.")
+    plunger: Annotated[float, Quantity(LENGTH, within(0.01, 0.2, "m"))] = Field(
+        description="Diameter of the plunger."
+    )
     fluid_level: Annotated[float, not_negative(LENGTH)] | None = Field(
         None, description="Depth of the dynamic fluid level, from which the pump lifts (net lift H of API)."
     )
@@ -42,7 +47,7 @@ class SuckerRodPump(CheckedDescription):
         "the intake pressure. Default: gas without pressure; the load falls where the plunger meets the "
         "liquid.",
     )
-    bulk_modulus: Annotated[float, positive(PRESSURE)] = Field(
+    bulk_modulus: Annotated[float, Quantity(PRESSURE, _LIQUID)] = Field(
         1.5e9,
         description="Bulk modulus of the liquid, which the plunger compresses in the barrel before the "
         "travelling valve opens.",

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.kernel.units.marks import Bound
 from linkwright.pumping.model.unit import INCH
 
 POUND, FOOT, PSI = 0.45359237, 0.3048, 6894.757293168361
@@ -32,5 +33,14 @@ RODS: Mapping[str, tuple[float, float]] = {
 # Minimum tensile strength T [Pa].
 GRADES: Mapping[str, float] = {"C": 90_000 * PSI, "K": 90_000 * PSI, "D": 115_000 * PSI}
 
+# Density of steel of 490 lb/ft³, by which API's 0.128 is 62.4/490 [kg/m³].
+STEEL_DENSITY = 1000.0 / 0.128
+
 # Modulus of elasticity of steel rods: Gibbs and API RP 11L [Pa].
 STEEL = 30.5e6 * PSI
+
+
+def within(low: float, high: float, unit: str = "") -> Bound:
+    """Limits that no pumping installation comes near to: numbers beyond them are in another unit."""
+    words = f" from {low:g} to {high:g}{unit and ' '}{unit},"
+    return Bound(words, {"minimum": low, "maximum": high}, lambda value: low <= value <= high)

@@ -22,7 +22,7 @@ Units),
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -35,24 +35,26 @@ from linkwright.kernel.units.kinds import (
     FORCE,
     FREQUENCY,
     LENGTH,
-    MASS_PER_LENGTH,
-    PRESSURE,
     RATIO,
     SPEED,
 )
 from linkwright.kernel.units.marks import FRACTION, Bound, Quantity, not_negative, positive
 from linkwright.rods.model.measured_card import MeasuredCard
 from linkwright.rods.model.pump import SuckerRodPump
-from linkwright.rods.model.rod_sizes import GRADES, RODS, STEEL
+from linkwright.rods.model.rod_section import RodSection
+from linkwright.rods.model.rod_sizes import STEEL_DENSITY, within
 
 # Standard gravity, by which weights in pounds are masses [m/s²].
 GRAVITY = 9.80665
 
-# Water, and steel of 490 lb/ft³: API's 0.128 is 62.4/490 [kg/m³].
-WATER, STEEL_DENSITY = 1000.0, 1000.0 / 0.128
+# Density of water [kg/m³].
+WATER = 1000.0
 
-# Relative difference of the sections' lengths from the depth of the pump.
-_DEPTH_AGREES = 0.005
+# Shares of the pump's depth by which the sections may be longer, and shorter: records leave pony rods out.
+_LONGER, _SHORTER = 0.005, 0.05
+
+# Damping factor of any string.
+_DAMPED = 5.0
 
 # The equation of motion is that of a vertical string: the friction of rods on the tubing is none.
 _VERTICAL = Bound(
@@ -60,73 +62,6 @@ _VERTICAL = Bound(
     {"minimum": 0, "maximum": np.radians(10)},
     lambda value: 0 <= value <= np.radians(10) * (1 + 1e-12),
 )
-
-
-class RodSection(CheckedDescription):
-    """Rods of one size and grade."""
-
-    length: Annotated[float, positive(LENGTH)] = Field(description="Length of the section.")
-    rod: Literal["1/2", "5/8", "3/4", "7/8", "1", "1 1/8"] | None = Field(
-        None, description="Nominal size in inches: diameter and weight by API RP 11L."
-    )
-    diameter: Annotated[float, positive(LENGTH)] | None = Field(
-        None, description="Diameter of the rod body. Default: that of the size."
-    )
-    weight: Annotated[float, positive(MASS_PER_LENGTH)] | None = Field(
-        None,
-        description='Mass per length in air, couplings included, such as "1.63 lb/ft". Default: that of the '
-        "size.",
-    )
-    modulus: Annotated[float, positive(PRESSURE)] = Field(
-        STEEL, description="Modulus of elasticity E of the rods."
-    )
-    grade: Literal["C", "K", "D"] | None = Field(
-        None, description="Grade of API Spec 11B, which gives the minimum tensile strength."
-    )
-    tensile: Annotated[float, positive(PRESSURE)] | None = Field(
-        None, description="Minimum tensile strength T. Default: that of the grade."
-    )
-
-    def _faults(self) -> Iterator[InitErrorDetails]:
-        for key in ("diameter", "weight"):
-            if self.rod is None and getattr(self, key) is None:
-                yield fault(key, expected=f"a value, or rod, a nominal size: {', '.join(RODS)}")
-        if self.diameter is not None and self.weight is not None and self.rod is not None:
-            yield fault("rod", found=self.rod, expected="nothing beside diameter and weight")
-        if not 0.5 < self.weight_ratio < 2:
-            remedy = "check diameter and weight, and their units"
-            found = f"{self.weight_ratio:.3g} times that of a steel rod of {self.body:.4g} m diameter"
-            if self.modulus >= 0.5 * STEEL:
-                yield fault("weight", found=found, expected="about the weight of the rod", remedy=remedy)
-        if self.grade is not None and self.tensile is not None:
-            yield fault("tensile", found=self.tensile, expected="nothing beside the grade")
-
-    @property
-    def body(self) -> Any:
-        """Diameter of the rod body [m]."""
-        return RODS[self.rod][0] if self.diameter is None and self.rod else self.diameter
-
-    @property
-    def mass(self) -> Any:
-        """Mass per length, couplings included [kg/m]."""
-        return RODS[self.rod][1] if self.weight is None and self.rod else self.weight
-
-    @property
-    def weight_ratio(self) -> float:
-        """Mass per length over that of a steel rod of the same diameter; 1 where either is missing."""
-        if self.body is None or self.mass is None:
-            return 1.0
-        return float(self.mass / (STEEL_DENSITY * np.pi / 4 * self.body**2))
-
-    @property
-    def area(self) -> Any:
-        """Cross-section of the rod body [m²]."""
-        return np.pi / 4 * self.body**2
-
-    @property
-    def strength(self) -> float | None:
-        """Minimum tensile strength [Pa]; None where neither it nor a grade is given."""
-        return GRADES[self.grade] if self.grade is not None else self.tensile
 
 
 class Columns(NamedTuple):
@@ -167,7 +102,7 @@ class RodString(CheckedDescription):
     service_factor: Annotated[float, Quantity(RATIO, FRACTION)] = Field(
         1.0, description="Service factor SF of the permissible stress."
     )
-    stroke: Annotated[float, positive(LENGTH)] | None = Field(
+    stroke: Annotated[float, Quantity(LENGTH, within(0.1, 15, "m"))] | None = Field(
         None, description="Stroke of a polished rod that moves harmonically, without a pumping unit."
     )
     speed: Annotated[float, positive(SPEED)] | None = Field(
@@ -183,7 +118,7 @@ class RodString(CheckedDescription):
             yield fault("sections", found="none", expected="one section or more")
             return
         total = sum(section.length for section in self.sections)
-        if self.depth is not None and abs(total / self.depth - 1) > _DEPTH_AGREES:
+        if self.depth is not None and not 1 - _SHORTER <= total / self.depth <= 1 + _LONGER:
             way = "deeper than" if total > self.depth else "short of"
             remedy = f"their lengths add up to {total:.6g} m, {way} the pump"
             expected = f"sections down to the pump at {self.depth:.6g} m"
@@ -191,16 +126,31 @@ class RodString(CheckedDescription):
         if (self.specific_gravity is None) == (self.density is None):
             found = None if self.density is None else "both"
             yield fault("specific_gravity", found=found, expected="either specific_gravity or density")
-        elif not 0.3 * WATER < self.fluid_density < 2 * WATER:
+            return
+        if not 0.3 * WATER < self.fluid_density < 2 * WATER:
             key = "density" if self.specific_gravity is None else "specific_gravity"
             expected = "a liquid of 300 to 2000 kg/m³"
             yield fault(key, found=f"{self.fluid_density:.6g} kg/m³", expected=expected)
-        else:
-            yield from self._pump_faults(total if self.depth is None else self.depth)
+            return
+        yield from self._friction_faults()
+        yield from self._pump_faults()
 
-    def _pump_faults(self, depth: float) -> Iterator[InitErrorDetails]:
-        level = self.pump.fluid_level
-        if level is not None and level > depth * (1 + _DEPTH_AGREES):
+    def _friction_faults(self) -> Iterator[InitErrorDetails]:
+        if self.damping is not None and "damping_factor" in self.model_fields_set:
+            yield fault("damping", found=self.damping, expected="either damping or damping_factor")
+        factor = 2 * self.damping_rate * self.length / (np.pi * self.sound)
+        if factor > _DAMPED:
+            key = "damping_factor" if self.damping is None else "damping"
+            yield fault(
+                key, found=f"a damping factor of {factor:.4g}", expected=f"a factor up to {_DAMPED:g}"
+            )
+        if self.stuffing_box > self.weight_fluid:
+            expected = f"less than the weight of the rods in the fluid, {self.weight_fluid:.4g} N"
+            yield fault("stuffing_box", found=f"{self.stuffing_box:.4g} N", expected=expected)
+
+    def _pump_faults(self) -> Iterator[InitErrorDetails]:
+        level, depth = self.pump.fluid_level, self.pump_depth
+        if level is not None and level > depth * (1 + _LONGER):
             expected = f"a level above the pump at {depth:.6g} m"
             yield fault("pump", "fluid_level", found=level, expected=expected)
         elif not self.fluid_load > 0:
@@ -214,6 +164,11 @@ class RodString(CheckedDescription):
     def length(self) -> Any:
         """Length of all sections [m]."""
         return sum(section.length for section in self.sections)
+
+    @property
+    def pump_depth(self) -> Any:
+        """Depth of the pump [m]."""
+        return self.length if self.depth is None else self.depth
 
     @property
     def fluid_density(self) -> Any:
@@ -265,7 +220,7 @@ class RodString(CheckedDescription):
     @property
     def discharge(self) -> Any:
         """Pressure above the plunger [Pa]."""
-        return self.fluid_density * GRAVITY * self.length + self.pump.tubing_pressure
+        return self.fluid_density * GRAVITY * self.pump_depth + self.pump.tubing_pressure
 
     @property
     def intake(self) -> Any:
@@ -274,7 +229,7 @@ class RodString(CheckedDescription):
         if pump.intake_pressure is not None:
             return pump.intake_pressure
         # A level at the pump leaves no column above it.
-        column = max(self.length - (pump.fluid_level or 0.0), 0.0)
+        column = max(self.pump_depth - (pump.fluid_level or 0.0), 0.0)
         return self.fluid_density * GRAVITY * column + pump.casing_pressure
 
     @property
