@@ -31,7 +31,7 @@ from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.prediction import RodStringMotion, string_of
 from linkwright.rods.scene import string_shown
-from linkwright.rods.stress import RodStress, permissible, tensile
+from linkwright.rods.stress import RodStress
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -103,7 +103,7 @@ def _stresses(
         "Minimum and maximum of effective tension and stress along the rods; the tension falls to "
         f"{quantity(low, 'N')}."
     )
-    title, drawn = f"Loads and stresses by depth{behind}", depth_figure(string, along)
+    title, drawn = f"Loads and stresses by depth{behind}", depth_figure(string, along, stress)
     yield CaptionedFigure(f"{before}rod_depth", title, caption, drawn)
 
 
@@ -149,6 +149,11 @@ def _limits(axes: Axes, motion: RodStringMotion, gear: GearTorque) -> None:
         level(axes, gear.load_rated, "structure rating")
 
 
+def _permissible(string: RodString, tensile: Floats, smallest: Floats) -> Floats:
+    """Permissible maximum stress beside a minimum stress, as of `rod_stress` [Pa]."""
+    return np.asarray((tensile / 4 + 0.5625 * smallest) * string.service_factor)
+
+
 @styled
 def goodman_figure(string: RodString, stress: RodStress) -> Figure:
     """Draw minimum and maximum stress of the sections in the modified Goodman diagram."""
@@ -159,7 +164,7 @@ def goodman_figure(string: RodString, stress: RodStress) -> Figure:
     axes.plot(ends / _MEGA, ends / _MEGA, color=SOFT, linewidth=0.8)
     for strength in np.unique(stress.tensile[np.isfinite(stress.tensile)]):
         label = f"permissible, T = {quantity(float(strength) / _MEGA, 'MPa')}"
-        limit = permissible(string, strength, ends)
+        limit = _permissible(string, strength, ends)
         axes.plot(ends / _MEGA, limit / _MEGA, color=INK, linewidth=1.1, label=label)
     for n, name in enumerate(stress.sections):
         at, top, colour = stress.stress_min[n] / _MEGA, stress.stress_max[n] / _MEGA, LINES[n % len(LINES)]
@@ -173,14 +178,14 @@ def goodman_figure(string: RodString, stress: RodStress) -> Figure:
 
 
 @styled
-def depth_figure(string: RodString, along: AlongRods) -> Figure:
+def depth_figure(string: RodString, along: AlongRods, stress: RodStress) -> Figure:
     """Draw the extremes of tension and stress over the depth, with the permissible stress."""
     figure, axes = panels(1, height=4.4, columns=2, shared=False)
     for one, values in zip(axes, (along.load, along.stress / _MEGA), strict=True):
         one.plot(values.max(axis=1), along.depth, color=RED, label="maximum")
         one.plot(values.min(axis=1), along.depth, color=BLUE, label="minimum")
         one.set_ylim(along.depth[-1], 0.0)
-    limit = permissible(string, tensile(string)[along.section], along.stress.min(axis=1))
+    limit = _permissible(string, stress.tensile[along.section], along.stress.min(axis=1))
     if np.isfinite(limit).any():
         axes[1].plot(limit / _MEGA, along.depth, "--", color=INK, label="permissible")
     axes[0].set_ylabel("depth [m]")

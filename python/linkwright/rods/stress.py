@@ -70,24 +70,14 @@ def weight_below(string: RodString) -> Floats:
     return np.asarray(np.append(np.cumsum(hung[::-1])[::-1], 0.0))
 
 
-def tensile(string: RodString) -> Floats:
-    """Minimum tensile strength of each section, NaN without one [Pa]."""
-    return np.array([np.nan if s.strength is None else s.strength for s in string.sections])
-
-
-def permissible(string: RodString, strength: Floats, smallest: Floats) -> Floats:
-    """Permissible maximum stress beside a minimum stress [Pa]."""
-    return np.asarray((strength / 4 + 0.5625 * smallest) * string.service_factor)
-
-
 def rod_stress(string: RodString, load: Floats) -> RodStress:
     """Of dynamic loads (stations, n) at the tops of sections and at the pump [N]."""
     columns, below = string.columns, weight_below(string)
     high, low = load.max(axis=1) + below, load.min(axis=1) + below
     largest, smallest = high[:-1] / columns.area, low[:-1] / columns.area
-    strength = tensile(string)
-    limit = permissible(string, strength, smallest)
-    room = limit - smallest
+    tensile = np.array([np.nan if s.strength is None else s.strength for s in string.sections])
+    permissible = (tensile / 4 + 0.5625 * smallest) * string.service_factor
+    room = permissible - smallest
     return RodStress(
         sections=tuple(f"{s.rod} in" if s.rod else f"{1e3 * s.body:.4g} mm" for s in string.sections),
         length=columns.length,
@@ -96,10 +86,10 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
         load_bottom_min=low[1:],
         stress_max=largest,
         stress_min=smallest,
-        stress_permissible=limit,
+        stress_permissible=permissible,
         # Beyond what any range permits the loading is without bound.
         loading=np.where(
-            room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * strength
+            room > 0, (largest - smallest) / np.where(room > 0, room, 1.0), np.inf + 0 * tensile
         ),
-        tensile=strength,
+        tensile=tensile,
     )
