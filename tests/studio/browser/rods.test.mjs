@@ -48,7 +48,7 @@ test("cards are plots: surface, taper and pump, and the measured card over the p
   const known = await studio.scalar(page, "rod_string.load_max");
   assert.ok(Math.abs(cards[1][2] / known - 1) < 0.01);
   const measured = await plot("measured_cards");
-  assert.deepEqual(measured.map(([name]) => name).filter((name) => name.startsWith("predicted")).length, 6);
+  assert.deepEqual(measured.map(([name]) => name).filter((name) => name.startsWith("predicted")).length, 4);
   for (const key of ["cards", "measured_cards"]) assert.ok(await colours(`[data-plot="${key}"] canvas`) > 3, key);
   assert.equal(await page.locator('section[aria-label="dynamometer cards"] .legend span').count(), 3);
 });
