@@ -29,8 +29,9 @@ _STRETCHED = 0.05
 # Share of the pump's depth by which the sections may be shorter without a word.
 _SHORT = 0.005
 
-# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence.
-_SMALL = 0.01
+# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence;
+# that of a card ripples.
+_SMALL, _RIPPLE = 0.01, 0.05
 
 
 def string_findings(motion: RodStringMotion) -> Iterator[str]:
@@ -65,7 +66,7 @@ def _goodman(stress: RodStress) -> Iterator[str]:
 
 def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]:
     """What should be known of a predicted motion."""
-    yield from _buckling(motion.stress, motion.fluid_load)
+    yield from _buckling(motion.stress, _SMALL * motion.fluid_load)
     yield from _well(string)
     yield from _pumping(motion)
     if motion.load_min < 0:
@@ -117,10 +118,10 @@ def _well(string: RodString) -> Iterator[str]:
         )
 
 
-def _buckling(stress: RodStress, fluid_load: float) -> Iterator[str]:
+def _buckling(stress: RodStress, small: float) -> Iterator[str]:
     for n, name in enumerate(stress.sections):
         low = float(stress.load_bottom_min[n])
-        if low < -_SMALL * fluid_load:
+        if low < -small:
             yield (
                 f"Section {n + 1} ({name}) tends to buckle at its lower end: the effective tension falls to "
                 f"{low:.4g} N; add sinker bars."
@@ -129,7 +130,7 @@ def _buckling(stress: RodStress, fluid_load: float) -> Iterator[str]:
 
 def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]:
     """What should be known of a diagnosed card."""
-    yield from _buckling(found.stress, found.fluid_load)
+    yield from _buckling(found.stress, _RIPPLE * found.fluid_load)
     ratio = found.fluid_load / found.fluid_load_file
     if abs(ratio - 1) > _DIFFERS:
         yield (
