@@ -30,11 +30,9 @@ _STRETCHED = 0.05
 # Share of the pump's depth by which the sections may be shorter without a word.
 _SHORT = 0.005
 
-# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence.
-_SMALL = 0.01
-
-# The same over the noise of a measured card.
-_NOISY = 5.0
+# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence;
+# that of a card ripples.
+_SMALL, _RIPPLE = 0.01, 0.05
 
 
 def string_findings(motion: RodStringMotion) -> Iterator[str]:
@@ -137,7 +135,7 @@ def _buckling(string: RodString, result: RodStringMotion | CardDiagnosis, small:
 
 def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]:
     """What should be known of a diagnosed card."""
-    yield from _buckling(string, found, max(_SMALL * found.fluid_load, _NOISY * found.noise))
+    yield from _buckling(string, found, _RIPPLE * found.fluid_load)
     ratio = found.fluid_load / found.fluid_load_file
     if abs(ratio - 1) > _DIFFERS:
         yield (
