@@ -160,3 +160,13 @@ def test_a_catalogue_unit_has_its_stroke():
     entries = {key: value * INCH for key, value in unit.items()} | {"designation": "C-320D-305-120"}
     machine = lw.Machine.model_validate({"format": 1, "name": "unit", "pumping_unit": entries})
     assert lw.pumping_unit(machine).stroke == pytest.approx(120.14 * INCH, abs=0.005 * INCH)
+
+
+def test_json_has_sections_gearbox_and_terms_of_api():
+    """What the tables show, `--json` has: loading of every section, torque, F_o/Sk_r."""
+    motion = lw.rod_string(lw.loads('format = 1\nname = "w"\n[drive]\nspeed = "16 rpm"\n' + UNIT + STRING))
+    found = motion.to_dict()
+    assert found["stress"]["load_max"] == motion.stress.load_max.tolist()
+    assert found["gear"]["torque_net_up"] == motion.gear.torque_net_up
+    assert found["numbers"]["load_ratio"] == motion.numbers.load_ratio
+    assert "position" not in found

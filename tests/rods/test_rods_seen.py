@@ -16,6 +16,7 @@ from linkwright.pumping.unit import pumping_unit
 from linkwright.rods.along import along_rods, cards
 from linkwright.rods.figures import string_figures
 from linkwright.rods.model.rod_string import GRAVITY
+from linkwright.rods.warnings import string_warnings
 from linkwright.studio.analyses import fast
 
 WELL = Path(__file__).parents[1] / "samples" / "measured_well.toml"
@@ -97,6 +98,23 @@ def test_the_gearbox_has_its_rated_torque_under_the_permissible_load():
     above = gear.load_permissible > gear.rod_load
     is_within = gear.torque_net < gear.torque_rated
     assert (above == (is_within == (unit.torque_factor > 0)))[inside].all()
+
+
+def test_rods_that_are_compressed_above_the_pump_are_told():
+    """A plunger that falls on its liquid sends compression up the rods, though nothing pushes its end:
+    less tension there than at the ends of the section. A full pump does hardly so.
+    """
+    pound, full = well({"fillage": 0.7}), well()
+    motion = lw.rod_string(pound)
+    along = along_rods(pound.rod_string, motion)
+    low = along.load.min()
+    assert motion.stress.load_bottom_min[-1] > -1e-3 * motion.fluid_load
+    assert low < -0.3 * motion.fluid_load
+    told = [line for line in string_warnings(pound.rod_string, motion) if "buckle" in line]
+    assert len(told) == 1
+    assert f"{low:.4g} N" in told[0]
+    steady = along_rods(full.rod_string, lw.rod_string(full))
+    assert steady.load.min() > -0.05 * motion.fluid_load
 
 
 def test_figures_of_a_prediction_and_of_a_measured_card_have_their_own_names():

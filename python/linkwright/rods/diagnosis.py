@@ -129,6 +129,10 @@ class CardDiagnosis(Result):
     ]
     stress: Annotated[RodStress, About("Loads and stresses of the sections.")]
 
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Scalars by name, and the stresses of the sections."""
+        return super().to_dict(curves=curves) | {"stress": self.stress.to_dict(curves=True)}
+
 
 @public
 def diagnose_card(

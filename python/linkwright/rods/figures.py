@@ -32,7 +32,7 @@ from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.prediction import RodStringMotion, string_of
 from linkwright.rods.scalars import permissible
 from linkwright.rods.scene import string_shown
-from linkwright.rods.stress import RodStress, tensile
+from linkwright.rods.stress import RodStress
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,7 +104,7 @@ def _stresses(
         "Minimum and maximum of effective tension and stress along the rods; the tension falls to "
         f"{quantity(low, 'N')}."
     )
-    title, drawn = f"Loads and stresses by depth{behind}", depth_figure(string, along)
+    title, drawn = f"Loads and stresses by depth{behind}", depth_figure(string, along, stress)
     yield CaptionedFigure(f"{before}rod_depth", title, caption, drawn)
 
 
@@ -174,14 +174,14 @@ def goodman_figure(string: RodString, stress: RodStress) -> Figure:
 
 
 @styled
-def depth_figure(string: RodString, along: AlongRods) -> Figure:
+def depth_figure(string: RodString, along: AlongRods, stress: RodStress) -> Figure:
     """Draw the extremes of tension and stress over the depth, with the permissible stress."""
     figure, axes = panels(1, height=4.4, columns=2, shared=False)
     for one, values in zip(axes, (along.load, along.stress / _MEGA), strict=True):
         one.plot(values.max(axis=1), along.depth, color=RED, label="maximum")
         one.plot(values.min(axis=1), along.depth, color=BLUE, label="minimum")
         one.set_ylim(along.depth[-1], 0.0)
-    limit = permissible(string, tensile(string)[along.section], along.stress.min(axis=1))
+    limit = permissible(string, stress.tensile[along.section], along.stress.min(axis=1))
     if np.isfinite(limit).any():
         axes[1].plot(limit / _MEGA, along.depth, "--", color=INK, label="permissible")
     axes[0].set_ylabel("depth [m]")

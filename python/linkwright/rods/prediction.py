@@ -141,6 +141,14 @@ class RodStringMotion(Result):
         """Hydraulic power over the power of the polished rod."""
         return self.power_hydraulic / self.power_rod
 
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Scalars by name, and those of its parts: terms of API RP 11L, stresses of the sections, gearbox."""
+        parts = {
+            name: getattr(self, name) for name in ("numbers", "gear", "gear_best") if getattr(self, name)
+        }
+        found = super().to_dict(curves=curves) | {"stress": self.stress.to_dict(curves=True)}
+        return found | {name: part.to_dict(curves=curves) for name, part in parts.items()}
+
 
 @public
 def rod_string(machine: Machine, *, accuracy: float = 1e-3) -> RodStringMotion:

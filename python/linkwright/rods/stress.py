@@ -71,18 +71,13 @@ def weight_below(string: RodString) -> Floats:
     return np.asarray(np.append(np.cumsum(hung[::-1])[::-1], 0.0))
 
 
-def tensile(string: RodString) -> Floats:
-    """Minimum tensile strength of each section, NaN without one [Pa]."""
-    return np.array([np.nan if s.strength is None else s.strength for s in string.sections])
-
-
 def rod_stress(string: RodString, load: Floats) -> RodStress:
     """Of dynamic loads (stations, n) at the tops of sections and at the pump [N]."""
     columns, below = string.columns, weight_below(string)
     high, low = load.max(axis=1) + below, load.min(axis=1) + below
     largest, smallest = high[:-1] / columns.area, low[:-1] / columns.area
-    strength = tensile(string)
-    limit, loading = goodman(string, strength, largest, smallest)
+    tensile = np.array([np.nan if s.strength is None else s.strength for s in string.sections])
+    limit, loading = goodman(string, tensile, largest, smallest)
     return RodStress(
         sections=tuple(f"{s.rod} in" if s.rod else f"{1e3 * s.body:.4g} mm" for s in string.sections),
         length=columns.length,
@@ -92,6 +87,6 @@ def rod_stress(string: RodString, load: Floats) -> RodStress:
         stress_max=largest,
         stress_min=smallest,
         stress_permissible=limit,
-        loading=loading + 0 * strength,
-        tensile=strength,
+        loading=loading + 0 * tensile,
+        tensile=tensile,
     )

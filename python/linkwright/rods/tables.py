@@ -16,6 +16,7 @@ from linkwright.kernel.page.table import (
     part_table,
     parts_of,
     rows_in,
+    rows_of,
 )
 from linkwright.kernel.quantities import in_table
 from linkwright.kernel.reader.numbers import measured, number
@@ -37,6 +38,9 @@ def string_tables(motion: RodStringMotion) -> Iterator[Table]:
     yield sections_table(motion.stress)
     if motion.gear is not None and motion.gear_best is not None:
         yield _gear(motion.gear, motion.gear_best)
+    if motion.drive is not None:
+        rows = [*rows_of(motion.drive, "speed_min", "speed_max"), *known_rows(motion.drive, "drive")]
+        yield Table("rod_drive", "Drive under the rod string", _HEADS, rows)
     yield Table("rod_numbers", "Terms of API RP 11L", _HEADS, known_rows(motion.numbers, "rod_numbers"))
 
 

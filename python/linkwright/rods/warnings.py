@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.rods.along import along_rods
 from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.prediction import RodStringMotion
@@ -29,8 +30,9 @@ _STRETCHED = 0.05
 # Share of the pump's depth by which the sections may be shorter without a word.
 _SHORT = 0.005
 
-# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence.
-_SMALL = 0.01
+# Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence;
+# that of a card ripples.
+_SMALL, _RIPPLE = 0.01, 0.05
 
 
 def string_findings(motion: RodStringMotion) -> Iterator[str]:
@@ -65,7 +67,7 @@ def _goodman(stress: RodStress) -> Iterator[str]:
 
 def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]:
     """What should be known of a predicted motion."""
-    yield from _buckling(motion.stress, motion.fluid_load)
+    yield from _buckling(string, motion, _SMALL * motion.fluid_load)
     yield from _well(string)
     yield from _pumping(motion)
     if motion.load_min < 0:
@@ -117,19 +119,23 @@ def _well(string: RodString) -> Iterator[str]:
         )
 
 
-def _buckling(stress: RodStress, fluid_load: float) -> Iterator[str]:
-    for n, name in enumerate(stress.sections):
-        low = float(stress.load_bottom_min[n])
-        if low < -_SMALL * fluid_load:
+def _buckling(string: RodString, result: RodStringMotion | CardDiagnosis, small: float) -> Iterator[str]:
+    """Sections in which the effective tension falls below zero, beside a load that is small."""
+    along = along_rods(string, result)
+    low = along.load.min(axis=1)
+    for n, name in enumerate(result.stress.sections):
+        inside = np.flatnonzero(along.section == n)
+        at = inside[low[inside].argmin()]
+        if low[at] < -small:
             yield (
-                f"Section {n + 1} ({name}) tends to buckle at its lower end: the effective tension falls to "
-                f"{low:.4g} N; add sinker bars."
+                f"Section {n + 1} ({name}) tends to buckle: the effective tension falls to {low[at]:.4g} N "
+                f"at a depth of {along.depth[at]:.4g} m; add sinker bars."
             )
 
 
 def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]:
     """What should be known of a diagnosed card."""
-    yield from _buckling(found.stress, found.fluid_load)
+    yield from _buckling(string, found, _RIPPLE * found.fluid_load)
     ratio = found.fluid_load / found.fluid_load_file
     if abs(ratio - 1) > _DIFFERS:
         yield (

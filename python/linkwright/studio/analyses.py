@@ -116,7 +116,10 @@ def fast(machine: Machine, *, held: bool) -> Answers:
         scene = None if string is None else drawing(machine, None, None, string)
         known = [] if string is None else [_cards(machine, string), shown(STRING.name, string)]
         return Answers(known, findings.findings, findings.warnings, scene, views=tuple(views))
-    steady = findings.of(steady_state, machine, n=_INTERVALS) if has_motor(machine) else None
+    # Under a rod string the drive has another steady motion.
+    steady = None if string is None else string.drive
+    if steady is None and has_motor(machine):
+        steady = findings.of(steady_state, machine, n=_INTERVALS)
     acting = None
     if no_mass(machine) is None:
         if steady is not None:

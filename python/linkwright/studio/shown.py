@@ -132,9 +132,8 @@ def cards_plot(key: str, string: Any, result: Any, compared: Any = None) -> dict
     drawn = [(name, position[order], load[order]) for name, position, load in cards(string, result)]
     if compared is not None:
         places = np.linspace(0, len(compared.time) - 1, len(order)).astype(int)
-        drawn += [
-            (f"predicted: {name}", u[places], load[places]) for name, u, load in cards(string, compared)
-        ]
+        ends = list(cards(string, compared))[:: len(compared.stations) - 1]
+        drawn += [(f"predicted: {name}", u[places], load[places]) for name, u, load in ends]
     name, word, symbol, unit = (
         ("time", "time", "t", "s") if angle is None else ("crank_angle", "crank angle", "φ", "rad")
     )

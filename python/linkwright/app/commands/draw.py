@@ -76,6 +76,8 @@ def _scene(machine: Machine, at: float | None) -> tuple[Scene, float]:
     from linkwright.linkages.model.topology import Topology
     from linkwright.machine.program.compiled import compile_machine
 
+    if machine.is_rod_string_alone and (string := moving_scene(machine, None)) is not None:
+        return string, _EIGHTH if at is None else at / (2 * np.pi) % 1.0
     if not Topology.of(machine.linkage).drivers:
         raise InputError("nothing to draw: the machine has no mechanism")
     angle = None if at is None else in_cycle(closure(machine), at)

@@ -5,6 +5,7 @@ import { rows, short } from "./chart.js";
 import { ticks } from "./exported.js";
 import { blank, fit, toMachine, toScreen } from "./frame.js";
 import { circle, fill } from "./ink.js";
+import { saidOf } from "./language.js";
 import { followers } from "./stage.js";
 import * as state from "./state.js";
 import { colours, shownLook } from "./theme.js";
@@ -178,5 +179,6 @@ export function Hodograph({ plot }) {
     };
   }, []);
   useEffect(() => redraw.current(), [plot, shownLook.value, state.units.value, state.pins.value]);
-  return html`<div class="chart hodograph" data-plot=${plot.key}><canvas ref=${holder} role="img" aria-label="Hodograph of ${plot.title}; its numbers are in the data table"></canvas></div>`;
+  const label = saidOf(plot.isCard ? "Plot of {}; its numbers are in the data table" : "Hodograph of {}; its numbers are in the data table", plot.title);
+  return html`<div class="chart hodograph" data-plot=${plot.key}><canvas ref=${holder} role="img" aria-label=${label}></canvas></div>`;
 }

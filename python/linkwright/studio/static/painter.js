@@ -264,7 +264,7 @@ export const MOVING = {
     stroke(ctx, ink.ink, 1.5);
     const [right, low] = [x + 2 * half, top + 8 * half];
     for (let n = 0; n < 12; n += 1) mixed(view, [[right, low - (n * half) / 2], [right, low - ((n + 1) * half) / 2]], n / 11, 6);
-    const said = view.stress ?? ((value) => `${Number((value / 1e6).toPrecision(3))} MPa`);
+    const said = view.stress ?? ((value) => `${Number((value / 1e6).toPrecision(3))} MPa`.replace("-", "−"));
     part.range.forEach((value, n) => word(view, said(value), right + 8, (n ? low - 6 * half : low) + 4));
   },
   slider(view, part) {

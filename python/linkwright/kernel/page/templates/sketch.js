@@ -197,7 +197,7 @@
       const [unit, size] = scene.stress_unit;
       for (const [n, value] of part.range.entries()) {
         const words = add("text", "name", { x: right + 8, y: (n ? low - 6 * half : low) + 4 });
-        words.textContent = `${decimal(Number((value / size).toPrecision(3)).toString())} ${WORDS.units[unit] ?? unit}`;
+        words.textContent = `${decimal(Number((value / size).toPrecision(3)).toString().replace("-", "−"))} ${WORDS.units[unit] ?? unit}`;
       }
       return (k) => {
         const at = (values, n) => between(values.slice(n * count, (n + 1) * count), k);
