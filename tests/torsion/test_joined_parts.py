@@ -398,3 +398,85 @@ def test_a_clutch_before_a_stage_that_loses_power() -> None:
     assert moved.slip_time[0] == pytest.approx(1.5 - slips, abs=1e-9)
     assert moved.friction_heat[0] == pytest.approx(capacity * np.trapezoid(a - b, moved.time), rel=1e-5)
     assert abs(moved.energy_error) < 1e-9
+
+
+@pytest.mark.parametrize("method", ["explicit", "implicit"])
+@pytest.mark.parametrize("capacity", [0.05, 2.0, 50.0])
+def test_a_worm_held_by_brake_and_teeth_stands(capacity: float, method: str) -> None:
+    """A load on a locked stage stands whatever the brake beside it carries, and stands again after a pull."""
+    pull = {"kind": "torque", "on": "worm", "torque": 12.0, "time": 0.3, "until": 0.4}
+    load = {"kind": "torque", "on": "wheel", "torque": -30.0, "time": 0.0}
+    stage = {"between": ["worm", "wheel"], "ratio": 10.0, "efficiency": 0.4, "efficiency_reverse": 0.0}
+    moved = torsion_transient(
+        lw.Machine.model_validate(
+            {
+                "format": 1,
+                "name": "worm",
+                "train": {
+                    "discs": {"worm": {"inertia": 0.1}, "wheel": {"inertia": 2.0}},
+                    "gears": {"stage": stage},
+                    "brakes": {
+                        "bearing": {"on": "worm", "sliding": capacity},
+                        "guide": {"on": "wheel", "sliding": 5.0},
+                    },
+                    "transient": {
+                        "duration": 1.0,
+                        "sample_time": 1e-2,
+                        "events": [load, pull],
+                        "method": method,
+                    },
+                },
+            }
+        )
+    )
+    stands = (moved.time <= 0.3) | (moved.time > 0.8)
+    assert np.abs(moved.speed[:, stands]).max() < 1e-12
+    # The pull overcomes (30 + 5)/(10 · 0.4) = 8.75 N m and the weaker brakes.
+    assert (np.abs(moved.speed).max() > 0.1) == (capacity < 12.0 - 8.75)
+    assert abs(moved.energy_error) < 1e-9
+
+
+def test_a_brake_stops_the_ring_of_a_planetary_stage() -> None:
+    """Braked slowly, the ring comes to rest and stays; sun and carrier then turn by Willis, 1 + 84/24."""
+    stage = {"sun": "sun", "ring": "ring", "carrier": "carrier", "teeth": TEETH, "planet_inertia": 0.002}
+    moved = torsion_transient(
+        lw.Machine.model_validate(
+            {
+                "format": 1,
+                "name": "ring brake",
+                "train": {
+                    "discs": {"sun": {"inertia": 0.1}, "ring": {"inertia": 0.2}, "carrier": {"inertia": 0.5}},
+                    "planetaries": {
+                        "stage": {
+                            **stage,
+                            "sun_stiffness": 4e4,
+                            "ring_stiffness": 4e5,
+                            "loss_factor": 0.05,
+                            "carrier_speed": 0.25,
+                        }
+                    },
+                    "brakes": {
+                        "brake": {
+                            "on": "ring",
+                            "sliding": 30.0,
+                            "times": [0.0, 0.1, 0.3],
+                            "engagement": [0, 0, 1],
+                        }
+                    },
+                    "transient": {
+                        "duration": 0.5,
+                        "sample_time": 1e-4,
+                        "accuracy": 1e-10,
+                        "events": [{"kind": "torque", "on": "sun", "torque": 6.0, "time": 0.0}],
+                    },
+                },
+            }
+        )
+    )
+    place = moved.discs.index
+    late = moved.time > 0.4
+    assert moved.engagements[0] >= 1
+    assert np.abs(moved.speed[place("ring"), late]).max() < 1e-9
+    sun, carrier = (moved.speed[place(name), late].mean() for name in ("sun", "carrier"))
+    assert sun / carrier == pytest.approx(1 + 84 / 24, rel=1e-3)
+    assert abs(moved.energy_error) < 1e-9

@@ -269,15 +269,20 @@ fn hold(rows: &[Row], inertia: &[f64], contacts: &Contacts, acceleration: &mut [
     let mut responses: Vec<Vec<f64>> = rows.iter().map(|row| row.alone(inertia, masses)).collect();
     let sizes: Vec<f64> = rows.iter().zip(&responses).map(|(row, by)| row.along(by).abs()).collect();
     responses.iter_mut().for_each(|by| contacts.join(by, inertia));
-    let mut torques: Vec<f64> = rows.iter().map(|row| row.along(acceleration)).collect();
     let mut factors = LuFactors::<f64>::new(rows.len());
     factors.factor(|i, j| {
         let mobility = rows[i].along(&responses[j]);
         if i == j { mobility + DEPENDENT * sizes[i] } else { mobility }
     });
-    factors.solve(&mut torques);
-    for (response, torque) in responses.iter().zip(&torques) {
-        acceleration.iter_mut().zip(response).for_each(|(a, by)| *a -= by * torque);
+    let mut torques = vec![0.0; rows.len()];
+    // The second time what was added to the mobilities is made good.
+    for _ in 0..2 {
+        let mut more: Vec<f64> = rows.iter().map(|row| row.along(acceleration)).collect();
+        factors.solve(&mut more);
+        for (response, torque) in responses.iter().zip(&more) {
+            acceleration.iter_mut().zip(response).for_each(|(a, by)| *a -= by * torque);
+        }
+        torques.iter_mut().zip(more).for_each(|(torque, more)| *torque += more);
     }
     torques
 }

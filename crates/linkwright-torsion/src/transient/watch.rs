@@ -20,6 +20,9 @@ const SHORTEST: f64 = 1e-4;
 /// Slip that is rounding, over the largest speed so far: this, or some accuracies of a step.
 const SMALL: f64 = 1e-9;
 
+/// Speed of a train below which it counts as turning that fast, lest rounding be all of its slip \[rad/s\].
+const SLOWEST: f64 = 1e-4;
+
 /// Watches the elements of a train.
 #[derive(Clone, Debug)]
 pub struct Watch {
@@ -53,7 +56,7 @@ impl Watch {
 
     /// Slip that counts as none \[rad/s\].
     pub fn small(&self) -> f64 {
-        self.share * self.fastest
+        self.share * self.fastest.max(SLOWEST)
     }
 
     /// Takes note of the instant last evaluated, where a step begins anew.

@@ -607,6 +607,18 @@ def _rubbed(train: MovingTrain, moved: TrainMotion) -> dict[str, Any]:
     }
 
 
+# Angle over which the largest torque does work that counts: a train that stands does none but rounding [rad].
+_COUNTED_ANGLE = 1e-6
+
+
+def _least_energy(moved: TrainMotion) -> float:
+    """Energy to which an error of the balance is relative at least [J]."""
+    extremes = (moved.torque_extremes, moved.friction.torque_extremes)
+    rows = [row for one in extremes for row in (one.maximum, one.minimum)]
+    torques = np.abs(np.concatenate(rows))
+    return _COUNTED_ANGLE * float(torques[np.isfinite(torques)].max(initial=0.0))
+
+
 def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], dict[str, float], float]:
     """Work of each torque, losses, and what is left of the balance."""
     work: dict[str, float] = {}
@@ -619,6 +631,6 @@ def _energy(train: MovingTrain, moved: TrainMotion) -> tuple[dict[str, float], d
     if train.modal_damping is not None:
         loss["modes"] = moved.modal_loss
     start, end = moved.energy_start, moved.energy_end
-    size = max(*map(abs, work.values()), *map(abs, loss.values()), abs(start), abs(end))
+    size = max(*map(abs, work.values()), *map(abs, loss.values()), abs(start), abs(end), _least_energy(moved))
     left = end - start - sum(work.values()) + sum(loss.values())
     return work, loss, left / size if size else 0.0
