@@ -23,6 +23,7 @@ loading = "minimise"
 """
 
 
+@pytest.mark.deep
 def test_the_best_taper_has_equal_loadings(tmp_path):
     """The lowest maximum Goodman loading of two sections of a given depth is that where both are equal."""
     lw.write(well(damping_factor=0.3), tmp_path / "well.toml")
