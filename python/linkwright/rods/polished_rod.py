@@ -171,7 +171,7 @@ class UnitRod:
         if len(loads) == 1:
             return target
         steps = np.diff(changes, axis=0)
-        weights = np.linalg.lstsq(steps.T, changes[-1], rcond=1e-8)[0]
+        weights = np.linalg.lstsq(steps.T, changes[-1], rcond=1e-2)[0]
         return np.asarray(target - weights @ (np.diff(loads, axis=0) + steps))
 
     def _drive(self, load: Floats) -> None:
