@@ -41,6 +41,9 @@ _FIRST, _MOST = 256, 8192
 # Rounds between string and drive at most, and the change of the motion at which they end, over the accuracy.
 _ROUNDS, _ALIKE = 40, 1e-3
 
+# Error over the change by twice the samples, whose numbers are not quite doubled.
+_SURE = 2.0
+
 # Numbers of samples that are tried.
 _TRIALS = 4
 
@@ -198,16 +201,16 @@ def solution(machine: Machine, accuracy: float) -> Solution:
     if not 1e-6 <= accuracy <= 0.1:
         raise InputError(f"accuracy: found {accuracy}, expected a number from 1e-6 to 0.1")
     rod = polished_rod_of(machine, string)
-    least, before, start, last = _FIRST, None, None, np.inf
+    least, before, start, largest = _FIRST, None, None, 0.0
     while True:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         change = np.inf if before is None else _difference(result, before)
-        # Corners are seen ever more sharply, by now more, now less than half of what was missed.
-        reached = max(change, min(last, change * 4) / 2)
+        # The error at a corner is of first order, but a single change may be small by chance: it halves from the largest on.
+        reached = max(_SURE * change, largest / 2)
         if reached <= accuracy or 2 * least > _MOST:
             return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
-        last = change
+        largest = 0.0 if before is None else reached
         least, before, start = 2 * least, result, np.asarray(solved.wave)
 
 
