@@ -9,7 +9,6 @@ from loose_drives import Law, LooseDrive, loose_cycle, random_loose_drive
 from sizes import random_cases
 
 import linkwright as lw
-from linkwright.driveline.chain import chain_of
 from linkwright.driveline.parametric import parametric_zones
 from linkwright.driveline.solving import multipliers_of, ready, solved
 
