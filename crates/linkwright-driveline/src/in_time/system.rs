@@ -208,7 +208,7 @@ impl<'a> System<'a> {
     fn loaded(&self, load: &Torque, speed: f64) -> Dual<f64> {
         match load.source {
             // Dry: as large at rest as in motion.
-            Source::Power { torque, exponent, .. } if exponent == 0.0 => {
+            Source::Power { torque, exponent: 0.0, .. } => {
                 Dual::constant(direction(self.senses[load.mass]) * torque)
             }
             _ => self.equation.outside(load, speed),
