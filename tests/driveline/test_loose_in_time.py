@@ -25,7 +25,7 @@ def _distinct(motion: lw.ElasticTransient) -> list[int]:
 
 
 def test_random_loose_drives_turn_once_as_equations_written_down_here() -> None:
-    """From even speed without twist: state, time, torques and heat after a revolution, across flanks and points."""
+    """State, time, torques and heat of a revolution across flanks and points of curves."""
     met = 0
     for number, rng in random_cases(4821, 3, 60):
         loose = random_loose_drive(rng)
@@ -58,7 +58,7 @@ def test_random_loose_drives_turn_once_as_equations_written_down_here() -> None:
 
 
 def test_a_rattling_motion_goes_on_in_time() -> None:
-    """From the steady motion of a drive whose teeth part, a cycle repeats its extremes; T is zero in the gap."""
+    """From the steady motion of parting teeth a cycle repeats its extremes; T is zero in the gap."""
     machine = lw.read("rattling_backlash")
     steady = lw.elastic_motion(machine, accuracy=1e-11)
     motion = lw.elastic_transient(machine, start=steady, turns=steady.turns, accuracy=1e-11)

@@ -108,7 +108,7 @@ def test_rods_that_are_compressed_above_the_pump_are_told():
     motion = lw.rod_string(pound)
     along = along_rods(pound.rod_string, motion)
     low = along.load.min()
-    assert motion.stress.load_bottom_min[-1] > -1e-3 * motion.fluid_load
+    assert motion.stress.load_bottom_min[-1] > -1e-2 * motion.fluid_load
     assert low < -0.3 * motion.fluid_load
     told = [line for line in string_warnings(pound.rod_string, motion) if "buckle" in line]
     assert len(told) == 1

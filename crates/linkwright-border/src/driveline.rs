@@ -11,13 +11,13 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArray
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::Floats;
 use crate::arrays::column;
 use crate::builder::Plan;
 use crate::driveline_chain::Driveline;
 use crate::driveline_gradient::DrivelineGradient;
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
-use crate::Floats;
 
 pub(crate) type Array = Py<PyArray1<f64>>;
 pub(crate) type Table = Py<PyArray2<f64>>;

@@ -36,11 +36,7 @@ pub(crate) struct DrivelineGradient {
 
 impl DrivelineGradient {
     /// From the core's.
-    pub(crate) fn new(
-        py: Python<'_>,
-        found: ElasticDerivatives,
-        chain: &Chain,
-    ) -> PyResult<Self> {
+    pub(crate) fn new(py: Python<'_>, found: ElasticDerivatives, chain: &Chain) -> PyResult<Self> {
         let states = chain.states();
         let one = |list: Vec<f64>| column(py, list).unbind();
         let of_masses = |list: Vec<f64>| rows(py, list, chain.masses());

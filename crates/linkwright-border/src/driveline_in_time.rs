@@ -11,13 +11,13 @@ use linkwright_driveline::in_time::trajectory::{End, Trajectory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::Floats;
 use crate::arrays::column;
 use crate::builder::Plan;
 use crate::driveline::{Array, Table, extremes, rows};
 use crate::driveline_chain::Driveline;
 use crate::guard::{guarded, require_room};
 use crate::torsion::Extremes;
-use crate::Floats;
 
 const ANALYSIS: &str = "motion in time of the driveline";
 

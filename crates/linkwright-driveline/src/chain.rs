@@ -126,11 +126,8 @@ impl Chain {
         let mut next = || rest.next().unwrap_or(N::splat(f64::NAN));
         let inertia = self.inertia.iter().map(|_| next()).collect();
         let apart = next();
-        let link = |link: &Link| Link {
-            first: link.first,
-            second: link.second,
-            law: link.law.with(&mut next),
-        };
+        let link =
+            |link: &Link| Link { first: link.first, second: link.second, law: link.law.with(&mut next) };
         let links = self.links.iter().map(link).collect();
         let [drivers, loads] = [&self.drivers, &self.loads].map(|list| {
             let with = |each: &Torque| Torque { mass: each.mass, source: each.source.with(&mut next) };

@@ -38,7 +38,8 @@ pub struct Crossing {
 /// All crossings of a solution.
 pub fn crossings(equation: &Equation<'_>, mesh: &Mesh, solution: &Solution, scale: &[f64]) -> Vec<Crossing> {
     let on_step = |(step, angle): (usize, f64)| Crossing { angle, step, error: 0.0, error_of_slopes: 0.0 };
-    let mut found: Vec<Crossing> = speed_kinks(equation, &mesh.edges, solution).into_iter().map(on_step).collect();
+    let mut found: Vec<Crossing> =
+        speed_kinks(equation, &mesh.edges, solution).into_iter().map(on_step).collect();
     for kink in station_kinks(equation.chain, mesh, solution) {
         // Loads of a mechanism may jump at its kink.
         let error = (mesh.to_edge(kink.1) - ROUNDING).max(0.0);

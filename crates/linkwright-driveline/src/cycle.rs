@@ -87,7 +87,8 @@ impl<'a> Cycle<'a> {
             if i == S - 1 {
                 // The step may end at a kink, which is seen from inside: values are taken on from there by their slopes.
                 let before = &stages[(i - 1) * m..][..m];
-                let inside: Vec<f64> = y.iter().zip(before).map(|(y, before)| y + INSIDE * (before - y)).collect();
+                let inside: Vec<f64> =
+                    y.iter().zip(before).map(|(y, before)| y + INSIDE * (before - y)).collect();
                 self.equation.rates_before(&row, &inside, like, &mut self.rates);
                 self.rates.take_on(&inside, y);
             } else {

@@ -105,9 +105,10 @@ impl Law {
     /// The same law with other numbers, in their order.
     pub(crate) fn with<N: Real>(&self, next: &mut impl FnMut() -> N) -> Law<N> {
         let [stiffness, damping, gap] = [next(), next(), next()];
-        let curve = self.curve.as_ref().map(|curve| Curve {
-            points: curve.points.iter().map(|_| [next(), next(), next()]).collect(),
-        });
+        let curve = self
+            .curve
+            .as_ref()
+            .map(|curve| Curve { points: curve.points.iter().map(|_| [next(), next(), next()]).collect() });
         Law { stiffness, damping, gap, curve }
     }
 }
@@ -203,9 +204,10 @@ impl<N: Real> Law<N> {
         if gap > 0.0 && over <= 0.0 {
             return Zone { piece: 0, held: 0 };
         }
-        let piece = self.curve.as_ref().map_or(1, |curve| {
-            curve.points.partition_point(|point| point[0].max_lane() <= over).max(1)
-        });
+        let piece = self
+            .curve
+            .as_ref()
+            .map_or(1, |curve| curve.points.partition_point(|point| point[0].max_lane() <= over).max(1));
         let free = Zone { piece: if at < 0.0 { -(piece as i32) } else { piece as i32 }, held: 0 };
         if gap == 0.0 {
             return free;

@@ -93,7 +93,8 @@ def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMoti
     found = {name: np.full((*shape, len(is_alike)), np.nan) for name, shape in _shapes(chain).items()}
     if len(members):
         part = compiled.over_turns(first.turns).rows(members)
-        own = chain._replace(**{name: values[:, members] for name, values in ratios.items()})
+        of_members: dict[str, Any] = {name: values[:, members] for name, values in ratios.items()}
+        own = chain._replace(**of_members)
         for name, column in _solved(part, own, numbers[members], first.turns).items():
             found[name][..., members] = column
     # An unstable motion is not the one that the machine comes to.

@@ -196,7 +196,9 @@ def links_of(
 
 def _laws(train: Train, names: list[str], stiffness: Any, lead: Any) -> dict[str, Any]:
     """Stiffness of each link, half of its backlash, and its curve, with the steepest slope as stiffness."""
-    parts = [train.gears.get(name) or train.couplings.get(name) or train.shafts[name] for name in names]
+    parts: list[Any] = [
+        train.gears.get(name) or train.couplings.get(name) or train.shafts[name] for name in names
+    ]
     gaps = [getattr(part, "backlash", 0.0) / 2 for part in parts]
     slopes, curves = list(stiffness), list[Any]()
     for k, (part, n) in enumerate(zip(parts, lead, strict=True)):

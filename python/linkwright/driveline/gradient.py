@@ -32,7 +32,7 @@ from linkwright.driveline.elastic_motion import (
     solved_motion,
 )
 from linkwright.driveline.solving import multipliers_of
-from linkwright.driveline.train_chain import driven_train, driveline_chain
+from linkwright.driveline.train_chain import driveline_chain, driven_train
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.extreme import ALIKE_OF_SOLVED, Kinks, as_high, chosen, occurs_at
 from linkwright.kernel.numerics.tangent import Tangent, lifted

@@ -25,8 +25,8 @@ from linkwright.driveline.carried import require_carried
 from linkwright.driveline.chain import Chain, Driven, Outside, Stand, chain_of, links_of, order_of
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError, SteadyStateError
-from linkwright.linkages.closure import turn_angles
 from linkwright.kernel.numerics.tangent import Tangent, numbers, primal
+from linkwright.linkages.closure import turn_angles
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.tangents import directions
@@ -91,8 +91,8 @@ def moving_train(machine: Machine, *, motor: bool = True) -> Driven:
     if chain.held is not None:
         kinds = [each.kind for each in chain.links["drivers"]]
         raise InputError(
-            f"train.motors.{chain.motors[kinds.index('held')]}.motor.kind: found constant_speed, which has no "
-            "motion in time; expected a motor whose torque follows its speed"
+            f"train.motors.{chain.motors[kinds.index('held')]}.motor.kind: found constant_speed, which has "
+            "no motion in time; expected a motor whose torque follows its speed"
         )
     if not motor:
         off = [Outside(each.mass, "power", (0.0, 1.0, 0.0)) for each in chain.links["drivers"]]

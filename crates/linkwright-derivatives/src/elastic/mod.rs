@@ -172,7 +172,8 @@ impl Job for Derivation<'_> {
             }
         }
         let row = |at: usize| table[at * n..][..n].to_vec();
-        let of_links = |which: usize| (0..links).flat_map(|link| row(2 + 2 * drivers + 3 * link + which)).collect();
+        let of_links =
+            |which: usize| (0..links).flat_map(|link| row(2 + 2 * drivers + 3 * link + which)).collect();
         let of_drivers = |which: usize| (0..drivers).flat_map(|each| row(2 + 2 * each + which)).collect();
         let mut next = fixed;
         let mut extremes = |parts: usize| {
@@ -205,8 +206,7 @@ fn places(of: &ElasticGradient<'_>, measures: &Measures) -> Vec<(Quantity, Place
     let (q, of_chain) = constants.split_at(of.q().len());
     let chain = of.chain.with(of_chain);
     let equation = Equation { plan: of.plan, q, chain: &chain };
-    let lists = 
-        [&measures.speed, &measures.acceleration, &measures.twist, &measures.torque, &measures.drive];
+    let lists = [&measures.speed, &measures.acceleration, &measures.twist, &measures.torque, &measures.drive];
     let extremes = lists.into_iter().flatten();
     let mut places = Vec::new();
     for (quantity, extreme) in of.quantities().into_iter().zip(extremes) {

@@ -118,9 +118,7 @@ impl Events {
             Event::Rest(mass) => system.speed(mass, y),
             Event::Slip(mass, way) => system.net_towards(t, y, mass, way),
             Event::Law(nth) => laws[nth],
-            Event::Bound(link, way) => {
-                twist(link)[0] - system.bounds(link)[usize::from(way > 0.0)]
-            }
+            Event::Bound(link, way) => twist(link)[0] - system.bounds(link)[usize::from(way > 0.0)],
             Event::Limit(link, limit) => {
                 let [twist, rate] = twist(link);
                 let law = &system.equation.chain.links[link].law;
@@ -133,9 +131,13 @@ impl Events {
     pub fn side(&self, system: &System<'_>, nth: usize) -> f64 {
         match self.list[nth] {
             Event::Kink(_, way) | Event::Last(way) => -way,
-            // A form without an end on this side goes on for ever.
+            // A form may have no end on this side.
             Event::Bound(link, way) => {
-                if system.bounds(link)[usize::from(way > 0.0)].is_finite() { -way } else { 0.0 }
+                if system.bounds(link)[usize::from(way > 0.0)].is_finite() {
+                    -way
+                } else {
+                    0.0
+                }
             }
             Event::Limit(link, limit) => {
                 system.equation.chain.links[link].law.side_of_limit(system.zones[link], limit)

@@ -123,7 +123,9 @@ impl<'a> Reading<'a> {
             let angle = |mass: usize| y[layout.phi] + if mass < layout.others { y[mass] } else { 0.0 };
             let of_mass = |m: usize| [angle(m), self.system.speed(m, &y), self.system.acceleration(m)];
             masses.extend((0..chain.masses()).map(of_mass));
-            links.extend(chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]));
+            links.extend(
+                chain.links.iter().map(|link| [chain.twist(link, &y)[0], chain.torque(link, &y).value]),
+            );
             works.extend(y[layout.shaft..].iter().map(|&work| [work]));
         }
         [found.angle, found.speed, found.acceleration] =
@@ -141,7 +143,8 @@ impl<'a> Reading<'a> {
         let speed = masses.clone().map(|m| self.extremes((false, &move |_, y| chain.speed(m, y)))).collect();
         let acceleration = masses.map(|m| self.extremes((true, &move |s, _| s.acceleration(m)))).collect();
         let twist = links.iter().map(|l| self.extremes((false, &move |_, y| chain.twist(l, y)[0]))).collect();
-        let torque = links.iter().map(|l| self.extremes((false, &move |_, y| chain.torque(l, y).value))).collect();
+        let torque =
+            links.iter().map(|l| self.extremes((false, &move |_, y| chain.torque(l, y).value))).collect();
         Measures { speed, acceleration, twist, torque, energy_error: self.energy_error() }
     }
 

@@ -145,9 +145,8 @@ impl<'a> System<'a> {
         let mut holds: Vec<bool> = self.brakes.iter().map(|&brake| brake > 0.0).collect();
         self.mounted.iter().for_each(|one| holds[one.mass] = true);
         for driver in &chain.drivers {
-            holds[driver.mass] |= self.program(driver).is_some_and(|(plan, q)| {
-                q[plan.drive.forward] != q[plan.drive.reverse]
-            });
+            holds[driver.mass] |=
+                self.program(driver).is_some_and(|(plan, q)| q[plan.drive.forward] != q[plan.drive.reverse]);
         }
         for load in &chain.loads {
             holds[load.mass] |= matches!(load.source, Source::Power { exponent, .. } if exponent == 0.0);
@@ -209,7 +208,7 @@ impl<'a> System<'a> {
     fn loaded(&self, load: &Torque, speed: f64) -> Dual<f64> {
         match load.source {
             // Dry: as large at rest as in motion.
-            Source::Power { torque, exponent, .. } if exponent == 0.0 => {
+            Source::Power { torque, exponent: 0.0, .. } => {
                 Dual::constant(direction(self.senses[load.mass]) * torque)
             }
             _ => self.equation.outside(load, speed),
