@@ -12,7 +12,7 @@ use crate::reading::{Measures, Reading};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
 use crate::speed_kinks::speed_kinks;
-use crate::starts::Rough;
+use crate::starts::{Rough, largest_multiplier};
 use crate::steady::{Steady, add_vibration, parts_of_step, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
@@ -40,6 +40,9 @@ const GROWN: f64 = 2.0;
 
 /// Corrections at which it is known where speeds are passed, for a beginning.
 const ROUGHLY: f64 = 1e-2;
+
+/// Cycles that a first machine is followed where all motions found at once are unstable.
+const AWAY: usize = 100;
 
 /// Times that steps are divided in lanes.
 const ROUNDS: usize = 3;
@@ -119,7 +122,9 @@ impl Batch<'_> {
         for rows in rows.chunks(TOGETHER) {
             let machines: Vec<Machine> = rows.iter().map(|&row| self.machine(row)).collect();
             if known.is_empty() {
-                known.extend(self.first(&machines[0], places));
+                // Others are begun with it, and would take an unstable motion from it.
+                let at_once = machines.iter().find_map(|one| self.first(one, places, 0));
+                known.extend(at_once.or_else(|| self.first(&machines[0], places, AWAY)));
             }
             let far = |known: &&Known| distance(&known.place, &places[rows[0]]);
             let near = known.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
@@ -140,7 +145,10 @@ impl Batch<'_> {
                     }
                 };
                 found.push((row, Ok(self.read(machine, &steady))));
-                if row == rows[rows.len() - 1] && steady.mesh.steps() as f64 <= most {
+                if row == rows[rows.len() - 1]
+                    && is_stable(&steady.monodromy)
+                    && steady.mesh.steps() as f64 <= most
+                {
                     known.push(self.known(machine, places[row].clone(), steady));
                 }
             }
@@ -165,12 +173,12 @@ impl Batch<'_> {
         }
     }
 
-    /// A first machine, more exactly than it is asked for.
-    fn first(&self, machine: &Machine, places: &[Vec<f64>]) -> Option<Known> {
+    /// The stable motion of a first machine, more exactly than it is asked for, behind cycles that are followed.
+    fn first(&self, machine: &Machine, places: &[Vec<f64>], cycles_first: usize) -> Option<Known> {
         let request = &self.requests[machine.row];
-        let request = Request { accuracy: FINER * request.accuracy, ..request.clone() };
+        let request = Request { accuracy: FINER * request.accuracy, cycles_first, ..request.clone() };
         let steady = steady(self.plan, &machine.q, &self.chain.with(&machine.numbers), &request).ok()?;
-        Some(self.known(machine, places[machine.row].clone(), steady))
+        is_stable(&steady.monodromy).then(|| self.known(machine, places[machine.row].clone(), steady))
     }
 
     fn alone(&self, machine: &Machine) -> Result<Steady, Failure> {
@@ -308,6 +316,11 @@ impl Batch<'_> {
 /// Corrections at which sweeps end: what they leave goes with their square.
 fn ends(request: &Request) -> f64 {
     (LEFT * request.accuracy).sqrt()
+}
+
+/// Whether disturbances of a motion die away, so that a machine comes to it, and others may be begun with it.
+fn is_stable(monodromy: &[f64]) -> bool {
+    largest_multiplier(monodromy) < 1.0
 }
 
 /// Whether Newton's method came to a motion that turns forward.

@@ -13,6 +13,7 @@ use crate::scale::scales;
 use crate::starts::{Rough, rough};
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
+use linkwright_kernel::radau::S;
 
 /// Steps of a cycle at most.
 pub const STEPS_MAX: usize = 20_000;
@@ -26,10 +27,16 @@ const KINKS_FIRST: usize = 12;
 /// Cycles that are followed where a motion on coarse steps leads to none on fine ones.
 const AGAIN: usize = 20;
 
+/// Cycles that are followed at most where Newton's method does not converge on finer steps.
+const FOLLOWED_ON_FINER: usize = 12;
+
 /// Rounds in which crossings have to stand so exactly that derivatives by the start err by no more than [`SLOPES`].
 const SLOPES_FIRST: usize = 8;
 /// See [`SLOPES_FIRST`].
 const SLOPES: f64 = 1e-8;
+
+/// Newton's method fails, and whether the machine comes to a periodic motion is not known.
+const NOT_FOLLOWED: Failure = Failure::NotFound { off: f64::NAN, parting: f64::NAN };
 
 /// Parts of a step at once.
 const PARTS_MAX: f64 = 6.0;
@@ -73,10 +80,20 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
     }
     // From the motion on coarse steps none comes; the machine itself comes to one.
     let again = Request { cycles_first: AGAIN, ..request.clone() };
-    refined(equation, rough(equation, &kinks, &again)?, &again)
+    match refined(equation, rough(equation, &kinks, &again)?, &again) {
+        // What it does in time tells why.
+        Err(Failure::NotFound { .. }) => in_time(equation, &kinks, request),
+        found => found,
+    }
 }
 
-/// The periodic solution on finer steps from that on coarser ones, or behind a cycle that is followed on them.
+/// What a motion in which none was found does in time.
+fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Steady, Failure> {
+    let only = Request { cycles_first: usize::MAX, ..request.clone() };
+    rough(equation, kinks, &only).and(Err(NOT_FOLLOWED))
+}
+
+/// The periodic solution on finer steps from that on coarser ones, or behind cycles that are followed on them.
 fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
     let mut cycle = Cycle::new(equation, mesh);
     let mut tried = solution.clone();
@@ -84,8 +101,18 @@ fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale:
         *solution = tried;
         return Some(monodromy);
     }
-    cycle.follow(solution, scale).ok()?;
-    cycle.periodic(solution, scale)
+    for n in 1..=FOLLOWED_ON_FINER {
+        cycle.follow(solution, scale).ok()?;
+        if n == 1 || n == FOLLOWED_ON_FINER {
+            let mut tried = solution.clone();
+            if let Some(monodromy) = cycle.periodic(&mut tried, scale) {
+                *solution = tried;
+                return Some(monodromy);
+            }
+        }
+        solution.start = solution.stage(mesh.steps() - 1, S - 1).to_vec();
+    }
+    None
 }
 
 /// A periodic solution to the wanted accuracy.
@@ -108,7 +135,7 @@ pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
         solution = solution.on(&mesh, &finer);
         mesh = finer;
-        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(Failure::NotFound(f64::NAN))?;
+        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(NOT_FOLLOWED)?;
     }
     Err(Failure::Inaccurate(reached))
 }
