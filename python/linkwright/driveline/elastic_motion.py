@@ -277,8 +277,7 @@ def elastic_motion(
     FindingError
         It does not repeat after 24 revolutions of the crank or fewer.
     SteadyStateError
-        The crank comes to rest or turns back; says where. Or its motion is chaotic; says how fast
-        neighbouring motions part.
+        The crank comes to rest or turns back; says where. Or its motion is chaotic.
     ConvergenceError
         No periodic motion was found, or not to the accuracy.
     InputError

@@ -27,9 +27,9 @@ CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 AWAY = 100
 
-# Factor by which neighbouring motions part in a cycle, from which on a motion is chaotic: one that repeats,
-# or drifts over a torus, has 1 at most, to the few percent that a hundred cycles tell.
-CHAOTIC = 1.05
+# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: one that
+# repeats, or drifts over a torus, has 1 at most; on the steps on which it is followed the factor is rough.
+CHAOTIC = 1.3
 
 # Angles of a revolution at which the minimum inertia is looked for.
 ANGLES = 36
@@ -106,10 +106,9 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
     if motion.reason == "not found" and motion.parting > CHAOTIC:
         off = number(100 * motion.accuracy, 2)
         return SteadyStateError(
-            "no steady motion of the elastic driveline: its motion is chaotic; motions that begin close part "
-            f"by a factor of {motion.parting:.3g} per cycle, and after up to {MULTIPLES} cycles it differs "
-            f"by {off} % from itself at best; reduce the backlash, add damping, or follow it in time "
-            "(torsion_transient)"
+            "no steady motion of the elastic driveline: its motion is chaotic; motions that begin close "
+            f"part from cycle to cycle; the last cycles differ by {off} % at best; reduce the backlash, add "
+            "damping, or follow it in time (torsion_transient)"
         )
     if motion.reason == "not found":
         off = ""
