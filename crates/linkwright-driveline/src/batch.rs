@@ -41,7 +41,7 @@ const GROWN: f64 = 2.0;
 /// Corrections at which it is known where speeds are passed, for a beginning.
 const ROUGHLY: f64 = 1e-2;
 
-/// Cycles that a first machine is followed where all motions found at once are unstable.
+/// Cycles that a machine is followed where the motion found at once is unstable.
 const AWAY: usize = 100;
 
 /// Times that steps are divided in lanes.
@@ -181,9 +181,16 @@ impl Batch<'_> {
         is_stable(&steady.monodromy).then(|| self.known(machine, places[machine.row].clone(), steady))
     }
 
+    /// Its motion alone; where that is unstable the one to which the machine comes in time, if that is stable.
     fn alone(&self, machine: &Machine) -> Result<Steady, Failure> {
-        let chain = self.chain.with(&machine.numbers);
-        steady(self.plan, &machine.q, &chain, &self.requests[machine.row])
+        let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
+        let found = steady(self.plan, &machine.q, &chain, request)?;
+        if is_stable(&found.monodromy) {
+            return Ok(found);
+        }
+        let away = Request { cycles_first: AWAY, ..request.clone() };
+        let other = steady(self.plan, &machine.q, &chain, &away).ok();
+        Ok(other.filter(|other| is_stable(&other.monodromy)).unwrap_or(found))
     }
 
     fn known(&self, machine: &Machine, place: Vec<f64>, steady: Steady) -> Known {
@@ -274,7 +281,7 @@ impl Batch<'_> {
     fn measured(&self, machine: &Machine, edges: Vec<f64>, found: Found) -> Result<Steady, Failure> {
         let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
         let equation = Equation { plan: self.plan, q: &machine.q, chain: &chain };
-        if !is_sound(&found, request) {
+        if !is_sound(&found, request) || !is_stable(&found.monodromy) {
             return self.alone(machine);
         }
         let Found { solution, monodromy, mut errors, .. } = found;
