@@ -7,13 +7,14 @@
 use crate::bundle::{Begun, Bundle, Found};
 use crate::chain::Chain;
 use crate::equation::Equation;
+use crate::finer::parts_of_step;
 use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
 use crate::speed_kinks::speed_kinks;
 use crate::starts::{Rough, largest_multiplier};
-use crate::steady::{Steady, add_vibration, parts_of_step, refined, steady};
+use crate::steady::{Steady, add_vibration, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::reduce::reductions;

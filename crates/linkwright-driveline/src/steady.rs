@@ -7,6 +7,7 @@ use crate::crossings::{Crossing, crossings};
 use crate::cycle::Cycle;
 use crate::equation::Equation;
 use crate::error::errors;
+use crate::finer::{POWER, STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
@@ -14,9 +15,6 @@ use crate::starts::{Rough, rough};
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::radau::S;
-
-/// Steps of a cycle at most.
-pub const STEPS_MAX: usize = 20_000;
 
 /// Times that steps are divided.
 pub(crate) const ROUNDS_MAX: usize = 40;
@@ -38,17 +36,8 @@ const SLOPES: f64 = 1e-8;
 /// Newton's method fails, and whether the machine comes to a periodic motion is not known.
 const NOT_FOLLOWED: Failure = Failure::NotFound { off: f64::NAN, parting: f64::NAN };
 
-/// Parts of a step at once.
-const PARTS_MAX: f64 = 6.0;
-
-/// The error of quintics falls with this power of the length of their step.
-const POWER: f64 = 6.0;
-
 /// Phase \[rad\] of a vibration in a step: the method errs by 2.2·10⁻⁹ times its tenth power.
 const ANGLE_OF_VIBRATION: f64 = 1.3;
-
-/// Angles \[rad\] that are one.
-const SAME_ANGLE: f64 = 1e-9;
 
 /// A steady motion.
 #[derive(Clone)]
@@ -162,20 +151,6 @@ pub(crate) fn worst_error(
     (errors, worst)
 }
 
-/// Ends of finer steps, with those at crossings, which move with the solution until both stand; `placed` are those of the last round.
-pub(crate) fn finer_edges(
-    mesh: &Mesh,
-    errors: &[f64],
-    crossings: &[Crossing],
-    accuracy: f64,
-    placed: &mut Vec<f64>,
-) -> Vec<f64> {
-    let mut edges = divided(&mesh.edges, errors, accuracy);
-    edges.retain(|edge| !placed.iter().any(|old: &f64| (old - edge).abs() < 0.5 * SAME_ANGLE));
-    *placed = with_ends(&mut edges, crossings);
-    edges
-}
-
 /// Lets steps be divided in which the method would damp a vibration that lasts: the motion may have none of it, the multipliers do.
 pub(crate) fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: &Request) {
     let m = solution.states();
@@ -185,35 +160,4 @@ pub(crate) fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution
             *error = error.max(request.accuracy * (angle / ANGLE_OF_VIBRATION).powf(POWER));
         }
     }
-}
-
-/// Parts into which a step with an error is divided.
-pub(crate) fn parts_of_step(error: f64, accuracy: f64) -> usize {
-    let excess = 2.0 * error / accuracy;
-    if excess <= 2.0 { 1 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) as usize }
-}
-
-/// Ends of steps after those with too large an error are divided.
-fn divided(edges: &[f64], errors: &[f64], accuracy: f64) -> Vec<f64> {
-    let mut finer = vec![edges[0]];
-    for (pair, error) in edges.windows(2).zip(errors) {
-        let parts = parts_of_step(*error, accuracy);
-        let length = pair[1] - pair[0];
-        finer.extend((1..=parts).map(|i| pair[0] + length * (i as f64 / parts as f64)));
-    }
-    finer
-}
-
-/// Puts ends of steps at crossings, and gives those that are new.
-fn with_ends(edges: &mut Vec<f64>, crossings: &[Crossing]) -> Vec<f64> {
-    let mut placed = Vec::new();
-    for Crossing { angle, .. } in crossings {
-        let behind = edges.partition_point(|edge| edge < angle);
-        let near = |i: usize| edges.get(i).is_some_and(|edge| (edge - angle).abs() < SAME_ANGLE);
-        if !(near(behind) || behind > 0 && near(behind - 1)) {
-            edges.insert(behind, *angle);
-            placed.push(*angle);
-        }
-    }
-    placed
 }
