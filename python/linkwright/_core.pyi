@@ -1317,12 +1317,16 @@ class DrivelineInTime:
 
 @final
 class NoDrivelineMotion:
-    """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``."""
+    """Why there is none: ``"stops"`` at an angle and a speed, ``"not found"`` or ``"inaccurate"``.
+
+    `parting`: factor by which neighbouring motions part in a cycle where none was found.
+    """
 
     reason: Final[str]
     crank_angle: Final[float]
     speed: Final[float]
     accuracy: Final[float]
+    parting: Final[float]
 
 def driveline_in_time(
     plan: Plan,

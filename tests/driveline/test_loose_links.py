@@ -15,13 +15,17 @@ from linkwright.driveline.solving import multipliers_of, ready, solved
 
 def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down_here() -> None:
     """Start, multipliers, period, losses and extremes of drives with up to three links."""
-    refused = 0
-    for number, rng in random_cases(4802, 1, 200):
+    refused = chaotic = 0
+    for number, rng in random_cases(4802, 1, 200, also=(9,)):
         loose = random_loose_drive(rng)
         try:
             motion = lw.elastic_motion(loose.machine, angles=np.zeros(1))
         except lw.ConvergenceError:
             refused += 1
+            continue
+        except lw.SteadyStateError:
+            # Neighbouring motions part.
+            chaotic += 1
             continue
         lead, masses = loose.drive.ratio, _masses(motion)
         speed = motion.speed[masses, 0] / motion.ratio[masses]
@@ -46,7 +50,8 @@ def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down
             size = np.abs(expected).max(axis=1)
             assert np.abs((low - expected[:, 0]) / size).max() <= 1e-6, number
             assert np.abs((high - expected[:, 1]) / size).max() <= 1e-6, number
-    assert refused <= 1 + number // 5
+    assert refused <= 1 + number // 20
+    assert chaotic <= 1 + number // 8
 
 
 def _masses(motion: lw.ElasticMotion) -> list[int]:
@@ -117,6 +122,31 @@ def test_between_the_flanks_a_shaft_carries_exactly_nothing_and_never_pulls() ->
     assert motion.turns * motion.energy_drive == pytest.approx(
         motion.turns * motion.energy_load + lost, rel=1e-7
     )
+
+
+def test_a_vanishing_backlash_still_holds_the_damper_back_where_the_torque_changes_its_sign() -> None:
+    """b = 2·10⁻⁸: the motion repeats by an independent integration, and is linear where little is damped."""
+    motion = lw.elastic_motion(rattling(backlash=2e-8), angles=np.zeros(1))
+    linear = lw.elastic_motion(rattling(backlash=0.0))
+    assert abs(motion.torque_max[0] - linear.torque_max[0]) > 1.0
+    start = np.array([motion.twist[0, 0], 10.0, motion.speed[-1, 0]])
+    found = loose_cycle(written(1e4, 30.0, 2e-8), start)
+    assert found.end == pytest.approx(start, rel=1e-7, abs=1e-9)
+    assert motion.torque_max[0] == pytest.approx(found.torque[0, 1], rel=1e-6)
+    for damping in (0.3, 0.1):
+        loose, straight = (
+            lw.elastic_motion(rattling(damping=damping, backlash=backlash)) for backlash in (2e-8, 0.0)
+        )
+        assert loose.torque_max == pytest.approx(straight.torque_max, rel=2e-5)
+
+
+def test_a_motion_that_alternates_about_another_repeats_after_one_cycle() -> None:
+    """Multiplier −0.56: it is near itself after two cycles first, and the shortest cycle is given."""
+    motion = lw.elastic_motion(rattling(damping=3.0, backlash=2e-8), angles=np.zeros(1))
+    assert motion.turns == 1
+    start = np.array([motion.twist[0, 0], 10.0, motion.speed[-1, 0]])
+    found = loose_cycle(written(1e4, 3.0, 2e-8), start)
+    assert found.end == pytest.approx(start, rel=1e-7, abs=1e-8)
 
 
 def test_without_backlash_the_law_is_that_of_a_spring() -> None:

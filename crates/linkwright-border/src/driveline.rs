@@ -89,6 +89,7 @@ pub(crate) struct NoDrivelineMotion {
     crank_angle: f64,
     speed: f64,
     accuracy: f64,
+    parting: f64,
 }
 
 /// Either of them.
@@ -239,13 +240,14 @@ pub(crate) fn driveline_motion(
         let measures = Reading { equation, steady: &found }.measures();
         Ok::<_, Failure>((found, measures))
     })?;
-    let none = |reason, crank_angle, speed, accuracy| {
-        Ok(DrivelineOutcome::None(NoDrivelineMotion { reason, crank_angle, speed, accuracy }))
+    let none = |reason, [crank_angle, speed, accuracy, parting]: [f64; 4]| {
+        Ok(DrivelineOutcome::None(NoDrivelineMotion { reason, crank_angle, speed, accuracy, parting }))
     };
+    let unknown = f64::NAN;
     match solved {
-        Err(Failure::Stops(stop)) => none("stops", stop.phi, stop.omega, f64::NAN),
-        Err(Failure::NotFound(off)) => none("not found", f64::NAN, f64::NAN, off),
-        Err(Failure::Inaccurate(reached)) => none("inaccurate", f64::NAN, f64::NAN, reached),
+        Err(Failure::Stops(stop)) => none("stops", [stop.phi, stop.omega, unknown, unknown]),
+        Err(Failure::NotFound { off, parting }) => none("not found", [unknown, unknown, off, parting]),
+        Err(Failure::Inaccurate(reached)) => none("inaccurate", [unknown, unknown, reached, unknown]),
         Ok((steady, measures)) => {
             let motion = DrivelineMotion::new(py, &known, (q, chain), steady, measures)?;
             Ok(DrivelineOutcome::Motion(Py::new(py, motion)?))

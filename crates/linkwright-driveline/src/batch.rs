@@ -7,13 +7,14 @@
 use crate::bundle::{Begun, Bundle, Found};
 use crate::chain::Chain;
 use crate::equation::Equation;
+use crate::finer::parts_of_step;
 use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
 use crate::speed_kinks::speed_kinks;
-use crate::starts::Rough;
-use crate::steady::{Steady, add_vibration, parts_of_step, refined, steady};
+use crate::starts::{Rough, largest_multiplier};
+use crate::steady::{Steady, add_vibration, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::reduce::reductions;
@@ -40,6 +41,9 @@ const GROWN: f64 = 2.0;
 
 /// Corrections at which it is known where speeds are passed, for a beginning.
 const ROUGHLY: f64 = 1e-2;
+
+/// Cycles that a machine is followed where the motion found at once is unstable.
+const AWAY: usize = 100;
 
 /// Times that steps are divided in lanes.
 const ROUNDS: usize = 3;
@@ -119,7 +123,9 @@ impl Batch<'_> {
         for rows in rows.chunks(TOGETHER) {
             let machines: Vec<Machine> = rows.iter().map(|&row| self.machine(row)).collect();
             if known.is_empty() {
-                known.extend(self.first(&machines[0], places));
+                // Others are begun with it, and would take an unstable motion from it.
+                let at_once = machines.iter().find_map(|one| self.first(one, places, 0));
+                known.extend(at_once.or_else(|| self.first(&machines[0], places, AWAY)));
             }
             let far = |known: &&Known| distance(&known.place, &places[rows[0]]);
             let near = known.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
@@ -140,7 +146,10 @@ impl Batch<'_> {
                     }
                 };
                 found.push((row, Ok(self.read(machine, &steady))));
-                if row == rows[rows.len() - 1] && steady.mesh.steps() as f64 <= most {
+                if row == rows[rows.len() - 1]
+                    && is_stable(&steady.monodromy)
+                    && steady.mesh.steps() as f64 <= most
+                {
                     known.push(self.known(machine, places[row].clone(), steady));
                 }
             }
@@ -165,17 +174,24 @@ impl Batch<'_> {
         }
     }
 
-    /// A first machine, more exactly than it is asked for.
-    fn first(&self, machine: &Machine, places: &[Vec<f64>]) -> Option<Known> {
+    /// The stable motion of a first machine, more exactly than it is asked for, behind cycles that are followed.
+    fn first(&self, machine: &Machine, places: &[Vec<f64>], cycles_first: usize) -> Option<Known> {
         let request = &self.requests[machine.row];
-        let request = Request { accuracy: FINER * request.accuracy, ..request.clone() };
+        let request = Request { accuracy: FINER * request.accuracy, cycles_first, ..request.clone() };
         let steady = steady(self.plan, &machine.q, &self.chain.with(&machine.numbers), &request).ok()?;
-        Some(self.known(machine, places[machine.row].clone(), steady))
+        is_stable(&steady.monodromy).then(|| self.known(machine, places[machine.row].clone(), steady))
     }
 
+    /// Its motion alone; where that is unstable the one to which the machine comes in time, if that is stable.
     fn alone(&self, machine: &Machine) -> Result<Steady, Failure> {
-        let chain = self.chain.with(&machine.numbers);
-        steady(self.plan, &machine.q, &chain, &self.requests[machine.row])
+        let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
+        let found = steady(self.plan, &machine.q, &chain, request)?;
+        if is_stable(&found.monodromy) {
+            return Ok(found);
+        }
+        let away = Request { cycles_first: AWAY, ..request.clone() };
+        let other = steady(self.plan, &machine.q, &chain, &away).ok();
+        Ok(other.filter(|other| is_stable(&other.monodromy)).unwrap_or(found))
     }
 
     fn known(&self, machine: &Machine, place: Vec<f64>, steady: Steady) -> Known {
@@ -266,7 +282,7 @@ impl Batch<'_> {
     fn measured(&self, machine: &Machine, edges: Vec<f64>, found: Found) -> Result<Steady, Failure> {
         let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
         let equation = Equation { plan: self.plan, q: &machine.q, chain: &chain };
-        if !is_sound(&found, request) {
+        if !is_sound(&found, request) || !is_stable(&found.monodromy) {
             return self.alone(machine);
         }
         let Found { solution, monodromy, mut errors, .. } = found;
@@ -308,6 +324,11 @@ impl Batch<'_> {
 /// Corrections at which sweeps end: what they leave goes with their square.
 fn ends(request: &Request) -> f64 {
     (LEFT * request.accuracy).sqrt()
+}
+
+/// Whether disturbances of a motion die away, so that a machine comes to it, and others may be begun with it.
+fn is_stable(monodromy: &[f64]) -> bool {
+    largest_multiplier(monodromy) < 1.0
 }
 
 /// Whether Newton's method came to a motion that turns forward.

@@ -14,10 +14,11 @@ use crate::cycle::{Cycle, SWEEPS_MAX, closure, correct, damping, is_last, monodr
 use crate::elimination::solve;
 use crate::equation::{Equation, Rates};
 use crate::error::errors;
+use crate::finer::{STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::Request;
 use crate::scale::scales;
-use crate::steady::{ROUNDS_MAX, STEPS_MAX, Steady, finer_edges, worst_error};
+use crate::steady::{ROUNDS_MAX, Steady, worst_error};
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::radau::S;

@@ -18,6 +18,7 @@
 //! | [`scale`] | what errors are compared with |
 //! | [`crossings`] | where a solution passes kinks of laws |
 //! | [`starts`] | from where a periodic solution is found |
+//! | `finer` | ends of finer steps |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
 //! | [`branch`] | steady motions over a parameter, through folds |
 //! | [`reading`] | curves, extremes, and power of every part |
@@ -33,6 +34,7 @@ pub mod cycle;
 mod elimination;
 pub mod equation;
 pub mod error;
+mod finer;
 pub mod in_time;
 pub mod law;
 pub mod mesh;

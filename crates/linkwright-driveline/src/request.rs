@@ -7,9 +7,13 @@ use crate::cycle::Stop;
 pub enum Failure {
     /// The crank comes to rest, or turns back.
     Stops(Stop),
-    /// Neither Newton's method nor the motion in time comes to a periodic motion: the smallest difference of its last cycles, over
-    /// the largest of each number of the state.
-    NotFound(f64),
+    /// Neither Newton's method nor the motion in time comes to a periodic motion.
+    NotFound {
+        /// Smallest difference of its last cycles, over the largest of each number of the state.
+        off: f64,
+        /// Factor by which motions that are close part in a cycle, on average; NaN where the motion was not followed.
+        parting: f64,
+    },
     /// Steps cannot be divided further.
     Inaccurate(f64),
 }

@@ -5,8 +5,11 @@
 //! cycle, which also tells where a machine stalls, and after how many cycles its motion repeats.
 
 use crate::chain::{Chain, Source};
-use crate::cycle::{Cycle, Stop};
+use crate::crossings::crossings;
+use crate::cycle::{Cycle, Stop, monodromy};
 use crate::equation::Equation;
+use crate::error::errors;
+use crate::finer::{STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
@@ -33,6 +36,22 @@ const REPEATS: f64 = 1e-3;
 
 /// Difference of a periodic motion from the cycles that led to it, likewise, up to which it is the one that they come to.
 const SAME_MOTION: f64 = 0.05;
+
+/// Attempts of Newton's method behind cycles that repeat.
+const ATTEMPTS: usize = 4;
+
+/// Times that steps end at the kinks that a followed motion passes, the error to which they are divided, and cycles that it is
+/// followed on them each time.
+const ROUNDS_BEHIND: usize = 4;
+/// See [`ROUNDS_BEHIND`].
+const ROUGHLY: f64 = 1e-5;
+/// See [`ROUNDS_BEHIND`].
+const CYCLES_BEHIND: usize = 5;
+
+/// Cycles over which the growth of a disturbance is measured, behind those in which it turns to where it grows most.
+const CYCLES_PARTING: usize = 100;
+/// See [`CYCLES_PARTING`].
+const CYCLES_SETTLING: usize = 10;
 
 /// Squarings of a matrix for its largest eigenvalue, to a hundredth.
 const SQUARINGS: u32 = 10;
@@ -163,6 +182,7 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
     let mut cycle = Cycle::new(equation, &mesh);
     let mut last: VecDeque<Solution> = VecDeque::new();
     let (mut next, mut cycles, mut passed) = (Solution::constant(&mesh, &start), 0, None);
+    let mut attempts = 0;
     loop {
         for _ in 0..CYCLES_AT_ONCE {
             let turned = cycles as f64 * mesh.edges[mesh.steps()];
@@ -179,13 +199,20 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
         let is_last = cycles >= request.cycles_max;
         if cycles >= request.cycles_first {
             let repeats = repetition(&last, &next.start, &scale, request.multiples);
+            // Where Newton's method has failed some times behind cycles that repeat, more of them do not help.
+            attempts += usize::from(repeats.is_some_and(|(_, off)| off < REPEATS));
+            let close = repeats.is_some_and(|(_, off)| off < REPEATS);
             let multiple = match repeats {
-                Some((multiple, off)) if off < REPEATS || is_last || request.multiples == 1 => multiple,
+                Some(_) if attempts > ATTEMPTS && request.multiples > 1 => 0,
+                Some((multiple, _)) if close || is_last || request.multiples == 1 => multiple,
                 Some(_) => 0,
                 None => 1,
             };
-            let found =
-                if multiple > 0 { periodic_behind(equation, &edges, &last, multiple, &scale) } else { None };
+            let found = if multiple > 0 {
+                periodic_behind(equation, &edges, &last, multiple, &scale, close)
+            } else {
+                None
+            };
             if let Some((mesh, solution, monodromy)) = found {
                 let near = distance(&solution.start, &next.start, &scale) < SAME_MOTION;
                 let settles = near && largest_multiplier(&monodromy) < 1.0;
@@ -193,8 +220,9 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
                 if settles || request.multiples == 1 {
                     return Ok(rough);
                 }
-                // A motion that the machine passes by and leaves again is one, but not that to which it comes.
-                passed = passed.or(if near { Some(rough) } else { None });
+                // A motion that the machine passes by and leaves again is one, but not that to which it comes; unstable ones of
+                // several cycles are many where it does not repeat, and any of them is near by chance.
+                passed = passed.or(if near && multiple == 1 { Some(rough) } else { None });
             }
         }
         if is_last {
@@ -202,25 +230,75 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
                 return Ok(rough);
             }
             let repeats = repetition(&last, &next.start, &scale, request.multiples);
-            return Err(Failure::NotFound(repeats.map_or(f64::NAN, |(_, off)| off)));
+            let off = repeats.map_or(f64::NAN, |(_, off)| off);
+            let parting = parting(&mut cycle, next, &scale).map_err(Failure::Stops)?;
+            return Err(Failure::NotFound { off, parting });
         }
     }
 }
 
-/// Newton's method from the last cycles that were followed.
+/// Newton's method from the last cycles that were followed. Where a law changes its form within a step it may alternate between both:
+/// steps then end there, and the motion is followed on these.
 fn periodic_behind(
     equation: Equation<'_>,
     edges: &[f64],
     last: &VecDeque<Solution>,
     multiple: usize,
     scale: &[f64],
+    repeats: bool,
 ) -> Option<Found> {
-    let mesh = Mesh::new(&equation, repeated(edges, multiple));
+    let mut mesh = Mesh::new(&equation, repeated(edges, multiple));
     let cycles = last.range(last.len() - multiple..);
     let start = cycles.clone().next()?.start.clone();
     let mut solution = Solution { start, stages: cycles.flat_map(|one| one.stages.clone()).collect() };
-    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, scale)?;
-    Some((mesh, solution, monodromy))
+    let mut placed = Vec::new();
+    for _ in 0..ROUNDS_BEHIND {
+        let mut tried = solution.clone();
+        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale) {
+            return Some((mesh, tried, monodromy));
+        }
+        if equation.chain.is_linear() || !repeats {
+            return None;
+        }
+        let errors = errors(&equation, &mesh, &solution, scale);
+        let crossings = crossings(&equation, &mesh, &solution, scale);
+        let edges = finer_edges(&mesh, &errors, &crossings, ROUGHLY, &mut placed);
+        if edges.len() > STEPS_MAX {
+            return None;
+        }
+        let finer = Mesh::new(&equation, edges).with_kinks(&placed);
+        solution = solution.on(&mesh, &finer);
+        mesh = finer;
+        let mut cycle = Cycle::new(equation, &mesh);
+        for _ in 0..CYCLES_BEHIND {
+            cycle.follow(&mut solution, scale).ok()?;
+            solution.start = solution.stage(mesh.steps() - 1, S - 1).to_vec();
+        }
+    }
+    None
+}
+
+/// Factor by which motions close to one that is followed part in a cycle: the mean growth of a disturbance, its size over the scale.
+/// Its logarithm is the largest Lyapunov exponent.
+///
+/// Source: Benettin, Galgani, Giorgilli, Strelcyn, *Meccanica* 15 (1980) 9–30.
+fn parting(cycle: &mut Cycle<'_>, mut next: Solution, scale: &[f64]) -> Result<f64, Stop> {
+    let (m, mut growth) = (next.states(), 0.0);
+    let mut off = scale.to_vec();
+    for n in 0..CYCLES_SETTLING + CYCLES_PARTING {
+        cycle.follow(&mut next, scale)?;
+        let (_, end) = cycle.linear(&next, &[]);
+        let matrix = monodromy(&end, m);
+        let moved = |r: usize| (0..m).map(|c| matrix[r * m + c] * off[c]).sum::<f64>();
+        off = (0..m).map(moved).collect();
+        let size = off.iter().zip(scale).map(|(off, scale)| (off / scale).abs()).fold(0.0, f64::max);
+        off.iter_mut().for_each(|off| *off /= size);
+        if n >= CYCLES_SETTLING {
+            growth += size.ln() / CYCLES_PARTING as f64;
+        }
+        next.start = next.stages[next.stages.len() - m..].to_vec();
+    }
+    Ok(growth.exp())
 }
 
 /// Difference of two states over their scale.
@@ -242,7 +320,7 @@ fn repetition(
 }
 
 /// Size of the largest eigenvalue of a square matrix, row by row, from a high power of it.
-fn largest_multiplier(matrix: &[f64]) -> f64 {
+pub(crate) fn largest_multiplier(matrix: &[f64]) -> f64 {
     let m = matrix.len().isqrt();
     let mut power = matrix.to_vec();
     let mut log = 0.0;

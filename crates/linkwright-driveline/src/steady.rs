@@ -7,15 +7,14 @@ use crate::crossings::{Crossing, crossings};
 use crate::cycle::Cycle;
 use crate::equation::Equation;
 use crate::error::errors;
+use crate::finer::{POWER, STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
 use crate::starts::{Rough, rough};
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
-
-/// Steps of a cycle at most.
-pub const STEPS_MAX: usize = 20_000;
+use linkwright_kernel::radau::S;
 
 /// Times that steps are divided.
 pub(crate) const ROUNDS_MAX: usize = 40;
@@ -26,22 +25,19 @@ const KINKS_FIRST: usize = 12;
 /// Cycles that are followed where a motion on coarse steps leads to none on fine ones.
 const AGAIN: usize = 20;
 
+/// Cycles that are followed at most where Newton's method does not converge on finer steps.
+const FOLLOWED_ON_FINER: usize = 12;
+
 /// Rounds in which crossings have to stand so exactly that derivatives by the start err by no more than [`SLOPES`].
 const SLOPES_FIRST: usize = 8;
 /// See [`SLOPES_FIRST`].
 const SLOPES: f64 = 1e-8;
 
-/// Parts of a step at once.
-const PARTS_MAX: f64 = 6.0;
-
-/// The error of quintics falls with this power of the length of their step.
-const POWER: f64 = 6.0;
+/// Newton's method fails, and whether the machine comes to a periodic motion is not known.
+const NOT_FOLLOWED: Failure = Failure::NotFound { off: f64::NAN, parting: f64::NAN };
 
 /// Phase \[rad\] of a vibration in a step: the method errs by 2.2·10⁻⁹ times its tenth power.
 const ANGLE_OF_VIBRATION: f64 = 1.3;
-
-/// Angles \[rad\] that are one.
-const SAME_ANGLE: f64 = 1e-9;
 
 /// A steady motion.
 #[derive(Clone)]
@@ -73,10 +69,20 @@ pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Resul
     }
     // From the motion on coarse steps none comes; the machine itself comes to one.
     let again = Request { cycles_first: AGAIN, ..request.clone() };
-    refined(equation, rough(equation, &kinks, &again)?, &again)
+    match refined(equation, rough(equation, &kinks, &again)?, &again) {
+        // What it does in time tells why.
+        Err(Failure::NotFound { .. }) => in_time(equation, &kinks, request),
+        found => found,
+    }
 }
 
-/// The periodic solution on finer steps from that on coarser ones, or behind a cycle that is followed on them.
+/// What a motion in which none was found does in time.
+fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Steady, Failure> {
+    let only = Request { cycles_first: usize::MAX, ..request.clone() };
+    rough(equation, kinks, &only).and(Err(NOT_FOLLOWED))
+}
+
+/// The periodic solution on finer steps from that on coarser ones, or behind cycles that are followed on them.
 fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
     let mut cycle = Cycle::new(equation, mesh);
     let mut tried = solution.clone();
@@ -84,8 +90,18 @@ fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale:
         *solution = tried;
         return Some(monodromy);
     }
-    cycle.follow(solution, scale).ok()?;
-    cycle.periodic(solution, scale)
+    for n in 1..=FOLLOWED_ON_FINER {
+        cycle.follow(solution, scale).ok()?;
+        if n == 1 || n == FOLLOWED_ON_FINER {
+            let mut tried = solution.clone();
+            if let Some(monodromy) = cycle.periodic(&mut tried, scale) {
+                *solution = tried;
+                return Some(monodromy);
+            }
+        }
+        solution.start = solution.stage(mesh.steps() - 1, S - 1).to_vec();
+    }
+    None
 }
 
 /// A periodic solution to the wanted accuracy.
@@ -108,7 +124,7 @@ pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
         solution = solution.on(&mesh, &finer);
         mesh = finer;
-        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(Failure::NotFound(f64::NAN))?;
+        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(NOT_FOLLOWED)?;
     }
     Err(Failure::Inaccurate(reached))
 }
@@ -135,20 +151,6 @@ pub(crate) fn worst_error(
     (errors, worst)
 }
 
-/// Ends of finer steps, with those at crossings, which move with the solution until both stand; `placed` are those of the last round.
-pub(crate) fn finer_edges(
-    mesh: &Mesh,
-    errors: &[f64],
-    crossings: &[Crossing],
-    accuracy: f64,
-    placed: &mut Vec<f64>,
-) -> Vec<f64> {
-    let mut edges = divided(&mesh.edges, errors, accuracy);
-    edges.retain(|edge| !placed.iter().any(|old: &f64| (old - edge).abs() < 0.5 * SAME_ANGLE));
-    *placed = with_ends(&mut edges, crossings);
-    edges
-}
-
 /// Lets steps be divided in which the method would damp a vibration that lasts: the motion may have none of it, the multipliers do.
 pub(crate) fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution, request: &Request) {
     let m = solution.states();
@@ -158,35 +160,4 @@ pub(crate) fn add_vibration(errors: &mut [f64], mesh: &Mesh, solution: &Solution
             *error = error.max(request.accuracy * (angle / ANGLE_OF_VIBRATION).powf(POWER));
         }
     }
-}
-
-/// Parts into which a step with an error is divided.
-pub(crate) fn parts_of_step(error: f64, accuracy: f64) -> usize {
-    let excess = 2.0 * error / accuracy;
-    if excess <= 2.0 { 1 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) as usize }
-}
-
-/// Ends of steps after those with too large an error are divided.
-fn divided(edges: &[f64], errors: &[f64], accuracy: f64) -> Vec<f64> {
-    let mut finer = vec![edges[0]];
-    for (pair, error) in edges.windows(2).zip(errors) {
-        let parts = parts_of_step(*error, accuracy);
-        let length = pair[1] - pair[0];
-        finer.extend((1..=parts).map(|i| pair[0] + length * (i as f64 / parts as f64)));
-    }
-    finer
-}
-
-/// Puts ends of steps at crossings, and gives those that are new.
-fn with_ends(edges: &mut Vec<f64>, crossings: &[Crossing]) -> Vec<f64> {
-    let mut placed = Vec::new();
-    for Crossing { angle, .. } in crossings {
-        let behind = edges.partition_point(|edge| edge < angle);
-        let near = |i: usize| edges.get(i).is_some_and(|edge| (edge - angle).abs() < SAME_ANGLE);
-        if !(near(behind) || behind > 0 && near(behind - 1)) {
-            edges.insert(behind, *angle);
-            placed.push(*angle);
-        }
-    }
-    placed
 }

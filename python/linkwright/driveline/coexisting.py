@@ -16,7 +16,7 @@ import numpy as np
 from linkwright.driveline.chain import Chain
 from linkwright.kernel.arrays import Floats
 from linkwright.machine.program.compiled import CompiledMachine
-from linkwright.machine.program.core import DrivelineMotion
+from linkwright.machine.program.core import DrivelineMotion, NoDrivelineMotion
 
 # Cycles that are followed from each beginning.
 FOLLOWED = 60
@@ -101,17 +101,44 @@ def followed_motions(
             "multiples": MULTIPLES,
             "start": np.ascontiguousarray(start),
         }
-        motion = compiled.driveline(chain.core, accuracy=accuracy, **asked)
+        motion = steady_of(compiled, chain, accuracy, asked)
         if isinstance(motion, DrivelineMotion):
             yield words, motion, 0.0
         else:
             yield words, None, motion.accuracy if motion.reason == "not found" else np.nan
 
 
+def steady_of(
+    compiled: CompiledMachine, chain: Chain, accuracy: float, search: dict[str, Any]
+) -> DrivelineMotion | NoDrivelineMotion:
+    """Steady motion over its shortest cycle, or why there is none.
+
+    A motion that alternates about one that repeats after each cycle is near itself after two first.
+    """
+    motion = compiled.driveline(chain.core, accuracy=accuracy, **search)
+    if isinstance(motion, NoDrivelineMotion) or motion.multiple == 1:
+        return motion
+    for multiple in range(1, motion.multiple // 2 + 1):
+        if motion.multiple % multiple == 0:
+            asked = search | {
+                "cycles_first": 1,
+                "cycles_max": 1,
+                "multiples": multiple,
+                "start": motion.start,
+            }
+            one = compiled.driveline(chain.core, accuracy=accuracy, **asked)
+            if isinstance(one, DrivelineMotion) and _has_same_extremes(motion, one):
+                return one
+    return motion
+
+
 def is_same(a: DrivelineMotion, b: DrivelineMotion) -> bool:
     """Whether two motions have the same extremes and the same cycle."""
-    if a.multiple != b.multiple:
-        return False
+    return a.multiple == b.multiple and _has_same_extremes(a, b)
+
+
+def _has_same_extremes(a: DrivelineMotion, b: DrivelineMotion) -> bool:
+    """Whether torques and speeds of two motions have the same extremes."""
     pairs = [(a.torque, b.torque), (a.speed, b.speed)]
     for one, other in pairs:
         size = np.maximum(np.abs(one.greatest), np.abs(one.least))

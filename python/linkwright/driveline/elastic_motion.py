@@ -22,7 +22,14 @@ import numpy as np
 
 from linkwright.drive.steady_state import require_accuracy
 from linkwright.driveline.chain import Chain, Driven
-from linkwright.driveline.coexisting import FOLLOWED, Followed, OtherMotion, followed_motions, is_same
+from linkwright.driveline.coexisting import (
+    FOLLOWED,
+    Followed,
+    OtherMotion,
+    followed_motions,
+    is_same,
+    steady_of,
+)
 from linkwright.driveline.permitted import TorqueJudgement, judged
 from linkwright.driveline.solving import AWAY, multipliers_of, ready, search, solved
 from linkwright.kernel.arrays import Complexes, Floats
@@ -270,7 +277,7 @@ def elastic_motion(
     FindingError
         It does not repeat after 24 revolutions of the crank or fewer.
     SteadyStateError
-        The crank comes to rest or turns back; says where.
+        The crank comes to rest or turns back; says where. Or its motion is chaotic.
     ConvergenceError
         No periodic motion was found, or not to the accuracy.
     InputError
@@ -315,7 +322,7 @@ def solved_motion(machine: Machine, accuracy: float) -> SteadySolution:
     if abs(multipliers_of(motion, driven.chain)[0]) >= 1 and not motion.cycles:
         # Unstable: the motion that the machine comes to in time may be another one.
         compiled, chain, _ = driven
-        other = compiled.driveline(chain.core, accuracy=accuracy, **search(driven, AWAY))
+        other = steady_of(compiled, chain, accuracy, search(driven, AWAY))
         if isinstance(other, DrivelineMotion):
             motion = other
     return SteadySolution(driven, motion, rest)

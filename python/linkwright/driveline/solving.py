@@ -9,7 +9,7 @@ import numpy as np
 from linkwright.drive.load_checks import require_same_turns, require_sound_loads
 from linkwright.drive.reduction import NO_INERTIA
 from linkwright.driveline.chain import Chain, Driven, chain_of, fastest
-from linkwright.driveline.coexisting import MULTIPLES, Followed, followed_motions
+from linkwright.driveline.coexisting import MULTIPLES, Followed, followed_motions, steady_of
 from linkwright.driveline.train_chain import driven_train
 from linkwright.kernel.arrays import Complexes
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
@@ -26,6 +26,10 @@ CYCLES = 300
 
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 AWAY = 100
+
+# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: one that
+# repeats, or drifts over a torus, has 1 at most; on the steps on which it is followed the factor is rough.
+CHAOTIC = 1.3
 
 # Angles of a revolution at which the minimum inertia is looked for.
 ANGLES = 36
@@ -74,7 +78,7 @@ def solved(driven: Driven, accuracy: float) -> tuple[DrivelineMotion, list[Follo
     """The motion, and what was found from other beginnings if these had to be asked."""
     compiled, chain, _ = driven
     asked = search(driven, 0)
-    motion = compiled.driveline(chain.core, accuracy=accuracy, **asked)
+    motion = steady_of(compiled, chain, accuracy, asked)
     if isinstance(motion, DrivelineMotion):
         return motion, []
     rest: list[Followed] = []
@@ -98,6 +102,13 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
             f"crank comes to rest or turns back after {turned:.4g} revolutions, at φ = "
             f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
             "larger flywheel or motor, or follow the motion in time (torsion_transient)"
+        )
+    if motion.reason == "not found" and motion.parting > CHAOTIC:
+        off = number(100 * motion.accuracy, 2)
+        return SteadyStateError(
+            "no steady motion of the elastic driveline: its motion is chaotic; motions that begin close "
+            f"part from cycle to cycle; the last cycles differ by {off} % at best; reduce the backlash, add "
+            "damping, or follow it in time (torsion_transient)"
         )
     if motion.reason == "not found":
         off = ""
