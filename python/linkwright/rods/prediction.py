@@ -206,7 +206,8 @@ def solution(machine: Machine, accuracy: float) -> Solution:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         change = np.inf if before is None else _difference(result, before)
-        # The error at a corner is of first order, but a single change may be small by chance: it halves from the largest on.
+        # The error at a corner is of first order, but a change may be small by chance: it halves from the
+        # largest on.
         reached = max(_SURE * change, largest / 2)
         if reached <= accuracy or 2 * least > _MOST:
             return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
