@@ -110,7 +110,7 @@ fn brake_stops_a_disc_and_holds_it() {
 #[test]
 fn stick_slip_on_a_spring() {
     let (j, k, v, held, sliding) = (0.5, 200.0, 0.4, 30.0, 18.0);
-    let omega = (k / j as f64).sqrt();
+    let omega = f64::sqrt(k / j);
     let rise = (held - sliding) * omega / (k * v);
     let slips = (2.0 * PI - 2.0 * f64::atan(rise)) / omega;
     let sticks = 2.0 * (held - sliding) / (k * v);

@@ -201,17 +201,17 @@ def solution(machine: Machine, accuracy: float) -> Solution:
     if not 1e-6 <= accuracy <= 0.1:
         raise InputError(f"accuracy: found {accuracy}, expected a number from 1e-6 to 0.1")
     rod = polished_rod_of(machine, string)
-    least, before, start, largest = _FIRST, None, None, 0.0
+    least, before, start, last = _FIRST, None, None, 0.0
     while True:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         change = np.inf if before is None else _difference(result, before)
-        # The error at a corner is of first order, but a change may be small by chance: it halves from the
-        # largest on.
-        reached = max(_SURE * change, largest / 2)
+        # The error at a corner is of first order, but a change may be small by chance: the one before
+        # counts too.
+        reached = _SURE * max(change, last / 2)
         if reached <= accuracy or 2 * least > _MOST:
             return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
-        largest = 0.0 if before is None else reached
+        last = 0.0 if before is None else change
         least, before, start = 2 * least, result, np.asarray(solved.wave)
 
 
