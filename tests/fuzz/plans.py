@@ -45,8 +45,9 @@ def plans() -> tuple[tuple[dict[str, Any], np.ndarray], ...]:
     try:
         for text in machine_files().values():
             last: dict[str, Any] | None = None
-            machine = _machine_of(text)
             with suppress(LinkwrightError):
+                # One that refers to further files is not read alone.
+                machine = _machine_of(text)
                 compiled = compile_machine(machine)
                 if last is not None:
                     found.append((last, np.array(compiled.parameters)))

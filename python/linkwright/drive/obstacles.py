@@ -14,6 +14,7 @@ from linkwright.machine.machine import Machine
 
 # Entries that make a machine move at all, until its motor is chosen.
 _MOTOR = {"drive.motor": {"kind": "constant_speed", "speed": "10 rad/s"}}
+MOTORS_OF_TRAIN = "The motors are in [train.motors]: the elastic driveline has their motion."
 _BRAKE = {"drive.brake": {"torque": "100 N m"}}
 _ELASTIC = {"drive.crankshaft": {"sections": [{"length": "1 m", "diameter": "80 mm"}]}}
 
@@ -29,8 +30,12 @@ _INTERVALS = 360
 
 
 def no_motor(machine: Machine) -> Obstacle | None:
-    """A machine without a motor."""
-    return None if has_motor(machine) else Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
+    """A machine without a motor; those of a train with mechanisms do not drive a rigid crankshaft."""
+    if has_motor(machine):
+        return None
+    if machine.has_mounted_mechanisms:
+        return Obstacle(MOTORS_OF_TRAIN)
+    return Obstacle("The machine has no motor.", "Add a motor", _MOTOR)
 
 
 def no_mass(machine: Machine) -> Obstacle | None:

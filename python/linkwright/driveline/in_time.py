@@ -48,7 +48,8 @@ _EXTREMES = ("speed", "acceleration", "torque", "twist")
 _ROUNDING = 1e-12
 
 
-class DriveSwitch(NamedTuple):
+@dataclass(frozen=True)
+class DriveSwitch:
     """What changes at an instant of a motion in time.
 
     Attributes

@@ -357,6 +357,8 @@ _KINDS = {
     "MeasuredRecord": "a measured record, such as read_record() gives",
     "Transient": "a motion in time, such as transient() gives",
     "SteadyState": "a steady motion, such as steady_state() gives",
+    "ElasticMotion": "a steady motion, such as elastic_motion() gives",
+    "ElasticTransient": "a motion in time, such as elastic_transient() gives",
     "Motion": "a motion over time, such as motion() gives",
     "TorsionResponse": "a torsional response, such as forced_vibration() gives",
     "Forces": "joint forces, such as forces() gives",
@@ -409,6 +411,8 @@ _CHECKS: dict[str, Check] = {
     "Sequence[str]": _texts,
     "Sequence[float | str]": _numbers_or_texts,
     "Iterable[str]": _texts,
+    "Sequence[DriveSwitch]": _parts("DriveSwitch", "a list of DriveSwitch"),
+    "Sequence[SurfaceCard]": _parts("SurfaceCard", "a list of cards, such as read_card() gives"),
     "Sequence[CatalogueMotor]": _parts(
         "CatalogueMotor", "a list of motors, such as motors() or read_motors() gives"
     ),
