@@ -59,6 +59,13 @@ def prepared(page: Path, folder: Path) -> None:
         # Eight cylinders that fire at one strength, over two revolutions.
         rows = [f"{n}, {1500 * (1 + 0.01 * np.cos(n * np.pi / 90)):.6f}" for n in range(721)]
         (folder / "flywheel.csv").write_text("\n".join(["angle [deg], speed [rpm]", *rows]) + "\n")
+    if "card.csv" in text:
+        # The predicted card of the page's well, or of that of the library.
+        well = folder / "well.toml"
+        motion = lw.rod_string(lw.read(well if well.exists() else "rod_string"), accuracy=0.02)
+        step = len(motion.rod_load) // 200
+        rows = [f"{x:.5f}, {F:.1f}" for x, F in zip(motion.rod_position, motion.rod_load, strict=True)]
+        (folder / "card.csv").write_text("\n".join(["position [m], load [N]", *rows[::step]]) + "\n")
     if "trial.csv" in text:
         (folder / "trial.csv").write_text("speed [rpm], line [MPa]\n60, 21.5\n76, 90\n90, 30\n")
 
