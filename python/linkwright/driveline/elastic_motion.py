@@ -34,7 +34,7 @@ from linkwright.driveline.permitted import TorqueJudgement, judged
 from linkwright.driveline.solving import AWAY, multipliers_of, ready, search, solved
 from linkwright.kernel.arrays import Complexes, Floats
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Label, declared
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.reader.numbers import number
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import turn_angles
@@ -227,17 +227,9 @@ class ElasticMotion(Result):
         results = super().to_dict(curves=curves)
         results["multipliers"] = [[float(each.real), float(each.imag)] for each in self.multipliers]
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
-        names = {"(shafts,)": self.shafts, "(stations,)": self.stations, "(motors,)": self.motors}
         results["other_motions"] = [other.to_dict() for other in self.other_motions]
         results["not_periodic"] = list(self.not_periodic)
-        for name, (_, mark) in declared(type(self)).items():
-            if isinstance(mark, Label) and mark.shape in names:
-                values = getattr(self, name)
-                results[name] = {
-                    part: value if np.isfinite(value) else None
-                    for part, value in zip(names[mark.shape], values.tolist(), strict=True)
-                }
-        return results
+        return results | self.parts_by_name()
 
 
 @public

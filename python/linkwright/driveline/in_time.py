@@ -29,7 +29,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError, SteadyStateError
 from linkwright.kernel.public import public
 from linkwright.kernel.public.arguments import array
-from linkwright.kernel.quantities import About, Label, declared
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.linkages.closure import require_full_turn
 from linkwright.linkages.law_jumps import require_finite_accelerations
@@ -215,12 +215,7 @@ class ElasticTransient(Result):
         """As `Result.to_dict`; extremes by name of shaft and station."""
         results = super().to_dict(curves=curves)
         results["judgements"] = [judgement.to_dict() for judgement in self.judgements]
-        names = {"(shafts,)": self.shafts, "(stations,)": self.stations}
-        for name, (_, mark) in declared(type(self)).items():
-            if isinstance(mark, Label) and mark.shape in names:
-                values = getattr(self, name)
-                results[name] = dict(zip(names[mark.shape], values.tolist(), strict=True))
-        return results
+        return results | self.parts_by_name()
 
 
 @public

@@ -162,6 +162,20 @@ class Result(Record):
                 tree[name] = value
         return tree
 
+    def parts_by_name(self) -> dict[str, dict[str, float | None]]:
+        """Numbers of named parts: those of shape ``"(shafts,)"`` by the names in the attribute ``shafts``."""
+        tree: dict[str, dict[str, float | None]] = {}
+        for name, (_, mark) in declared(type(self)).items():
+            kind = mark.shape[1:-2] if isinstance(mark, Label) and mark.shape.endswith(",)") else ""
+            names = getattr(self, kind, None) if kind else None
+            if isinstance(names, tuple):
+                values = getattr(self, name).tolist()
+                tree[name] = {
+                    part: value if np.isfinite(value) else None
+                    for part, value in zip(names, values, strict=True)
+                }
+        return tree
+
     def to_frame(self) -> pd.DataFrame:
         """The curves as a table, one column each.
 

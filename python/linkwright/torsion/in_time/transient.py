@@ -25,7 +25,7 @@ from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.limits import SAMPLES
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Label, declared
+from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
@@ -264,11 +264,7 @@ class TorsionTransient(Result):
             for name, row in zip(self.pendulums, self.swing, strict=True)
         }
         results["ice"] = [asdict(one) for one in self.ice]
-        names = {"(shafts,)": self.shafts, "(discs,)": self.discs, "(frictions,)": self.frictions}
-        for name, (_, mark) in declared(type(self)).items():
-            if isinstance(mark, Label) and mark.shape in names:
-                results[name] = dict(zip(names[mark.shape], getattr(self, name).tolist(), strict=True))
-        return results
+        return results | self.parts_by_name()
 
 
 @public
