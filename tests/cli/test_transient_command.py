@@ -124,6 +124,14 @@ def test_an_elastic_driveline_is_followed_with_its_shafts() -> None:
     assert rigid["results"]["transient"]["duration"] == 2.5
 
 
+@pytest.mark.parametrize("change", ["motor=off", "motor = off"])
+def test_a_machine_that_is_switched_off_is_meant_to_come_to_rest(change: str) -> None:
+    """Whatever the spaces, rest is a warning then, no finding."""
+    switch = ("--switch", f"2 s: {change}")
+    done = invoke("transient", CARTS, "--duration", "200 s", *switch, "--accuracy", "1e-6", "--json")
+    assert not any("rest" in line for line in json.loads(done.stdout)["findings"])
+
+
 @pytest.mark.parametrize(
     ("machine", "text", "words"),
     [

@@ -54,6 +54,17 @@ _REVOLUTIONS = 10.0
 _ROWS = 12
 
 
+def end_of(duration: float | None, turns: float | None, steps: int) -> dict[str, float]:
+    """The end of a motion in time, whose curves have so many steps: time, revolutions, or 10 of them."""
+    require_within(ROWS_OUT, steps, "--steps", "take fewer")
+    if turns is not None and not turns > 0:
+        raise InputError(f"--revolutions: found {turns:g}, expected more than 0")
+    until: dict[str, float] = {} if duration is None else {"duration": duration}
+    if turns is not None or not until:
+        until["turns"] = turns or _REVOLUTIONS
+    return until
+
+
 def transient(
     file: File,
     *,
@@ -83,14 +94,9 @@ def transient(
     from linkwright.linkages.motion import motion_along
     from linkwright.linkages.zero import zero_of
 
-    require_within(ROWS_OUT, steps, "--steps", "take fewer")
-    if turns is not None and not turns > 0:
-        raise InputError(f"--revolutions: found {turns:g}, expected more than 0")
+    until = end_of(duration, turns, steps)
     machine = file.read()
     counted = zero_of(machine, zero)
-    until: dict[str, float] = {} if duration is None else {"duration": duration}
-    if turns is not None or not until:
-        until["turns"] = turns or _REVOLUTIONS
     motion = follow(
         machine,
         angle=from_angle + counted.angle,

@@ -20,15 +20,15 @@ from linkwright.drive.commands import (
     Steps,
     To,
     WithBrake,
+    end_of,
 )
 from linkwright.drive.commands import transient as rigid_transient
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import FolderOutput, ZeroAt, belong_to, to_folder
 from linkwright.kernel.command.parameter import Group, Option
 from linkwright.kernel.command.value import option_value
-from linkwright.kernel.errors import InputError, require_within, show
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.later import at_place, later
-from linkwright.kernel.limits import ROWS_OUT
 from linkwright.kernel.units.kinds import TIME
 from linkwright.machine.file_argument import File, MachineFile
 from linkwright.machine.machine import Machine
@@ -47,9 +47,6 @@ Switches = Annotated[
         '"2 s: loads.rolling1.force=7 kN; motor=on". Repeatable, in the order of time.',
     ),
 ]
-
-# Without a duration and a number of revolutions.
-_REVOLUTIONS = 10.0
 
 _STATES = {"on": True, "off": False}
 
@@ -103,12 +100,9 @@ def transient(
     from linkwright.kernel.reader.numbers import zero_words
     from linkwright.linkages.zero import zero_of
 
-    require_within(ROWS_OUT, steps, "--steps", "take fewer")
-    if turns is not None and not turns > 0:
-        raise InputError(f"--revolutions: found {turns:g}, expected more than 0")
+    until: dict[str, Any] = dict(end_of(duration, turns, steps))
     counted = zero_of(machine, zero)
-    if turns is None and duration is None:
-        turns = _REVOLUTIONS
+    changes = list(_switches(file, switches or ()))
     follow = partial(
         elastic_transient,
         machine,
@@ -118,9 +112,8 @@ def transient(
         motor=not no_motor,
         brake=brake,
         clockwise=clockwise,
-        switches=list(_switches(file, switches or ())),
-        duration=np.inf if duration is None else duration,
-        turns=np.inf if turns is None else turns,
+        switches=changes,
+        **until,
     )
     motion = follow()
     findings, warnings = motion.findings, list[str]()
@@ -130,7 +123,7 @@ def transient(
 
     if motion.came_to_rest:
         # A machine is meant to come to rest that is switched off.
-        is_meant = no_motor or brake or any("=off" in text or "brake" in text for text in switches or ())
+        is_meant = no_motor or brake or any(each.motor is False or each.brake for each in changes)
         (warnings if is_meant else findings).append(sentence(_end_sentence(motion, counted)))
     answer = Answer(
         machine=machine,
