@@ -101,14 +101,14 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
             f"no steady motion of the elastic driveline: started at {speed:.4g} rad/s, the "
             f"crank comes to rest or turns back after {turned:.4g} revolutions, at φ = "
             f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
-            "larger flywheel or motor, or follow the motion in time (torsion_transient)"
+            "larger flywheel or motor, or follow the motion in time (elastic_transient)"
         )
     if motion.reason == "not found" and motion.parting > CHAOTIC:
         off = number(100 * motion.accuracy, 2)
         return SteadyStateError(
             "no steady motion of the elastic driveline: its motion is chaotic; motions that begin close "
             f"part from cycle to cycle; the last cycles differ by {off} % at best; reduce the backlash, add "
-            "damping, or follow it in time (torsion_transient)"
+            "damping, or follow it in time (elastic_transient)"
         )
     if motion.reason == "not found":
         off = ""
@@ -117,7 +117,7 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
             off = f"; the last cycles differ by {percent} % at best; it is chaotic, or settles very slowly"
         return ConvergenceError(
             f"no periodic motion of the elastic driveline was found: in {CYCLES} cycles the motion does not "
-            f"come to one that Newton's method converges to{off}; follow it in time (torsion_transient)",
+            f"come to one that Newton's method converges to{off}; follow it in time (elastic_transient)",
             method="Newton's method",
             iterations=CYCLES,
         )
