@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.samples.rod_march import march
-from tests.samples.wells import FOOT, INCH, POUND, well
+from tests.samples.wells import FOOT, INCH, POUND, UNIT, well
 
 import linkwright as lw
 
@@ -77,17 +77,6 @@ inertia = 0.1
 on = "crank"
 mass = 1.0
 inertia = 1000
-"""
-
-UNIT = """
-[pumping_unit]
-A = "72 in"
-C = "64 in"
-I = "64 in"
-P = "74.5 in"
-H = "116 in"
-G = "41 in"
-R = "23.4 in"
 """
 
 STRING = """

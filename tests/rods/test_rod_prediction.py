@@ -5,20 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.samples.sizes import random_cases
-from tests.samples.wells import FOOT, INCH, POUND, random_well, well
+from tests.samples.wells import FOOT, INCH, POUND, UNIT, random_well, well
 
 import linkwright as lw
-
-UNIT = """
-[pumping_unit]
-A = "72 in"
-C = "64 in"
-I = "64 in"
-P = "74.5 in"
-H = "116 in"
-G = "41 in"
-R = "23.4 in"
-"""
 
 STRING = """
 [rod_string]

@@ -11,6 +11,19 @@ import linkwright as lw
 INCH, FOOT, POUND, PSI = 0.0254, 0.3048, 4.4482216152605, 6894.757293168361
 
 
+# A conventional unit of 54 in stroke.
+UNIT = """
+[pumping_unit]
+A = "72 in"
+C = "64 in"
+I = "64 in"
+P = "74.5 in"
+H = "116 in"
+G = "41 in"
+R = "23.4 in"
+"""
+
+
 def well(pump: dict[str, Any] | None = None, **entries: Any) -> lw.Machine:
     """The string of the worked example of API RP 11L on a harmonic polished rod; entries of it exchanged."""
     sections = [
