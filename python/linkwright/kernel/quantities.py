@@ -44,6 +44,8 @@ class Label(NamedTuple):
     scale : float
         Size beside which a value is rounding and shows as zero, where it has no others of its unit to compare
         with; 0 if every digit counts.
+    usual : str
+        Unit in which people read it where they want no other; empty for `unit`.
     """
 
     word: str
@@ -55,6 +57,7 @@ class Label(NamedTuple):
     table: str = ""
     before: str = ""
     scale: float = 0.0
+    usual: str = ""
 
 
 class About(NamedTuple):

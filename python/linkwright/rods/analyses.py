@@ -39,6 +39,7 @@ CARD = Analysis(
     words="Measured card",
     function=of("rods.measured:card_diagnosis"),
     applies=_has_card,
+    findings=of("rods.warnings:card_findings", "card_diagnosis"),
     warnings=of("rods.warnings:diagnosis_warnings", "machine.rod_string", "card_diagnosis"),
     tables=of("rods.tables:diagnosis_tables", "card_diagnosis"),
     figures=of("rods.figures:diagnosis_figures", "machine.rod_string", "card_diagnosis", "?rod_string"),

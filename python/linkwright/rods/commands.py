@@ -1,4 +1,6 @@
-"""``linkwright rods FILE``: prediction of a rod string; with ``--card``, diagnosis of a measured card."""
+"""``linkwright rods FILE``: prediction of a rod string; with ``--card``, diagnosis of a measured card, with
+``--cards`` of those of a field day.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +10,8 @@ from typing import Annotated
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Curves, FolderOutput, belong_to, to_folder
 from linkwright.kernel.command.parameter import Option, Value
+from linkwright.kernel.errors import InputError
+from linkwright.kernel.extras import require
 from linkwright.kernel.later import later
 from linkwright.kernel.units.kinds import FREQUENCY, TIME
 from linkwright.kernel.units.marks import not_negative, positive
@@ -22,6 +26,18 @@ Card = Annotated[
         "Measured surface card: one stroke at equal steps of time, with a header such as `position [m], "
         "load [kN]`; a column `time [s]` gives its period.",
     ),
+]
+Cards = Annotated[
+    str | None,
+    Option(
+        "--cards",
+        "FOLDER",
+        "Measured surface cards of a field day: a folder of CSV files, a pattern such as `'day/*.csv'`, or a "
+        "CSV file with a column `file`.",
+    ),
+]
+Parquet = Annotated[
+    bool, Option("--parquet", help="With --cards and --out: also cards.parquet; needs pyarrow.")
 ]
 Period = Annotated[
     float | None,
@@ -43,22 +59,34 @@ To = Annotated[FolderOutput, to_folder("Write results.json and the cards as CSV 
 def rods(
     file: File,
     card: Card = None,
+    cards: Cards = None,
     period: Period = None,
     damping: Damping = None,
     harmonics: Harmonics = None,
+    parquet: Parquet = False,
     *,
     to: To,
 ) -> None:
     """Rod string of a pumping unit: cards, loads, stresses, gearbox torque, production; or a measured card.
 
-    Exit code 1 if a section, the gearbox or the structure is overloaded.
+    Exit code 1 if a section, the gearbox or the structure is overloaded, or a card of a day has no diagnosis.
     """
+    if card is None:
+        belong_to("--card", "harmonics")
+    if cards is None:
+        belong_to("--cards", "parquet")
+        belong_to("--card or --cards", *(("period", "damping") if card is None else ()))
+    elif card is not None:
+        raise InputError("--cards: found --card too, expected one of them")
+    if parquet:
+        require("pyarrow.parquet", "studies", "Parquet files need pyarrow")
     machine = file.read()
-    if card is not None:
+    if cards is not None:
+        to.hand_over(_day(machine, cards, period, damping, parquet=parquet))
+    elif card is not None:
         to.hand_over(_diagnosed(machine, card, period, damping, harmonics))
-        return
-    belong_to("--card", "period", "damping", "harmonics")
-    to.hand_over(_predicted(machine))
+    else:
+        to.hand_over(_predicted(machine))
 
 
 def _predicted(machine: Machine) -> Answer:
@@ -85,7 +113,7 @@ def _diagnosed(
     from linkwright.rods.card import read_card
     from linkwright.rods.diagnosis import diagnose_card
     from linkwright.rods.prediction import string_of
-    from linkwright.rods.warnings import diagnosis_warnings
+    from linkwright.rods.warnings import card_findings, diagnosis_warnings
 
     card = read_card(path)
     found = diagnose_card(
@@ -100,9 +128,39 @@ def _diagnosed(
         machine=machine,
         is_described=True,
         results={"card_diagnosis": found},
+        findings=list(card_findings(found)),
         warnings=list(diagnosis_warnings(string_of(machine), found)),
         head=machine.name,
         tables=later("rods.tables:diagnosis_tables", found),
         figures=later("rods.figures:compared_figures", machine, found),
         files={"cards.csv": later("rods.tables:cards_csv", found)},
+    )
+
+
+def _day(
+    machine: Machine, place: str, period: float | None, damping: float | None, *, parquet: bool
+) -> Answer:
+    from linkwright.kernel.command.console import bar
+    from linkwright.rods.field_day import card_files, require_some
+    from linkwright.rods.many_cards import diagnose_cards
+    from linkwright.rods.warnings import day_findings, day_warnings
+
+    files = card_files(place)
+    with bar("cards") as watch:
+        day = diagnose_cards(machine, files, damping=damping, period=period, watch=watch)
+    require_some(day)
+    written = {"cards.csv": later("rods.field_day:day_csv", day)}
+    if parquet:
+        written["cards.parquet"] = later("rods.field_day:day_parquet", day)
+    return Answer(
+        machine=machine,
+        names=day.names,
+        is_described=True,
+        results={"card_diagnoses": day},
+        findings=list(day_findings(machine, day)),
+        warnings=list(day_warnings(machine, day)),
+        head=machine.name,
+        tables=later("rods.field_day:day_tables", day),
+        figures=later("rods.field_day:day_figures", day),
+        files=written,
     )

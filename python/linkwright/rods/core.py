@@ -141,28 +141,23 @@ def _is_smooth(n: int) -> bool:
 
 def cards_of(string: RodString, period: float, position: Floats, load: Floats, damping: float) -> Cards:
     """Cards along a string by samples (n,) of position [m] and dynamic load [N] at the polished rod."""
-    found = _core.rod_cards(
-        sections=len(string.sections),
-        numbers=np.array([numbers_of(string, period, damping)], dtype=float),
-        position=np.ascontiguousarray(position, dtype=float)[None],
-        load=np.ascontiguousarray(load, dtype=float)[None],
-        harmonics=len(position) // 2 - 1,
-    )
-    return cards_in(found, string, 0)
+    found = cards_in_rows(string, [period], position[None], load[None], damping)
+    return Cards(*(each[0] for each in found))
 
 
 def cards_in_rows(
     string: RodString, periods: Sequence[float], position: Floats, load: Floats, damping: float
-) -> tuple[Floats, Floats, Floats]:
-    """Position and load of the plunger, (cards, n), of many cards, and the work at both ends, (cards, 2)."""
-    last = len(string.sections)
+) -> Cards:
+    """Cards of many records (cards, n): the same with a row a card."""
+    sections = len(string.sections)
     numbers = np.repeat(np.array([numbers_of(string, 1.0, damping)], dtype=float), len(periods), axis=0)
     numbers[:, -1] = periods
     found = _core.rod_cards(
-        sections=last,
+        sections=sections,
         numbers=numbers,
-        position=np.ascontiguousarray(position),
-        load=np.ascontiguousarray(load),
+        position=np.ascontiguousarray(position, dtype=float),
+        load=np.ascontiguousarray(load, dtype=float),
         harmonics=position.shape[1] // 2 - 1,
     )
-    return found.position[:, last], found.load[:, last], found.work[:, [0, last]]
+    work = found.work
+    return Cards(found.position, found.load, work[:, : sections + 1], work[:, sections + 1 :])

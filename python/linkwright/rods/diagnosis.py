@@ -23,15 +23,21 @@ from typing import Annotated, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.rods.card import SurfaceCard, checked_card
 from linkwright.rods.core import cards_of, sample_counts
 from linkwright.rods.model.rod_string import RodString
-from linkwright.rods.plunger_load import PlungerLoad, plunger_load
+from linkwright.rods.plunger_load import (
+    CardNumbers,
+    against_barrel,
+    card_numbers,
+    no_pump_card,
+    plunger_load,
+    pump_of,
+)
 from linkwright.rods.prediction import station_names, string_of
 from linkwright.rods.spectrum import Filtered, filtered, smoothed
 from linkwright.rods.stress import RodStress, rod_stress
@@ -51,12 +57,9 @@ _OVERDAMPED = 5.0
 # Periods of strokes [s], and what a period may differ from that of the file.
 _PERIODS, _PERIOD_AGREES = (1.0, 300.0), 1.5
 
-# Fluid load of a pump card over that of a full column of fluid, beyond which it is no pump's.
-_COLUMN = 1.75
-
 
 @dataclass(frozen=True)
-class CardDiagnosis(Result):
+class CardDiagnosis(CardNumbers[float]):
     """A measured card along the rod string down to the pump."""
 
     time: Annotated[Floats, Label("time", "t", "s", "From the first sample.")]
@@ -76,38 +79,13 @@ class CardDiagnosis(Result):
         Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
     ]
     rod_load: Annotated[Floats, Label("load of the polished rod", "W", "N", "By its harmonics.")]
-    period: Annotated[float, Label("period of a stroke", "T", "s", table="diagnosis")]
-    stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", table="diagnosis")]
-    load_max: Annotated[float, Label("peak polished-rod load", "PPRL", "N", "Measured.", table="diagnosis")]
-    load_min: Annotated[
-        float, Label("minimum polished-rod load", "MPRL", "N", "Measured.", table="diagnosis")
-    ]
-    plunger_stroke: Annotated[
-        float, Label("plunger stroke", "S_p", "m", "Against the barrel.", table="diagnosis")
-    ]
-    fillage: Annotated[
+    fluid_load_file: Annotated[
         float,
-        Label(
-            "fillage",
-            "f",
-            "",
-            "Share of the plunger stroke left when half the fluid load has fallen.",
-            table="diagnosis",
-        ),
+        Label("fluid load by the machine file", "", "N", table="diagnosis", before="production"),
     ]
-    fluid_load: Annotated[
-        float, Label("fluid load on the plunger", "F_o", "N", "By the pump card.", table="diagnosis")
-    ]
-    fluid_load_file: Annotated[float, Label("fluid load by the machine file", "", "N", table="diagnosis")]
     intake_pressure: Annotated[
-        float, Label("intake pressure by the pump card", "p_i", "Pa", table="diagnosis")
-    ]
-    production: Annotated[
-        float, Label("production", "Q", "m³/s", "Fillage times plunger displacement.", table="diagnosis")
-    ]
-    power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="diagnosis")]
-    power_pump: Annotated[
-        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="diagnosis")
+        float,
+        Label("intake pressure by the pump card", "p_i", "Pa", table="diagnosis", before="production"),
     ]
     power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="diagnosis")]
     damping: Annotated[float, Label("damping", "c", "1/s", table="diagnosis")]
@@ -186,11 +164,18 @@ def diagnose_card(
             f"harmonics: found {harmonics}, expected 1 to {(n - 1) // 2}: {n} samples hold no more"
         )
     m = sample_counts(string, period, max(_LEAST, _FOR_EACH * n))[0]
-    friction = string.stuffing_box * np.sign(np.roll(card.position, -1) - np.roll(card.position, 1))
-    own = filtered(card.load - float(string.weight_fluid) - friction, m, harmonics)
-    moved = filtered(card.position, m, harmonics)
+    moved, own = records(string, card, m, harmonics)
     fitted = _fitted(string, period, moved, own) if damping is None else damping
     return _diagnosis(string, card, period, (moved, own), fitted, is_fitted=damping is None)
+
+
+def records(
+    string: RodString, card: SurfaceCard, m: int, harmonics: int | None = None
+) -> tuple[Filtered, Filtered]:
+    """Position and dynamic load of the polished rod by their harmonics, at m samples."""
+    friction = string.stuffing_box * np.sign(np.roll(card.position, -1) - np.roll(card.position, 1))
+    own = card.load - float(string.weight_fluid) - friction
+    return filtered(card.position, m, harmonics), filtered(own, m, harmonics)
 
 
 def card_period(machine: Machine, string: RodString, given: float | None) -> float:
@@ -234,14 +219,14 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
 
     def unevenness(factor: float) -> float:
         cards = cards_of(string, period, position, load, factor * unit)
-        found = plunger_load(_against_barrel(string, cards), cards.load[-1])
+        found = plunger_load(against_barrel(string, cards.position[-1], cards.load[-1]), cards.load[-1])
         return np.inf if found is None else found.unevenness
 
     factors = np.linspace(0.0, _DAMPED, _TRIED)
     values = [unevenness(float(factor)) for factor in factors]
     best = int(np.argmin(values))
     if not np.isfinite(values[best]):
-        raise _no_pump_card()
+        raise no_pump_card()
     around = factors[max(best - 1, 0)], factors[min(best + 1, _TRIED - 1)]
     refined = minimize_scalar(unevenness, bounds=around, method="bounded", options={"xatol": 1e-4})
     factor, scatter = (
@@ -250,28 +235,6 @@ def _fitted(string: RodString, period: float, moved: Filtered, own: Filtered) ->
     if (values[0] - scatter) * 2 * own.harmonics < _SIGNIFICANT * scatter:
         return 0.0
     return float(factor) * unit
-
-
-def _against_barrel(string: RodString, cards: Any) -> Floats:
-    """Position of the plunger against the barrel, which moves with tubing that is not anchored."""
-    return np.asarray(cards.position[-1] - string.pump.tubing_compliance(string.length) * cards.load[-1])
-
-
-def _no_pump_card() -> FindingError:
-    return FindingError(
-        "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, "
-        "or sections and card are of different wells"
-    )
-
-
-def _require_column(string: RodString, fluid_load: float) -> None:
-    column = float(string.discharge * string.pump.area)
-    if fluid_load > _COLUMN * column:
-        raise InputError(
-            f"card: its pump card has a fluid load of {fluid_load:.4g} N, a column of fluid from the pump to "
-            f"the surface {column:.4g} N; compare period, units, plunger and sections, which are not those "
-            "of the card"
-        )
 
 
 def _diagnosis(
@@ -285,13 +248,9 @@ def _diagnosis(
 ) -> CardDiagnosis:
     moved, own = records
     cards = cards_of(string, period, moved.samples, own.samples, damping)
-    pump: PlungerLoad | None = plunger_load(_against_barrel(string, cards), cards.load[-1])
-    if pump is None:
-        raise _no_pump_card()
-    _require_column(string, pump.fluid_load)
-    area, stroke = float(string.pump.area), float(np.ptp(card.position))
+    pump = pump_of(string, cards.position[-1], cards.load[-1])
+    numbers = card_numbers(string, card, period, pump, cards.work[[0, -1]])
     lost = float(cards.loss.sum())
-    friction = 2 * string.stuffing_box * stroke
     return CardDiagnosis(
         time=period * np.arange(len(own.samples)) / len(own.samples),
         stations=station_names(string),
@@ -299,18 +258,9 @@ def _diagnosis(
         load=cards.load,
         rod_position=moved.samples - moved.samples.min(),
         rod_load=own.samples + float(string.weight_fluid),
-        period=period,
-        stroke=stroke,
-        load_max=float(card.load.max()),
-        load_min=float(card.load.min()),
-        plunger_stroke=pump.stroke,
-        fillage=pump.fillage,
-        fluid_load=pump.fluid_load,
+        **numbers,
         fluid_load_file=float(string.fluid_load),
-        intake_pressure=float(string.discharge) - pump.fluid_load / area,
-        production=area * pump.fillage * pump.stroke / period,
-        power_rod=(float(cards.work[0]) + friction) / period,
-        power_pump=float(cards.work[-1]) / period,
+        intake_pressure=float(string.discharge) - pump.fluid_load / float(string.pump.area),
         power_damping=lost / period,
         damping=damping,
         damping_factor=2 * damping * float(string.length) / (np.pi * float(string.sound)),

@@ -15,13 +15,12 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
-from linkwright.kernel.result import Result
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.rods.core import Cards, numbers_of, solve_rows
 from linkwright.rods.polished_rod import HarmonicRod, crank_speed, polished_rod_of
 from linkwright.rods.prediction import string_of
-from linkwright.rods.scalars import along_curve, goodman_loadings, string_scalars
+from linkwright.rods.scalars import StringNumbers, along_curve, goodman_loadings, string_scalars
 
 # Samples of a stroke, change of the wave over the fluid load at which its sweeps end, and strings at a time.
 _SAMPLES, _TOLERANCE, _AT_ONCE = 512, 1e-4, 512
@@ -31,27 +30,11 @@ _VARIED = ("rod_string.", "drive.speed")
 
 
 @dataclass(frozen=True)
-class RodStrings(Result):
+class RodStrings(StringNumbers[Floats]):
     """Predictions of many rod strings; NaN where no periodic motion was found."""
 
-    period: Annotated[Floats, Label("period of a stroke", "T", "s", shape="(rows,)")]
-    stroke: Annotated[Floats, Label("stroke of the polished rod", "S", "m", shape="(rows,)")]
-    plunger_stroke: Annotated[Floats, Label("effective plunger stroke", "S_p", "m", shape="(rows,)")]
-    plunger_travel: Annotated[Floats, Label("travel of the plunger", "", "m", shape="(rows,)")]
-    load_max: Annotated[Floats, Label("peak polished-rod load", "PPRL", "N", shape="(rows,)")]
-    load_min: Annotated[Floats, Label("minimum polished-rod load", "MPRL", "N", shape="(rows,)")]
-    weight_air: Annotated[Floats, Label("weight of the rods in air", "W_r", "N", shape="(rows,)")]
-    weight_fluid: Annotated[Floats, Label("weight of the rods in the fluid", "W_rf", "N", shape="(rows,)")]
-    fluid_load: Annotated[Floats, Label("fluid load on the plunger", "F_o", "N", shape="(rows,)")]
-    stretch: Annotated[Floats, Label("stretch of the rods by the fluid load", "", "m", shape="(rows,)")]
-    production: Annotated[Floats, Label("production", "Q", "m³/s", shape="(rows,)")]
-    power_rod: Annotated[Floats, Label("power of the polished rod", "P_PR", "W", shape="(rows,)")]
-    power_pump: Annotated[Floats, Label("power of the pump", "P_p", "W", shape="(rows,)")]
-    power_damping: Annotated[Floats, Label("power lost to damping", "P_c", "W", shape="(rows,)")]
-    power_hydraulic: Annotated[Floats, Label("hydraulic power", "P_h", "W", shape="(rows,)")]
     loading_max: Annotated[
-        Floats,
-        Label("maximum Goodman loading", "", "", "NaN without a tensile strength.", shape="(rows,)"),
+        Floats, Label("maximum Goodman loading", "", "", "NaN without a tensile strength.")
     ]
 
 

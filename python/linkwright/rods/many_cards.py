@@ -5,60 +5,79 @@ The damping is the well's: it is fitted to some of the cards and held for all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
-from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.result import Result
+from linkwright.kernel.quantities import About, Label, declared
 from linkwright.machine.machine import Machine
-from linkwright.rods.card import SurfaceCard, checked_card
+from linkwright.rods.card import SurfaceCard, checked_card, read_card
 from linkwright.rods.core import cards_in_rows, sample_counts
-from linkwright.rods.diagnosis import card_period, diagnose_card
+from linkwright.rods.diagnosis import card_period, diagnose_card, records
 from linkwright.rods.model.rod_string import RodString
-from linkwright.rods.plunger_load import plunger_load
+from linkwright.rods.plunger_load import CardNumbers, card_numbers, pump_of
 from linkwright.rods.prediction import string_of
-from linkwright.rods.spectrum import filtered
+from linkwright.rods.scalars import goodman_loadings
 
 # Samples of the cards at least, cards at a time, and cards to which the damping is fitted.
-_SAMPLES, _AT_ONCE, _FITTED = 512, 512, 9
+_SAMPLES, _AT_ONCE, _FITTED = 512, 256, 9
 
-_NO_PUMP_CARD = "the pump card has no upstroke whose load is above that of the downstroke"
+# Fillage from which on a barrel counts as full: the levels of a card scatter by some hundredths.
+FULL = 0.95
+
+# A card, or a file with one.
+Given = SurfaceCard | str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
-class CardDiagnoses(Result):
+class CardDiagnoses(CardNumbers[Floats]):
     """Diagnoses of many cards of one well; NaN for a card with a fault."""
 
+    loading_max: Annotated[
+        Floats,
+        Label("maximum Goodman loading", "", "", "NaN without a tensile strength.", "(names,)"),
+    ]
+    names: Annotated[tuple[str, ...], About("Files of the cards, or their numbers from 1.")]
     faults: Annotated[tuple[str, ...], About("Why a card was not diagnosed, empty where it was.")]
-    period: Annotated[Floats, Label("period of a stroke", "T", "s", shape="(cards,)")]
-    stroke: Annotated[Floats, Label("stroke of the polished rod", "S", "m", shape="(cards,)")]
-    load_max: Annotated[Floats, Label("peak polished-rod load", "PPRL", "N", "Measured.", "(cards,)")]
-    load_min: Annotated[Floats, Label("minimum polished-rod load", "MPRL", "N", "Measured.", "(cards,)")]
-    plunger_stroke: Annotated[Floats, Label("plunger stroke", "S_p", "m", shape="(cards,)")]
-    fillage: Annotated[Floats, Label("fillage", "f", "", shape="(cards,)")]
-    fluid_load: Annotated[Floats, Label("fluid load on the plunger", "F_o", "N", shape="(cards,)")]
-    production: Annotated[Floats, Label("production", "Q", "m³/s", shape="(cards,)")]
-    power_rod: Annotated[Floats, Label("power of the polished rod", "P_PR", "W", shape="(cards,)")]
-    power_pump: Annotated[Floats, Label("power of the pump", "P_p", "W", shape="(cards,)")]
     damping: Annotated[float, Label("damping", "c", "1/s", "Of all cards.")]
 
+    @property
+    def verdicts(self) -> Annotated[tuple[str, ...], About("What each card shows, in some words.")]:
+        """Not diagnosed; or rods overloaded by the Goodman diagram, else whether the barrel is full."""
+        words = np.where(self.fillage >= FULL, "pump full", "partial fillage")
+        words = np.where(self.loading_max > 1, "rods overloaded", words)
+        return tuple(np.where([*map(bool, self.faults)], "not diagnosed", words).tolist())
 
-# Quantities of a card, in the order of the columns.
-_QUANTITIES = (
-    *("period", "stroke", "load_max", "load_min", "plunger_stroke"),
-    *("fillage", "fluid_load", "production", "power_rod", "power_pump"),
-)
+    def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
+        """Damping, faults and verdicts, and the numbers of the cards by name."""
+        return super().to_dict() | self.parts_by_name()
+
+
+class _Ready(NamedTuple):
+    """A card that was checked, at the samples that go down the string."""
+
+    row: int
+    card: SurfaceCard
+    period: float
+    moved: Floats
+    own: Floats
 
 
 @public
 def diagnose_cards(
-    machine: Machine, cards: Sequence[SurfaceCard], *, damping: float | None = None
+    machine: Machine,
+    cards: Sequence[Given],
+    *,
+    damping: float | None = None,
+    period: float | None = None,
+    watch: Callable[[float], None] = lambda _: None,
 ) -> CardDiagnoses:
     """Pumps of many surface cards of one well, such as those of a day.
 
@@ -66,10 +85,14 @@ def diagnose_cards(
     ----------
     machine : Machine
         A machine with a rod string.
-    cards : sequence of SurfaceCard
-        Measured cards, as `read_card` gives them.
+    cards : sequence of SurfaceCard or path
+        Measured cards, as `read_card` gives them, or their files.
     damping : float, optional
         Damping c of the string [1/s]. Default: the median of fits to some of the cards.
+    period : float, optional
+        Period of the strokes [s]. Default: that of each card, or that of the machine's speed.
+    watch : callable, optional
+        Progress callback, 0 to 1.
 
     Returns
     -------
@@ -89,77 +112,98 @@ def diagnose_cards(
     string = string_of(machine)
     if not len(cards):
         raise InputError("cards: found none, expected one or more")
-    held = _fitted(machine, cards) if damping is None else float(damping)
-    parts = [
-        _diagnosed(machine, string, cards[at : at + _AT_ONCE], held) for at in range(0, len(cards), _AT_ONCE)
-    ]
-    table = np.concatenate([part[0] for part in parts])
-    return CardDiagnoses(
-        faults=tuple(fault for part in parts for fault in part[1]),
-        damping=held,
-        **dict(zip(_QUANTITIES, np.ascontiguousarray(table.T), strict=True)),
-    )
+    held = _fitted(machine, cards, period) if damping is None else float(damping)
+    faults, numbers = [""] * len(cards), {name: np.full(len(cards), np.nan) for name in _QUANTITIES}
+    for at in range(0, len(cards), _AT_ONCE):
+        ready = _ready(machine, string, cards, range(at, min(at + _AT_ONCE, len(cards))), period, faults)
+        # Records of one length go down the string together.
+        for m in {len(each.own) for each in ready}:
+            _diagnose(string, [each for each in ready if len(each.own) == m], held, numbers, faults)
+        watch(min(at + _AT_ONCE, len(cards)) / len(cards))
+    return CardDiagnoses(**numbers, names=_names(cards), faults=tuple(faults), damping=held)
 
 
-def _fitted(machine: Machine, cards: Sequence[SurfaceCard]) -> float:
-    """The median of the dampings that fit some of the cards."""
-    found, why = [], ""
-    for at in np.unique(np.linspace(0, len(cards) - 1, _FITTED).astype(int)):
-        card = cards[at]
+# Names of the numbers of a card.
+_QUANTITIES = tuple(
+    name for name, mark in declared(CardDiagnoses).items() if getattr(mark[1], "shape", "") == "(names,)"
+)
+
+
+def _names(cards: Sequence[Given]) -> tuple[str, ...]:
+    """Names of files, with their folders where two have one name; numbers of cards without a file."""
+    files = [None if isinstance(card, SurfaceCard) else Path(card) for card in cards]
+    short = [str(n) if file is None else file.name for n, file in enumerate(files, start=1)]
+    if len(set(short)) == len(short):
+        return tuple(short)
+    return tuple(str(n) if file is None else str(file) for n, file in enumerate(files, start=1))
+
+
+def _read(card: Given) -> SurfaceCard:
+    return card if isinstance(card, SurfaceCard) else read_card(card)
+
+
+def _fitted(machine: Machine, cards: Sequence[Given], period: float | None) -> float:
+    """The median of the dampings that fit some of the cards, those evenly over the day first."""
+    spread = np.linspace(0, len(cards) - 1, _FITTED).astype(int)
+    found: list[float] = []
+    why = ""
+    for at in dict.fromkeys([*spread.tolist(), *range(len(cards))]):
         try:
-            found.append(diagnose_card(machine, card.position, card.load, period=card.period).damping)
+            card = _read(cards[at])
+            own = card.period if period is None else period
+            found.append(diagnose_card(machine, card.position, card.load, period=own).damping)
         except (InputError, FindingError) as error:
-            why = str(error)
+            why = why or str(error)
+        if len(found) == _FITTED:
+            break
     if not found:
-        raise InputError(f"cards: none of some could be fitted, expected cards of this well; {why}")
+        raise InputError(f"cards: none of {len(cards)} could be fitted, expected cards of this well; {why}")
     return float(np.median(found))
 
 
-def _diagnosed(
-    machine: Machine, string: RodString, cards: Sequence[SurfaceCard], damping: float
-) -> tuple[Floats, list[str]]:
-    """Quantities of cards, (cards, quantities), and their faults."""
-    unit = machine.pumping_unit
+def _ready(
+    machine: Machine,
+    string: RodString,
+    cards: Sequence[Given],
+    rows: range,
+    period: float | None,
+    faults: list[str],
+) -> list[_Ready]:
+    """Cards that can be those of the string; of the others the faults."""
+    unit, ready = machine.pumping_unit, []
     stroke = string.stroke if unit is None else float(unit.stroke)
-    weight, box = float(string.weight_fluid), string.stuffing_box
-    faults = [""] * len(cards)
-    rows, periods, moved, own = [], [], [], []
-    for row, given in enumerate(cards):
+    for row in rows:
         try:
-            card = checked_card(given, string, stroke)
-            period = card_period(machine, string, card.period)
+            card = checked_card(_read(cards[row]), string, stroke)
+            own = card_period(machine, string, card.period if period is None else period)
         except InputError as error:
-            faults[row] = str(error)
+            faults[row] = _line(error)
             continue
-        m = (
-            _SAMPLES
-            if len(card.load) <= _SAMPLES // 2
-            else sample_counts(string, period, 2 * len(card.load))[0]
-        )
-        friction = box * np.sign(np.roll(card.position, -1) - np.roll(card.position, 1)) if box else 0.0
-        rows.append((row, card))
-        periods.append(period)
-        moved.append(filtered(card.position, m, None).samples)
-        own.append(filtered(card.load - weight - friction, m, None).samples)
-    table = np.full((len(cards), len(_QUANTITIES)), np.nan)
-    compliance, area = float(string.pump.tubing_compliance(string.length)), float(string.pump.area)
-    # Records of one length go down the string together.
-    for m in {len(samples) for samples in own}:
-        at = [i for i, samples in enumerate(own) if len(samples) == m]
-        records = [np.array([curves[i] for i in at]) for curves in (moved, own)]
-        position, load, work = cards_in_rows(
-            string, [periods[i] for i in at], records[0], records[1], damping
-        )
-        for k, i in enumerate(at):
-            (row, card), period = rows[i], periods[i]
-            pump = plunger_load(position[k] - compliance * load[k], load[k])
-            if pump is None:
-                faults[row] = _NO_PUMP_CARD
-                continue
-            reach = float(np.ptp(card.position))
-            production = area * pump.fillage * pump.stroke / period
-            table[row] = (
-                *(period, reach, card.load.max(), card.load.min(), pump.stroke, pump.fillage),
-                *(pump.fluid_load, production, (work[k, 0] + 2 * box * reach) / period, work[k, 1] / period),
-            )
-    return table, faults
+        n = len(card.load)
+        m = _SAMPLES if n <= _SAMPLES // 2 else sample_counts(string, own, 2 * n)[0]
+        ready.append(_Ready(row, card, own, *(each.samples for each in records(string, card, m))))
+    return ready
+
+
+def _line(error: Exception) -> str:
+    """The message of an error in one line."""
+    return "; ".join(" ".join(line.split()) for line in str(error).splitlines() if line.strip())
+
+
+def _diagnose(
+    string: RodString, ready: list[_Ready], damping: float, numbers: dict[str, Floats], faults: list[str]
+) -> None:
+    """Put the numbers of cards of one length in their rows, or what is wrong with a pump card."""
+    moved, own = (np.array([getattr(each, name) for each in ready]) for name in ("moved", "own"))
+    found = cards_in_rows(string, [each.period for each in ready], moved, own, damping)
+    loadings = list(goodman_loadings(string, found.load).values())
+    worst = np.max(loadings, axis=0) if loadings else np.full(len(ready), np.nan)
+    for n, (row, card, period, *_) in enumerate(ready):
+        try:
+            pump = pump_of(string, found.position[n, -1], found.load[n, -1])
+        except (InputError, FindingError) as error:
+            faults[row] = _line(error)
+            continue
+        own_numbers = card_numbers(string, card, period, pump, found.work[n, [0, -1]])
+        for name, value in (own_numbers | {"loading_max": worst[n]}).items():
+            numbers[name][row] = value

@@ -27,13 +27,23 @@ from linkwright.rods.model.rod_string import RodString
 class ApiNumbers(Result):
     """Dimensionless terms of a pumping installation by API RP 11L."""
 
-    speed: Annotated[float, Label("pumping speed", "N", "Hz", "Strokes per time.", table="rod_numbers")]
+    speed: Annotated[
+        float, Label("pumping speed", "N", "Hz", "Strokes per time.", table="rod_numbers", usual="1/min")
+    ]
     natural_frequency: Annotated[
         float,
-        Label("natural frequency of a uniform string", "N_o", "Hz", "a/(4L).", table="rod_numbers"),
+        Label(
+            "natural frequency of a uniform string",
+            "N_o",
+            "Hz",
+            "a/(4L).",
+            table="rod_numbers",
+            usual="1/min",
+        ),
     ]
     natural_frequency_tapered: Annotated[
-        float, Label("natural frequency of the tapered string", "N_o′", "Hz", table="rod_numbers")
+        float,
+        Label("natural frequency of the tapered string", "N_o′", "Hz", table="rod_numbers", usual="1/min"),
     ]
     frequency_factor: Annotated[float, Label("frequency factor", "F_c", "", "N_o′/N_o.", table="rod_numbers")]
     spring_rate: Annotated[float, Label("spring rate of the string", "k_r", "N/m", table="rod_numbers")]

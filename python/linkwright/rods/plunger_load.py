@@ -1,18 +1,99 @@
-"""What a pump card tells: plunger stroke, fluid load, fillage."""
+"""What a pump card tells: plunger stroke, fluid load, fillage; and the numbers of one card or of many."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
+from linkwright.kernel.errors import FindingError, InputError
+from linkwright.kernel.quantities import Label
+from linkwright.kernel.result import Result
+from linkwright.rods.card import SurfaceCard
+from linkwright.rods.model.rod_string import RodString
 
 # Share of the extreme velocity from which on the plunger counts as moving.
 _MOVING = 0.3
 
 # Share of the fluid load beyond which a sample is no scatter about a level but a change of it.
 _SCATTER = 0.25
+
+# Fluid load of a pump card over that of a full column of fluid, beyond which it is no pump's.
+_COLUMN = 1.75
+
+# A number, or one of each of many cards.
+N = TypeVar("N")
+
+
+@dataclass(frozen=True)
+class CardNumbers(Result, Generic[N]):
+    """What a measured card shows, or what each of many does."""
+
+    period: Annotated[N, Label("period of a stroke", "T", "s", shape="(names,)", table="diagnosis")]
+    stroke: Annotated[N, Label("stroke of the polished rod", "S", "m", shape="(names,)", table="diagnosis")]
+    load_max: Annotated[
+        N, Label("peak polished-rod load", "PPRL", "N", "Measured.", "(names,)", table="diagnosis")
+    ]
+    load_min: Annotated[
+        N, Label("minimum polished-rod load", "MPRL", "N", "Measured.", "(names,)", table="diagnosis")
+    ]
+    plunger_stroke: Annotated[
+        N, Label("plunger stroke", "S_p", "m", "Against the barrel.", "(names,)", table="diagnosis")
+    ]
+    fillage: Annotated[
+        N,
+        Label(
+            "fillage",
+            "f",
+            "",
+            "Share of the plunger stroke left when half the fluid load has fallen.",
+            "(names,)",
+            table="diagnosis",
+        ),
+    ]
+    fluid_load: Annotated[
+        N, Label("fluid load on the plunger", "F_o", "N", "By the pump card.", "(names,)", table="diagnosis")
+    ]
+    production: Annotated[
+        N,
+        Label(
+            "production",
+            "Q",
+            "m³/s",
+            "Fillage times plunger displacement.",
+            "(names,)",
+            table="diagnosis",
+            usual="m^3/d",
+        ),
+    ]
+    power_rod: Annotated[
+        N, Label("power of the polished rod", "P_PR", "W", shape="(names,)", table="diagnosis")
+    ]
+    power_pump: Annotated[
+        N, Label("power of the pump", "P_p", "W", "Area of its card.", "(names,)", table="diagnosis")
+    ]
+
+
+def card_numbers(
+    string: RodString, card: SurfaceCard, period: float, pump: PlungerLoad, work: Floats
+) -> dict[str, Any]:
+    """Numbers of a card by its pump card; `work` (2,): of the string at polished rod and plunger [J]."""
+    stroke = float(np.ptp(card.position))
+    friction = 2 * string.stuffing_box * stroke
+    return {
+        "period": period,
+        "stroke": stroke,
+        "load_max": float(card.load.max()),
+        "load_min": float(card.load.min()),
+        "plunger_stroke": pump.stroke,
+        "fillage": pump.fillage,
+        "fluid_load": pump.fluid_load,
+        "production": float(string.pump.area) * pump.fillage * pump.stroke / period,
+        "power_rod": (float(work[0]) + friction) / period,
+        "power_pump": float(work[1]) / period,
+    }
 
 
 class PlungerLoad(NamedTuple):
@@ -24,6 +105,34 @@ class PlungerLoad(NamedTuple):
     fillage: float  # share of the stroke left when half the fluid load has fallen
     # Mean square of the scatter about both levels, over the square of the fluid load.
     unevenness: float
+
+
+def against_barrel(string: RodString, position: Floats, load: Floats) -> Floats:
+    """Position of the plunger against the barrel, which moves with tubing that is not anchored."""
+    return np.asarray(position - string.pump.tubing_compliance(string.length) * load)
+
+
+def pump_of(string: RodString, position: Floats, load: Floats) -> PlungerLoad:
+    """What a pump card tells; an error says why it is no card of the string's pump."""
+    pump = plunger_load(against_barrel(string, position, load), load)
+    if pump is None:
+        raise no_pump_card()
+    column = float(string.discharge * string.pump.area)
+    if pump.fluid_load > _COLUMN * column:
+        raise InputError(
+            f"card: its pump card has a fluid load of {pump.fluid_load:.4g} N, a column of fluid from the "
+            f"pump to the surface {column:.4g} N; compare period, units, plunger and sections, which are not "
+            "those of the card"
+        )
+    return pump
+
+
+def no_pump_card() -> FindingError:
+    """The finding of a card without a pump that lifts."""
+    return FindingError(
+        "the pump card has no upstroke whose load is above that of the downstroke: the pump does not lift, "
+        "or sections and card are of different wells"
+    )
 
 
 def plunger_load(position: Floats, load: Floats) -> PlungerLoad | None:

@@ -15,7 +15,8 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -25,14 +26,13 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
-from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.pumping.gear_torque import GearTorque, gear_torque
 from linkwright.rods.core import Solved, sample_counts, solve_string
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import ApiNumbers, api_numbers
 from linkwright.rods.polished_rod import HarmonicRod, RodMotion, UnitRod, polished_rod_of
-from linkwright.rods.scalars import string_scalars
+from linkwright.rods.scalars import StringNumbers, string_scalars
 from linkwright.rods.stress import RodStress, rod_stress
 
 # Samples of the first solution, and of the finest.
@@ -52,7 +52,7 @@ _CORNERS = 360
 
 
 @dataclass(frozen=True)
-class RodStringMotion(Result):
+class RodStringMotion(StringNumbers[float]):
     """A rod string with its pump over one stroke."""
 
     time: Annotated[Floats, Label("time", "t", "s", "From the bottom of the stroke.")]
@@ -79,38 +79,6 @@ class RodStringMotion(Result):
         Label("load of the polished rod", "W", "N", "With the weight of rods and the stuffing-box friction."),
     ]
     crank_angle: Annotated[Floats | None, Label("crank angle", "φ", "rad", "None without a pumping unit.")]
-    period: Annotated[float, Label("period of a stroke", "T", "s", table="rod_string")]
-    stroke: Annotated[float, Label("stroke of the polished rod", "S", "m", table="rod_string")]
-    plunger_stroke: Annotated[
-        float,
-        Label(
-            "effective plunger stroke",
-            "S_p",
-            "m",
-            "Against the barrel, which moves with tubing that is not anchored.",
-            table="rod_string",
-        ),
-    ]
-    plunger_travel: Annotated[float, Label("travel of the plunger", "", "m", "Against the casing.")]
-    load_max: Annotated[float, Label("peak polished-rod load", "PPRL", "N", table="rod_string")]
-    load_min: Annotated[float, Label("minimum polished-rod load", "MPRL", "N", table="rod_string")]
-    weight_air: Annotated[float, Label("weight of the rods in air", "W_r", "N", table="rod_string")]
-    weight_fluid: Annotated[float, Label("weight of the rods in the fluid", "W_rf", "N", table="rod_string")]
-    fluid_load: Annotated[float, Label("fluid load on the plunger", "F_o", "N", table="rod_string")]
-    stretch: Annotated[
-        float, Label("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.", table="rod_string")
-    ]
-    production: Annotated[
-        float, Label("production", "Q", "m³/s", "Liquid, at discharge pressure.", table="rod_string")
-    ]
-    power_rod: Annotated[float, Label("power of the polished rod", "P_PR", "W", table="rod_string")]
-    power_pump: Annotated[
-        float, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")
-    ]
-    power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="rod_string")]
-    power_hydraulic: Annotated[
-        float, Label("hydraulic power", "P_h", "W", "Production times pressure rise.", table="rod_string")
-    ]
     numbers: Annotated[ApiNumbers, About("Terms of API RP 11L.")]
     stress: Annotated[RodStress, About("Loads and stresses of the sections, with the Goodman diagram.")]
     gear: Annotated[GearTorque | None, About("Torque of the gearbox; None without a pumping unit.")]
@@ -204,15 +172,16 @@ def solution(machine: Machine, accuracy: float) -> Solution:
     least, before, start, last = _FIRST, None, None, 0.0
     while True:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
-        result = _result(string, rod, moved, solved)
-        change = np.inf if before is None else _difference(result, before)
+        scalars = _scalars(string, rod, moved, solved)
+        change = np.inf if before is None else _difference(scalars, before)
         # The error at a corner is of first order, but a change may be small by chance: the one before
         # counts too.
         reached = _SURE * max(change, last / 2)
         if reached <= accuracy or 2 * least > _MOST:
-            return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
+            result = _result(string, rod, moved, solved, scalars, float(reached))
+            return Solution(string, rod, moved, solved, result)
         last = 0.0 if before is None else change
-        least, before, start = 2 * least, result, np.asarray(solved.wave)
+        least, before, start = 2 * least, scalars, np.asarray(solved.wave)
 
 
 def string_of(machine: Machine) -> RodString:
@@ -265,20 +234,31 @@ def polished_rod_load(string: RodString, moved: RodMotion, dynamic: Floats) -> F
     return np.asarray(dynamic + string.weight_fluid + string.stuffing_box * direction)
 
 
-def _difference(fine: RodStringMotion, coarse: RodStringMotion) -> float:
-    span = fine.load_max - fine.load_min
-    peaks = max(abs(fine.load_max - coarse.load_max), abs(fine.load_min - coarse.load_min)) / span
-    return max(peaks, abs(fine.plunger_stroke - coarse.plunger_stroke) / fine.stroke)
+def _difference(fine: Mapping[str, float], coarse: Mapping[str, float]) -> float:
+    change = {name: abs(fine[name] - coarse[name]) for name in ("load_max", "load_min", "plunger_stroke")}
+    peaks = max(change["load_max"], change["load_min"]) / (fine["load_max"] - fine["load_min"])
+    return max(peaks, change["plunger_stroke"] / fine["stroke"])
+
+
+def _scalars(
+    string: RodString, rod: HarmonicRod | UnitRod, moved: RodMotion, solved: Solved
+) -> dict[str, float]:
+    position = rod.motion(len(solved.cards.load[0])).position
+    found = string_scalars(string, moved.stroke, moved.period, solved.cards, solved.mean_load, position)
+    return {name: float(number) for name, number in found.items()}
 
 
 def _result(
-    string: RodString, rod: HarmonicRod | UnitRod, moved: RodMotion, solved: Solved
+    string: RodString,
+    rod: HarmonicRod | UnitRod,
+    moved: RodMotion,
+    solved: Solved,
+    scalars: dict[str, Any],
+    accuracy: float,
 ) -> RodStringMotion:
     cards, period = solved.cards, moved.period
     moved = rod.motion(len(cards.load[0]))
     load = polished_rod_load(string, moved, cards.load[0])
-    found = string_scalars(string, moved.stroke, period, cards, solved.mean_load, moved.position)
-    scalars: dict[str, Any] = {name: float(number) for name, number in found.items()}
     gear = _gear(rod, moved, load, is_best=False)
     is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
     best = _gear(rod, moved, load, is_best=True) if is_given else gear
@@ -301,7 +281,7 @@ def _result(
         drive=rod.steady if isinstance(rod, UnitRod) else None,
         balance=float((cards.work[0] - cards.work[-1] - lost) / cards.work[0]),
         harmonics=len(load) // 2 - 1,
-        accuracy=np.inf,
+        accuracy=accuracy,
         sweeps=solved.sweeps,
     )
 

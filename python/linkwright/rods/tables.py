@@ -19,7 +19,7 @@ from linkwright.kernel.page.table import (
     rows_of,
 )
 from linkwright.kernel.quantities import in_table
-from linkwright.kernel.reader.numbers import measured, number
+from linkwright.kernel.reader.numbers import measured, number, quantity
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.prediction import RodStringMotion
@@ -27,13 +27,10 @@ from linkwright.rods.stress import RodStress
 
 _HEADS = ("quantity", "", "value", "")
 
-# Seconds of a day; a barrel [m³].
-_DAY, _BARREL = 86_400.0, 0.158987294928
-
 
 def string_tables(motion: RodStringMotion) -> Iterator[Table]:
     """Loads, strokes and powers; stresses of the sections; the gearbox; terms of API RP 11L."""
-    beside = {"production": daily(motion.production), "period": f"{number(60 / motion.period)} strokes/min"}
+    beside = {"production": barrels(motion.production), "period": f"{number(60 / motion.period)} strokes/min"}
     yield Table("rod_string", "Rod string", _HEADS, known_rows(motion, "rod_string", beside))
     yield sections_table(motion.stress)
     if motion.gear is not None and motion.gear_best is not None:
@@ -46,9 +43,7 @@ def string_tables(motion: RodStringMotion) -> Iterator[Table]:
 
 def string_headline(motion: RodStringMotion) -> Iterator[tuple[str, str, str]]:
     """Peak loads, plunger stroke, production by the day, loading of rods and gearbox."""
-    yield from few(motion, ("load_max", "load_min", "plunger_stroke"))
-    yield "production", number(motion.production * _DAY), "m³/d"
-    yield from few(motion, ("power_rod",))
+    yield from few(motion, ("load_max", "load_min", "plunger_stroke", "production", "power_rod"))
     if motion.stress.loading_max is not None:
         yield "maximum Goodman loading", number(100 * motion.stress.loading_max), "%"
     if motion.gear is not None and motion.gear.gear_load is not None:
@@ -59,19 +54,19 @@ def diagnosis_headline(found: CardDiagnosis) -> Iterator[tuple[str, str, str]]:
     """Pump stroke, fluid load and fillage of a measured card, production by the day."""
     yield from few(found, ("plunger_stroke", "fluid_load"), "measured card: ")
     yield "measured card: fillage", number(100 * found.fillage), "%"
-    yield "measured card: production", number(found.production * _DAY), "m³/d"
+    yield from few(found, ("production",), "measured card: ")
 
 
 def diagnosis_tables(found: CardDiagnosis) -> Iterator[Table]:
     """What the card tells of the pump; stresses of the sections."""
-    beside = {"production": daily(found.production), "damping": "fitted" if found.is_fitted else ""}
+    beside = {"production": barrels(found.production), "damping": "fitted" if found.is_fitted else ""}
     yield Table("diagnosis", "Diagnosis of the card", _HEADS, known_rows(found, "diagnosis", beside))
     yield sections_table(found.stress)
 
 
-def daily(flow: float) -> str:
-    """A flow by the day: cubic metres, and barrels of 42 US gallons."""
-    return f"{number(flow * _DAY)} m³/d, {number(flow * _DAY / _BARREL)} bbl/d"
+def barrels(flow: float) -> str:
+    """A flow in barrels of 42 US gallons by the day."""
+    return quantity(flow, "m^3/s", usual="bbl/d")
 
 
 def sections_table(stress: RodStress) -> Table:
@@ -110,7 +105,9 @@ def _loading(section: Any) -> str:
 
 def _gear(gear: GearTorque, best: GearTorque) -> Table:
     rated = {"torque_net_up": f"rated {measured(gear.torque_rated, 'N m')}"} if gear.torque_rated else {}
-    without = [name for name in in_table(GearTorque, "gear_torque") if getattr(gear, name) is None]
+    # Work and maximum load are those of the string, at corners between which this one is straight.
+    unknown = [name for name in in_table(GearTorque, "gear_torque") if getattr(gear, name) is None]
+    without = [*unknown, "load_max", "work"]
     of_given, of_best = (rows_in(each, "gear_torque", rated, without=without) for each in (gear, best))
     rows: list[Row] = [
         (given[0], given[1], given[2], other[2], given[3])

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.machine.machine import Machine
 from linkwright.rods.along import along_rods
 from linkwright.rods.diagnosis import CardDiagnosis
+from linkwright.rods.many_cards import CardDiagnoses
 from linkwright.rods.model.rod_string import RodString
-from linkwright.rods.prediction import RodStringMotion
+from linkwright.rods.prediction import RodStringMotion, string_of
 from linkwright.rods.stress import RodStress
 
 # Accuracy of a solution beyond which the user is warned.
@@ -33,6 +35,10 @@ _SHORT = 0.005
 # Share of the fluid load by which the effective tension may fall below zero before it is worth a sentence;
 # that of a card ripples.
 _SMALL, _RIPPLE = 0.01, 0.05
+
+_NO_DAMPING = (
+    "The card shows no damping of the rods: it is taken as 0. Give it with --damping if it is known."
+)
 
 
 def string_findings(motion: RodStringMotion) -> Iterator[str]:
@@ -63,6 +69,37 @@ def _goodman(stress: RodStress) -> Iterator[str]:
                 f"{stress.stress_max[n] / 1e6:.4g} MPa, "
                 f"the modified Goodman diagram permits {stress.stress_permissible[n] / 1e6:.4g} MPa."
             )
+
+
+def card_findings(found: CardDiagnosis) -> Iterator[str]:
+    """Sections beyond the Goodman diagram by the loads of a card."""
+    yield from _goodman(found.stress)
+
+
+def day_findings(machine: Machine, day: CardDiagnoses) -> Iterator[str]:
+    """Cards of a day without a diagnosis, and those that show overloaded rods or an overloaded structure."""
+    count, faults = len(day.faults), sum(map(bool, day.faults))
+    if faults:
+        yield f"{faults} of {count} cards were not diagnosed."
+    if over := np.count_nonzero(day.loading_max > 1):
+        yield (
+            f"{over} of {count} cards show overloaded rods: their stress range reaches "
+            f"{100 * np.nanmax(day.loading_max):.4g} % of the permissible one."
+        )
+    rating = None if machine.pumping_unit is None else machine.pumping_unit.rating
+    if rating is not None and (over := np.count_nonzero(day.load_max > rating.load)):
+        yield (
+            f"{over} of {count} cards show an overloaded structure: the polished rod carries up to "
+            f"{np.nanmax(day.load_max):.4g} N, {100 * np.nanmax(day.load_max) / rating.load:.0f} % of its "
+            f"rating of {rating.load:.4g} N."
+        )
+
+
+def day_warnings(machine: Machine, day: CardDiagnoses) -> Iterator[str]:
+    """What should be known of the cards of a day."""
+    yield from _well(string_of(machine))
+    if day.damping == 0:
+        yield _NO_DAMPING
 
 
 def string_warnings(string: RodString, motion: RodStringMotion) -> Iterator[str]:
@@ -148,9 +185,7 @@ def diagnosis_warnings(string: RodString, found: CardDiagnosis) -> Iterator[str]
             "Give it with --damping if it is known."
         )
     elif found.is_fitted and found.damping == 0:
-        yield (
-            "The card shows no damping of the rods: it is taken as 0. Give it with --damping if it is known."
-        )
+        yield _NO_DAMPING
     elif found.is_fitted and found.damping_factor > _MUCH:
         yield (
             f"The damping that fits the card best, a factor of {found.damping_factor:.3g}, is at the end "

@@ -46,7 +46,7 @@ class Table(NamedTuple):
 def row(result: Result, name: str, at: str = "", *, length: str = "") -> Row:
     """Word, symbol, value with its unit (`length` of a length, degrees of an angle), and where it is."""
     mark, value = shown(type(result), name), getattr(result, name)
-    usual = length if mark.unit == "m" else ""
+    usual = (length if mark.unit == "m" else "") or mark.usual
     return mark.word, mark.symbol, measured(value, mark.unit, _scale(result, mark), usual=usual), at
 
 
@@ -65,7 +65,8 @@ def few(result: Result, names: Iterable[str], before: str = "") -> Iterator[tupl
         mark, value = shown(type(result), name), getattr(result, name)
         if value is not None and math.isfinite(value):
             unit = result.unit_of(name)
-            text = (degrees(value), "") if unit == "rad" else parted(value, unit, scale=_scale(result, mark))
+            of = _scale(result, mark)
+            text = (degrees(value), "") if unit == "rad" else parted(value, unit, None, of, mark.usual)
             yield f"{before}{mark.word}", *text
 
 
