@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from tests.samples.wells import well
@@ -10,6 +12,7 @@ import linkwright as lw
 from linkwright.rods.card import SurfaceCard
 
 
+@cache
 def card_of(fillage, n):
     """The predicted surface card at n samples."""
     motion = lw.rod_string(well({"fillage": fillage} if fillage < 1 else {}))

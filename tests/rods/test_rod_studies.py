@@ -1,35 +1,82 @@
-"""Studies of a rod string: taper design."""
+"""Studies of a well, as docs/rods.md has them: tapers, speed, counterbalance, motor."""
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
-from tests.samples.wells import well
 
 import linkwright as lw
 
-STUDY = """
-machine = "well.toml"
-[variables.upper]
-address = "rod_string.sections.0.length"
-range = ["400 m", "900 m"]
-[derived.lower]
-address = "rod_string.sections.1.length"
-formula = "1524 - upper"
-[responses]
-loading = "rod_string.stress.loading_max"
-[goals]
-loading = "minimise"
-"""
+DOCS = Path(__file__).parents[2] / "docs" / "rods.md"
+
+MOTOR = {
+    'speed = "8 rpm"': "gearbox = { ratio = 118 }\nmotor = { kind = 'induction', catalogue = '4A180M6U3' }"
+}
+SIZED = {'counterbalance = "optimal"': 'counterbalance = "60 kN m"'}
+
+
+@pytest.fixture
+def study_of(tmp_path):
+    """A study of the page, read beside its well with some lines exchanged."""
+    blocks = re.findall(r"```toml\n# (\w+\.toml)\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
+
+    def read(name, **exchanged):
+        for file, text in blocks:
+            for old, new in exchanged.get("well", {}).items() if file == "well.toml" else ():
+                assert old in text
+                text = re.sub(f"{re.escape(old)}.*", new, text)
+            (tmp_path / file).write_text(text, encoding="utf-8")
+        return lw.read_study(tmp_path / name)
+
+    return read
 
 
 @pytest.mark.deep
-def test_the_best_taper_has_equal_loadings(tmp_path):
+def test_the_best_taper_has_equal_loadings(study_of):
     """The lowest maximum Goodman loading of two sections of a given depth is that where both are equal."""
-    lw.write(well(damping_factor=0.3), tmp_path / "well.toml")
-    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
-    found = lw.optimise(lw.read_study(tmp_path / "study.toml"), 24, method="gradient", starts=1)
+    found = lw.optimise(study_of("tapers.toml"), 24, method="gradient", starts=1)
     stress = lw.rod_string(found.machine).stress
     assert stress.length.sum() == pytest.approx(1524, rel=1e-9)
-    assert np.ptp(stress.loading) < 0.01 * stress.loading.max()
-    assert 400 < found.variables["upper"] < 900
+    assert np.ptp(stress.loading) < 0.02 * stress.loading.max()
+
+
+@pytest.mark.deep
+def test_the_most_production_is_at_the_rating_of_the_gearbox(study_of):
+    """Production grows with the speed until the torque has its rating: two per cent more exceed it."""
+    found = lw.optimise(study_of("speed.toml"), 40)
+    best = found.responses
+    assert 0.99 < best["torque"] <= 1
+    assert best["loading"] < 1
+    speed = found.variables["speed"]
+    faster = lw.rod_string(lw.replace(found.machine, {"drive.speed": 1.02 * speed}))
+    assert faster.gear.gear_load > 1
+    assert faster.production > best["production"]
+    assert speed * 30 / np.pi == pytest.approx(8.2, abs=0.05)
+
+
+def test_the_best_counterbalance_for_the_motor_is_that_of_least_squares(study_of):
+    """The mean square of T_rod − M sin θ is lowest at M = ⟨T_rod sin θ⟩/⟨sin² θ⟩ over the crank angle."""
+    found = lw.optimise(study_of("counterbalance.toml", well=SIZED), 12)
+    gear = lw.rod_string(found.machine).gear
+    sine, rod = np.sin(gear.crank_angle[:-1]), gear.torque_rod[:-1]
+    lowest = np.sqrt(np.mean((rod - (rod @ sine) / (sine @ sine) * sine) ** 2))
+    assert found.responses["rms"] == pytest.approx(lowest, rel=2e-3)
+    assert found.variables["counterbalance"] == pytest.approx((rod @ sine) / (sine @ sine), rel=0.05)
+
+
+def test_the_smallest_motor_that_bears_its_torque_is_chosen(study_of):
+    """Of three the smallest comes to rest at a peak; the middle one is within its rating, which the root mean
+    square over time of its own steady motion confirms.
+    """
+    found = lw.optimise(study_of("motors.toml", well=MOTOR), 12)
+    assert found.variables["motor"] == "4A160M6U3"
+    motion = lw.rod_string(found.machine)
+    steady = motion.drive
+    weights = np.gradient(steady.time)
+    rms = np.sqrt(weights @ steady.torque_motor**2 / weights.sum())
+    assert rms == pytest.approx(found.responses["rms"], rel=1e-2)
+    assert rms < found.responses["rated"]
+    assert motion.to_dict()["drive"]["torque_motor_rms"] == steady.torque_motor_rms

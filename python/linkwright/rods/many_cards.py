@@ -51,7 +51,7 @@ class CardDiagnoses(CardNumbers[Floats]):
     @property
     def verdicts(self) -> Annotated[tuple[str, ...], About("What each card shows, in some words.")]:
         """Not diagnosed; or rods overloaded by the Goodman diagram, else whether the barrel is full."""
-        words = np.where(self.fillage >= FULL, "pump full", "partial fillage")
+        words = np.where(self.fillage >= FULL, "full pump", "partial fillage")
         words = np.where(self.loading_max > 1, "rods overloaded", words)
         return tuple(np.where([*map(bool, self.faults)], "not diagnosed", words).tolist())
 

@@ -113,10 +113,9 @@ class RodStringMotion(StringNumbers[float]):
         return self.power_hydraulic / self.power_rod
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
-        """Scalars by name, and those of its parts: terms of API RP 11L, stresses of the sections, gearbox."""
-        parts = {
-            name: getattr(self, name) for name in ("numbers", "gear", "gear_best") if getattr(self, name)
-        }
+        """Scalars by name, and those of its parts: terms of API RP 11L, stresses, gearbox, drive."""
+        names = ("numbers", "gear", "gear_best", "drive")
+        parts = {name: getattr(self, name) for name in names if getattr(self, name)}
         found = super().to_dict(curves=curves) | {"stress": self.stress.to_dict(curves=True)}
         return found | {name: part.to_dict(curves=curves) for name, part in parts.items()}
 
