@@ -9,8 +9,8 @@
 | `commands` | ``linkwright rods``: prediction, and diagnosis of a card |
 | `core` | The core's string of sucker rods |
 | `diagnosis` | Diagnosis of a measured surface card |
+| `field_day` | Cards of a field day: their files, and what is shown and written of them |
 | `figures` | Figures of rod strings: cards, torque of the gearbox, Goodman diagram, loads by depth |
-| `measured` | The measured card of a machine file, diagnosed |
 | `gradient` | Derivatives of a predicted rod string by entries |
 | `many` | Many predictions at once |
 | `many_cards` | Measured cards of a field day at once |

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Curves, FolderOutput, belong_to, to_folder
@@ -82,64 +82,60 @@ def rods(
         require("pyarrow.parquet", "studies", "Parquet files need pyarrow")
     machine = file.read()
     if cards is not None:
-        to.hand_over(_day(machine, cards, period, damping, parquet=parquet))
+        to.hand_over(_day(machine, cards, parquet=parquet, period=period, damping=damping))
     elif card is not None:
-        to.hand_over(_diagnosed(machine, card, period, damping, harmonics))
+        to.hand_over(_diagnosed(machine, card, period, damping=damping, harmonics=harmonics))
     else:
         to.hand_over(_predicted(machine))
+
+
+def _answer(
+    machine: Machine, name: str, result: Any, kind: str, findings: Any, warnings: Any, **more: Any
+) -> Answer:
+    """The answer of a result; `kind`: what its tables begin with, `more`: figures and files."""
+    return Answer(
+        machine=machine,
+        is_described=True,
+        results={name: result},
+        findings=list(findings),
+        warnings=list(warnings),
+        head=machine.name,
+        tables=later(f"rods.{kind}_tables", result),
+        **more,
+    )
 
 
 def _predicted(machine: Machine) -> Answer:
     from linkwright.rods.prediction import rod_string, string_of
     from linkwright.rods.warnings import string_findings, string_warnings
 
-    motion = rod_string(machine)
-    return Answer(
-        machine=machine,
-        is_described=True,
-        results={"rod_string": motion},
-        findings=list(string_findings(motion)),
-        warnings=list(string_warnings(string_of(machine), motion)),
-        head=machine.name,
-        tables=later("rods.tables:string_tables", motion),
-        figures=later("rods.figures:string_figures", string_of(machine), motion),
+    motion, string = rod_string(machine), string_of(machine)
+    return _answer(
+        *(machine, "rod_string", motion, "tables:string"),
+        *(string_findings(motion), string_warnings(string, motion)),
+        figures=later("rods.figures:string_figures", string, motion),
         files={"cards.csv": later("rods.tables:cards_csv", motion)},
     )
 
 
-def _diagnosed(
-    machine: Machine, path: Path, period: float | None, damping: float | None, harmonics: int | None
-) -> Answer:
+def _diagnosed(machine: Machine, path: Path, period: float | None, **how: Any) -> Answer:
     from linkwright.rods.card import read_card
     from linkwright.rods.diagnosis import diagnose_card
     from linkwright.rods.prediction import string_of
     from linkwright.rods.warnings import card_findings, diagnosis_warnings
 
     card = read_card(path)
-    found = diagnose_card(
-        machine,
-        card.position,
-        card.load,
-        period=card.period if period is None else period,
-        damping=damping,
-        harmonics=harmonics,
-    )
-    return Answer(
-        machine=machine,
-        is_described=True,
-        results={"card_diagnosis": found},
-        findings=list(card_findings(found)),
-        warnings=list(diagnosis_warnings(string_of(machine), found)),
-        head=machine.name,
-        tables=later("rods.tables:diagnosis_tables", found),
+    period = card.period if period is None else period
+    found = diagnose_card(machine, card.position, card.load, period=period, **how)
+    return _answer(
+        *(machine, "card_diagnosis", found, "tables:diagnosis"),
+        *(card_findings(found), diagnosis_warnings(string_of(machine), found)),
         figures=later("rods.figures:compared_figures", machine, found),
         files={"cards.csv": later("rods.tables:cards_csv", found)},
     )
 
 
-def _day(
-    machine: Machine, place: str, period: float | None, damping: float | None, *, parquet: bool
-) -> Answer:
+def _day(machine: Machine, place: str, *, parquet: bool, **how: Any) -> Answer:
     from linkwright.kernel.command.console import bar
     from linkwright.rods.field_day import card_files, require_some
     from linkwright.rods.many_cards import diagnose_cards
@@ -147,20 +143,15 @@ def _day(
 
     files = card_files(place)
     with bar("cards") as watch:
-        day = diagnose_cards(machine, files, damping=damping, period=period, watch=watch)
+        day = diagnose_cards(machine, files, watch=watch, **how)
     require_some(day)
-    written = {"cards.csv": later("rods.field_day:day_csv", day)}
-    if parquet:
-        written["cards.parquet"] = later("rods.field_day:day_parquet", day)
-    return Answer(
-        machine=machine,
+    written = {"csv": "rods.field_day:day_csv"} | (
+        {"parquet": "rods.field_day:day_parquet"} if parquet else {}
+    )
+    return _answer(
+        *(machine, "card_diagnoses", day, "field_day:day"),
+        *(day_findings(machine, day), day_warnings(machine, day)),
         names=day.names,
-        is_described=True,
-        results={"card_diagnoses": day},
-        findings=list(day_findings(machine, day)),
-        warnings=list(day_warnings(machine, day)),
-        head=machine.name,
-        tables=later("rods.field_day:day_tables", day),
         figures=later("rods.field_day:day_figures", day),
-        files=written,
+        files={f"cards.{ending}": later(place, day) for ending, place in written.items()},
     )

@@ -18,6 +18,7 @@ Pumps,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
@@ -26,8 +27,9 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
-from linkwright.rods.card import SurfaceCard, checked_card
+from linkwright.rods.card import SurfaceCard, checked_card, timed_card
 from linkwright.rods.core import cards_of, sample_counts
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.plunger_load import (
@@ -38,7 +40,7 @@ from linkwright.rods.plunger_load import (
     plunger_load,
     pump_of,
 )
-from linkwright.rods.prediction import station_names, string_of
+from linkwright.rods.prediction import BALANCE, DYNAMIC_LOAD, ROD_POSITION, station_names, string_of
 from linkwright.rods.spectrum import Filtered, filtered, smoothed
 from linkwright.rods.stress import RodStress, rod_stress
 
@@ -58,53 +60,32 @@ _OVERDAMPED = 5.0
 _PERIODS, _PERIOD_AGREES = (1.0, 300.0), 1.5
 
 
+_of = partial(Label, table="diagnosis")
+
+
 @dataclass(frozen=True)
-class CardDiagnosis(CardNumbers[float]):
+class CardDiagnosis(CardNumbers[float], Result):
     """A measured card along the rod string down to the pump."""
 
     time: Annotated[Floats, Label("time", "t", "s", "From the first sample.")]
     stations: Annotated[tuple[str, ...], About("The polished rod, the tapers, the pump.")]
     position: Annotated[Floats, Label("position", "u", "m", "Upward.", "(stations, n)")]
-    load: Annotated[
-        Floats,
-        Label(
-            "dynamic load",
-            "F",
-            "N",
-            "Tension beyond the weight of the rods in the fluid below.",
-            "(stations, n)",
-        ),
-    ]
-    rod_position: Annotated[
-        Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
-    ]
+    load: Annotated[Floats, DYNAMIC_LOAD]
+    rod_position: Annotated[Floats, ROD_POSITION]
     rod_load: Annotated[Floats, Label("load of the polished rod", "W", "N", "By its harmonics.")]
-    fluid_load_file: Annotated[
-        float,
-        Label("fluid load by the machine file", "", "N", table="diagnosis", before="production"),
-    ]
+    fluid_load_file: Annotated[float, _of("fluid load by the machine file", "", "N", before="production")]
     intake_pressure: Annotated[
-        float,
-        Label("intake pressure by the pump card", "p_i", "Pa", table="diagnosis", before="production"),
+        float, _of("intake pressure by the pump card", "p_i", "Pa", before="production")
     ]
-    power_damping: Annotated[float, Label("power lost to damping", "P_c", "W", table="diagnosis")]
-    damping: Annotated[float, Label("damping", "c", "1/s", table="diagnosis")]
-    damping_factor: Annotated[float, Label("damping factor", "ν", "", "2cL/(πa).", table="diagnosis")]
+    power_damping: Annotated[float, _of("power lost to damping", "P_c", "W")]
+    damping: Annotated[float, _of("damping", "c", "1/s")]
+    damping_factor: Annotated[float, _of("damping factor", "ν", "", "2cL/(πa).")]
     is_fitted: Annotated[bool, About("Whether the damping was fitted to the card.")]
-    harmonics: Annotated[int, Label("harmonics of the load", "", "", "Above its noise.", table="diagnosis")]
-    harmonics_position: Annotated[
-        int, Label("harmonics of the position", "", "", "Above its noise.", table="diagnosis")
-    ]
-    noise: Annotated[
-        float, Label("noise of the load", "", "N", "Standard deviation of a sample.", table="diagnosis")
-    ]
-    noise_position: Annotated[
-        float, Label("noise of the position", "", "m", "Standard deviation of a sample.", table="diagnosis")
-    ]
-    balance: Annotated[
-        float,
-        Label("residual of the work balance", "", "", "Of the string, over the work of the polished rod."),
-    ]
+    harmonics: Annotated[int, _of("harmonics of the load", "", "", "Above its noise.")]
+    harmonics_position: Annotated[int, _of("harmonics of the position", "", "", "Above its noise.")]
+    noise: Annotated[float, _of("noise of the load", "", "N", "Standard deviation of a sample.")]
+    noise_position: Annotated[float, _of("noise of the position", "", "m", "Standard deviation of a sample.")]
+    balance: Annotated[float, BALANCE]
     stress: Annotated[RodStress, About("Loads and stresses of the sections.")]
 
     def to_dict(self, *, curves: bool = False) -> dict[str, Any]:
@@ -272,3 +253,15 @@ def _diagnosis(
         balance=float((cards.work[0] - cards.work[-1] - lost) / cards.work[0]),
         stress=rod_stress(string, cards.load),
     )
+
+
+def card_diagnosis(machine: Machine) -> CardDiagnosis:
+    """Diagnosis of the measured card of a machine file; an `InputError` without one."""
+    entries = machine.rod_string.card if machine.rod_string is not None else None
+    if entries is None:
+        raise InputError(f"{machine.name} has no [rod_string.card]: expected a measured card")
+    times = None if entries.time is None else np.array(entries.time)
+    card = timed_card(np.array(entries.position), np.array(entries.load), times, "rod_string.card")
+    period = card.period if entries.period is None else entries.period
+    how: Any = {"period": period, "damping": entries.damping, "harmonics": entries.harmonics}
+    return diagnose_card(machine, card.position, card.load, **how)

@@ -15,6 +15,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import Label
+from linkwright.kernel.result import Result
 from linkwright.machine.address import replace
 from linkwright.machine.machine import Machine
 from linkwright.rods.core import Cards, numbers_of, solve_rows
@@ -30,7 +31,7 @@ _VARIED = ("rod_string.", "drive.speed")
 
 
 @dataclass(frozen=True)
-class RodStrings(StringNumbers[Floats]):
+class RodStrings(StringNumbers[Floats], Result):
     """Predictions of many rod strings; NaN where no periodic motion was found."""
 
     loading_max: Annotated[

@@ -17,6 +17,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label, declared
+from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.rods.card import SurfaceCard, checked_card, read_card
 from linkwright.rods.core import cards_in_rows, sample_counts
@@ -37,7 +38,7 @@ Given = SurfaceCard | str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
-class CardDiagnoses(CardNumbers[Floats]):
+class CardDiagnoses(CardNumbers[Floats], Result):
     """Diagnoses of many cards of one well; NaN for a card with a fault."""
 
     loading_max: Annotated[

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, cast
 
 import numpy as np
@@ -22,72 +23,41 @@ from linkwright.kernel.quantities import Label
 from linkwright.kernel.result import Result
 from linkwright.rods.model.rod_string import RodString
 
+_of = partial(Label, table="rod_numbers")
+
 
 @dataclass(frozen=True)
 class ApiNumbers(Result):
     """Dimensionless terms of a pumping installation by API RP 11L."""
 
-    speed: Annotated[
-        float, Label("pumping speed", "N", "Hz", "Strokes per time.", table="rod_numbers", usual="1/min")
-    ]
+    speed: Annotated[float, _of("pumping speed", "N", "Hz", "Strokes per time.", usual="1/min")]
     natural_frequency: Annotated[
-        float,
-        Label(
-            "natural frequency of a uniform string",
-            "N_o",
-            "Hz",
-            "a/(4L).",
-            table="rod_numbers",
-            usual="1/min",
-        ),
+        float, _of("natural frequency of a uniform string", "N_o", "Hz", "a/(4L).", usual="1/min")
     ]
     natural_frequency_tapered: Annotated[
-        float,
-        Label("natural frequency of the tapered string", "N_o′", "Hz", table="rod_numbers", usual="1/min"),
+        float, _of("natural frequency of the tapered string", "N_o′", "Hz", usual="1/min")
     ]
-    frequency_factor: Annotated[float, Label("frequency factor", "F_c", "", "N_o′/N_o.", table="rod_numbers")]
-    spring_rate: Annotated[float, Label("spring rate of the string", "k_r", "N/m", table="rod_numbers")]
+    frequency_factor: Annotated[float, _of("frequency factor", "F_c", "", "N_o′/N_o.")]
+    spring_rate: Annotated[float, _of("spring rate of the string", "k_r", "N/m")]
     stroke_force: Annotated[
         float,
-        Label(
-            "force that stretches the rods by the stroke",
-            "S k_r",
-            "N",
-            "Stroke times spring rate.",
-            table="rod_numbers",
-        ),
+        _of("force that stretches the rods by the stroke", "S k_r", "N", "Stroke times spring rate."),
     ]
-    load_ratio: Annotated[float, Label("fluid load", "F_o/Sk_r", "", "Over S k_r.", table="rod_numbers")]
-    speed_ratio: Annotated[float, Label("speed", "N/N_o", "", table="rod_numbers")]
-    speed_ratio_tapered: Annotated[
-        float, Label("speed by the tapered string", "N/N_o′", "", table="rod_numbers")
-    ]
-    stroke_ratio: Annotated[float, Label("plunger stroke", "S_p/S", "", table="rod_numbers")]
-    peak_ratio: Annotated[
-        float, Label("peak load", "F_1/Sk_r", "", "PPRL − W_rf over S k_r.", table="rod_numbers")
-    ]
-    minimum_ratio: Annotated[
-        float, Label("minimum load", "F_2/Sk_r", "", "W_rf − MPRL over S k_r.", table="rod_numbers")
-    ]
+    load_ratio: Annotated[float, _of("fluid load", "F_o/Sk_r", "", "Over S k_r.")]
+    speed_ratio: Annotated[float, _of("speed", "N/N_o", "")]
+    speed_ratio_tapered: Annotated[float, _of("speed by the tapered string", "N/N_o′", "")]
+    stroke_ratio: Annotated[float, _of("plunger stroke", "S_p/S", "")]
+    peak_ratio: Annotated[float, _of("peak load", "F_1/Sk_r", "", "PPRL − W_rf over S k_r.")]
+    minimum_ratio: Annotated[float, _of("minimum load", "F_2/Sk_r", "", "W_rf − MPRL over S k_r.")]
     torque_ratio: Annotated[
         float | None,
-        Label(
-            "peak torque of the gearbox",
-            "2T/S²k_r",
-            "",
+        _of(
+            *("peak torque of the gearbox", "2T/S²k_r", ""),
             "With the best counterbalance; None without a pumping unit.",
-            table="rod_numbers",
         ),
     ]
     counterbalance_effect: Annotated[
-        float,
-        Label(
-            "counterbalance effect by API RP 11L",
-            "CBE",
-            "N",
-            "1.06 (W_rf + F_o/2).",
-            table="rod_numbers",
-        ),
+        float, _of("counterbalance effect by API RP 11L", "CBE", "N", "1.06 (W_rf + F_o/2).")
     ]
 
 

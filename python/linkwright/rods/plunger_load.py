@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import FindingError, InputError
 from linkwright.kernel.quantities import Label
-from linkwright.kernel.result import Result
 from linkwright.rods.card import SurfaceCard
 from linkwright.rods.model.rod_string import RodString
 
@@ -27,53 +27,27 @@ _COLUMN = 1.75
 N = TypeVar("N")
 
 
+_of = partial(Label, shape="(names,)", table="diagnosis")
+
+
 @dataclass(frozen=True)
-class CardNumbers(Result, Generic[N]):
+class CardNumbers(Generic[N]):
     """What a measured card shows, or what each of many does."""
 
-    period: Annotated[N, Label("period of a stroke", "T", "s", shape="(names,)", table="diagnosis")]
-    stroke: Annotated[N, Label("stroke of the polished rod", "S", "m", shape="(names,)", table="diagnosis")]
-    load_max: Annotated[
-        N, Label("peak polished-rod load", "PPRL", "N", "Measured.", "(names,)", table="diagnosis")
-    ]
-    load_min: Annotated[
-        N, Label("minimum polished-rod load", "MPRL", "N", "Measured.", "(names,)", table="diagnosis")
-    ]
-    plunger_stroke: Annotated[
-        N, Label("plunger stroke", "S_p", "m", "Against the barrel.", "(names,)", table="diagnosis")
-    ]
+    period: Annotated[N, _of("period of a stroke", "T", "s")]
+    stroke: Annotated[N, _of("stroke of the polished rod", "S", "m")]
+    load_max: Annotated[N, _of("peak polished-rod load", "PPRL", "N", "Measured.")]
+    load_min: Annotated[N, _of("minimum polished-rod load", "MPRL", "N", "Measured.")]
+    plunger_stroke: Annotated[N, _of("plunger stroke", "S_p", "m", "Against the barrel.")]
     fillage: Annotated[
-        N,
-        Label(
-            "fillage",
-            "f",
-            "",
-            "Share of the plunger stroke left when half the fluid load has fallen.",
-            "(names,)",
-            table="diagnosis",
-        ),
+        N, _of("fillage", "f", "", "Share of the plunger stroke left when half the fluid load has fallen.")
     ]
-    fluid_load: Annotated[
-        N, Label("fluid load on the plunger", "F_o", "N", "By the pump card.", "(names,)", table="diagnosis")
-    ]
+    fluid_load: Annotated[N, _of("fluid load on the plunger", "F_o", "N", "By the pump card.")]
     production: Annotated[
-        N,
-        Label(
-            "production",
-            "Q",
-            "m³/s",
-            "Fillage times plunger displacement.",
-            "(names,)",
-            table="diagnosis",
-            usual="m^3/d",
-        ),
+        N, _of("production", "Q", "m³/s", "Fillage times plunger displacement.", usual="m^3/d")
     ]
-    power_rod: Annotated[
-        N, Label("power of the polished rod", "P_PR", "W", shape="(names,)", table="diagnosis")
-    ]
-    power_pump: Annotated[
-        N, Label("power of the pump", "P_p", "W", "Area of its card.", "(names,)", table="diagnosis")
-    ]
+    power_rod: Annotated[N, _of("power of the polished rod", "P_PR", "W")]
+    power_pump: Annotated[N, _of("power of the pump", "P_p", "W", "Area of its card.")]
 
 
 def card_numbers(

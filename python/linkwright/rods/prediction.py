@@ -26,6 +26,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ConvergenceError, InputError
 from linkwright.kernel.public import public
 from linkwright.kernel.quantities import About, Label
+from linkwright.kernel.result import Result
 from linkwright.machine.machine import Machine
 from linkwright.pumping.gear_torque import GearTorque, gear_torque
 from linkwright.rods.core import Solved, sample_counts, solve_string
@@ -51,8 +52,18 @@ _TRIALS = 4
 _CORNERS = 360
 
 
+# Of a prediction and of a diagnosis alike.
+DYNAMIC_LOAD = Label(
+    *("dynamic load", "F", "N", "Tension beyond the weight of the rods in the fluid below.", "(stations, n)")
+)
+ROD_POSITION = Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
+BALANCE = Label(
+    *("residual of the work balance", "", "", "Of the string, over the work of the polished rod.")
+)
+
+
 @dataclass(frozen=True)
-class RodStringMotion(StringNumbers[float]):
+class RodStringMotion(StringNumbers[float], Result):
     """A rod string with its pump over one stroke."""
 
     time: Annotated[Floats, Label("time", "t", "s", "From the bottom of the stroke.")]
@@ -61,19 +72,8 @@ class RodStringMotion(StringNumbers[float]):
         Floats,
         Label("position", "u", "m", "Upward, from the string at rest without pump load.", "(stations, n)"),
     ]
-    load: Annotated[
-        Floats,
-        Label(
-            "dynamic load",
-            "F",
-            "N",
-            "Tension beyond the weight of the rods in the fluid below.",
-            "(stations, n)",
-        ),
-    ]
-    rod_position: Annotated[
-        Floats, Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
-    ]
+    load: Annotated[Floats, DYNAMIC_LOAD]
+    rod_position: Annotated[Floats, ROD_POSITION]
     rod_load: Annotated[
         Floats,
         Label("load of the polished rod", "W", "N", "With the weight of rods and the stuffing-box friction."),
@@ -86,10 +86,7 @@ class RodStringMotion(StringNumbers[float]):
         GearTorque | None, About("The same with the best counterbalance; None without a pumping unit.")
     ]
     drive: Annotated[SteadyState | None, About("Steady motion of the drive; None without a motor.")]
-    balance: Annotated[
-        float,
-        Label("residual of the work balance", "", "", "Of the string, over the work of the polished rod."),
-    ]
+    balance: Annotated[float, BALANCE]
     harmonics: Annotated[
         int, Label("harmonics", "", "", "Of the stroke, the finest solution.", table="rod_string")
     ]

@@ -6,6 +6,7 @@ An extreme of a curve has the derivative of the curve at its place.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any, Generic, TypeVar
 
 import numpy as np
@@ -13,7 +14,6 @@ import numpy as np
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.quantities import Label
-from linkwright.kernel.result import Result
 from linkwright.rods.core import Cards
 from linkwright.rods.model.rod_string import GRAVITY, RodString
 
@@ -21,41 +21,34 @@ from linkwright.rods.model.rod_string import GRAVITY, RodString
 N = TypeVar("N")
 
 
+_of = partial(Label, table="rod_string")
+
+
 @dataclass(frozen=True)
-class StringNumbers(Result, Generic[N]):
+class StringNumbers(Generic[N]):
     """Loads, strokes, production and powers of a predicted string, or of many."""
 
-    period: Annotated[N, Label("period of a stroke", "T", "s", over="period", table="rod_string")]
-    stroke: Annotated[N, Label("stroke of the polished rod", "S", "m", table="rod_string")]
+    period: Annotated[N, _of("period of a stroke", "T", "s", over="period")]
+    stroke: Annotated[N, _of("stroke of the polished rod", "S", "m")]
     plunger_stroke: Annotated[
         N,
-        Label(
-            "effective plunger stroke",
-            "S_p",
-            "m",
+        _of(
+            *("effective plunger stroke", "S_p", "m"),
             "Against the barrel, which moves with tubing that is not anchored.",
-            table="rod_string",
         ),
     ]
     plunger_travel: Annotated[N, Label("travel of the plunger", "", "m", "Against the casing.")]
-    load_max: Annotated[N, Label("peak polished-rod load", "PPRL", "N", table="rod_string")]
-    load_min: Annotated[N, Label("minimum polished-rod load", "MPRL", "N", table="rod_string")]
-    weight_air: Annotated[N, Label("weight of the rods in air", "W_r", "N", table="rod_string")]
-    weight_fluid: Annotated[N, Label("weight of the rods in the fluid", "W_rf", "N", table="rod_string")]
-    fluid_load: Annotated[N, Label("fluid load on the plunger", "F_o", "N", table="rod_string")]
-    stretch: Annotated[
-        N, Label("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.", table="rod_string")
-    ]
-    production: Annotated[
-        N,
-        Label("production", "Q", "m³/s", "Liquid, at discharge pressure.", table="rod_string", usual="m^3/d"),
-    ]
-    power_rod: Annotated[N, Label("power of the polished rod", "P_PR", "W", table="rod_string")]
-    power_pump: Annotated[N, Label("power of the pump", "P_p", "W", "Area of its card.", table="rod_string")]
-    power_damping: Annotated[N, Label("power lost to damping", "P_c", "W", table="rod_string")]
-    power_hydraulic: Annotated[
-        N, Label("hydraulic power", "P_h", "W", "Production times pressure rise.", table="rod_string")
-    ]
+    load_max: Annotated[N, _of("peak polished-rod load", "PPRL", "N")]
+    load_min: Annotated[N, _of("minimum polished-rod load", "MPRL", "N")]
+    weight_air: Annotated[N, _of("weight of the rods in air", "W_r", "N")]
+    weight_fluid: Annotated[N, _of("weight of the rods in the fluid", "W_rf", "N")]
+    fluid_load: Annotated[N, _of("fluid load on the plunger", "F_o", "N")]
+    stretch: Annotated[N, _of("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.")]
+    production: Annotated[N, _of("production", "Q", "m³/s", "Liquid, at discharge pressure.", usual="m^3/d")]
+    power_rod: Annotated[N, _of("power of the polished rod", "P_PR", "W")]
+    power_pump: Annotated[N, _of("power of the pump", "P_p", "W", "Area of its card.")]
+    power_damping: Annotated[N, _of("power lost to damping", "P_c", "W")]
+    power_hydraulic: Annotated[N, _of("hydraulic power", "P_h", "W", "Production times pressure rise.")]
 
 
 def string_scalars(

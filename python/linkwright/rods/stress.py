@@ -16,6 +16,7 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
@@ -26,36 +27,31 @@ from linkwright.kernel.result import Result
 from linkwright.rods.model.rod_string import GRAVITY, RodString
 from linkwright.rods.scalars import goodman
 
+_of = partial(Label, shape="(sections,)")
+
 
 @dataclass(frozen=True)
 class RodStress(Result):
     """Loads and stresses of the sections; NaN in the limits of one without a tensile strength."""
 
     sections: Annotated[tuple[str, ...], About("Size or diameter of each section.")]
-    length: Annotated[Floats, Label("length", "L", "m", shape="(sections,)")]
-    load_max: Annotated[Floats, Label("maximum load at the top", "F_max", "N", shape="(sections,)")]
-    load_min: Annotated[Floats, Label("minimum load at the top", "F_min", "N", shape="(sections,)")]
+    length: Annotated[Floats, _of("length", "L", "m")]
+    load_max: Annotated[Floats, _of("maximum load at the top", "F_max", "N")]
+    load_min: Annotated[Floats, _of("minimum load at the top", "F_min", "N")]
     load_bottom_min: Annotated[
         Floats,
-        Label(
-            "minimum load at the lower end",
-            "",
-            "N",
+        _of(
+            *("minimum load at the lower end", "", "N"),
             "Effective tension: below zero the rods tend to buckle.",
-            shape="(sections,)",
         ),
     ]
-    stress_max: Annotated[Floats, Label("maximum stress", "S_max", "Pa", shape="(sections,)")]
-    stress_min: Annotated[Floats, Label("minimum stress", "S_min", "Pa", shape="(sections,)")]
+    stress_max: Annotated[Floats, _of("maximum stress", "S_max", "Pa")]
+    stress_min: Annotated[Floats, _of("minimum stress", "S_min", "Pa")]
     stress_permissible: Annotated[
-        Floats,
-        Label("permissible maximum stress", "S_A", "Pa", "At this minimum stress.", shape="(sections,)"),
+        Floats, _of("permissible maximum stress", "S_A", "Pa", "At this minimum stress.")
     ]
-    loading: Annotated[
-        Floats,
-        Label("stress range over the permissible range", "", "", "Goodman loading.", shape="(sections,)"),
-    ]
-    tensile: Annotated[Floats, Label("minimum tensile strength", "T", "Pa", shape="(sections,)")]
+    loading: Annotated[Floats, _of("stress range over the permissible range", "", "", "Goodman loading.")]
+    tensile: Annotated[Floats, _of("minimum tensile strength", "T", "Pa")]
 
     @property
     def loading_max(self) -> Annotated[float | None, Label("maximum Goodman loading", "", "")]:
