@@ -201,8 +201,8 @@ def _require_load(mean: float, string: RodString) -> None:
     if low <= -mean <= high:
         remedy = "; the loads count downward: reverse their sign"
     raise InputError(
-        f"card: found a mean load of {mean:.4g} N, expected {low:.4g} to {high:.4g} N by the weight of the "
-        f"rods in the fluid, {weight:.4g} N, and the column of fluid on the plunger"
+        f"card: found a mean load of {mean:.0f} N, expected {low:.0f} to {high:.0f} N by the weight of the "
+        f"rods in the fluid, {weight:.0f} N, and the column of fluid on the plunger"
         + (remedy or "; compare the sections")
     )
 

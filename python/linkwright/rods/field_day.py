@@ -63,13 +63,14 @@ def day_tables(day: CardDiagnoses) -> Iterator[Table]:
         "day_cards",
         "Measured cards",
         parts_of(day, "names"),
-        ("card", "", "PPRL", "MPRL", "plunger stroke", "fillage", "fluid load", "{m^3/d}", "verdict"),
+        ("card", "", "PPRL", "MPRL", "plunger stroke", "fillage", "fluid load", "production", "verdict"),
         lambda card: str(card.name),
         "",
-        *("load_max", "load_min", "plunger_stroke", "fillage", "fluid_load", "production"),
+        *("load_max", "load_min", "plunger_stroke", "fillage", "fluid_load"),
+        lambda card: measured(card.production, "m³/s", usual="m^3/d"),
         lambda card: words[card.name],
     )
-    faults = [(name, "", fault) for name, fault in zip(day.names, day.faults, strict=True) if fault]
+    faults: list[Row] = [(name, "", fault) for name, fault in zip(day.names, day.faults, strict=True) if fault]
     if faults:
         yield Table("day_faults", "Cards that were not diagnosed", ("card", "", "reason"), faults)
 
@@ -94,11 +95,11 @@ def _drawn(day: CardDiagnoses) -> Any:
     cards = np.arange(1, len(day.names) + 1, dtype=float)
 
     def dots(values: Floats, colour: str, label: str = "") -> Line:
-        return Line(values, colour, label, form=".")
+        return Line(values, colour, label, cards, ".")
 
     loads = [dots(day.load_max, RED, "PPRL"), dots(day.load_min, BLUE, "MPRL")]
     return line_figure(
-        cards,
+        np.array([0.5, len(cards) + 0.5]),
         Panel("load $F$ [N]", loads, None),
         Panel("fillage [%]", [dots(100 * day.fillage, RED)], None),
         height=4.2,

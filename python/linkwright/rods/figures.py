@@ -43,8 +43,8 @@ Strung = RodStringMotion | CardDiagnosis
 # Loads of the permissible load diagram that are drawn, over the range of the card beyond its ends.
 _BEYOND = 0.6
 
-# Load over the highest that is rounding.
-_ROUNDING = 1e-6
+# Load over the highest that is no compression, but the samples of a load that falls at once.
+_ROUNDING = 1e-4
 
 # Stresses are drawn in MPa.
 _MEGA = 1e6

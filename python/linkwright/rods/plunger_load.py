@@ -94,8 +94,8 @@ def pump_of(string: RodString, position: Floats, load: Floats) -> PlungerLoad:
     column = float(string.discharge * string.pump.area)
     if pump.fluid_load > _COLUMN * column:
         raise InputError(
-            f"card: its pump card has a fluid load of {pump.fluid_load:.4g} N, a column of fluid from the "
-            f"pump to the surface {column:.4g} N; compare period, units, plunger and sections, which are not "
+            f"card: its pump card has a fluid load of {pump.fluid_load:.0f} N, a column of fluid from the "
+            f"pump to the surface {column:.0f} N; compare period, units, plunger and sections, which are not "
             "those of the card"
         )
     return pump

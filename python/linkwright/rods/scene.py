@@ -25,8 +25,8 @@ _PIECES, _INSTANTS = 12, 180
 # Depth as it is drawn, over the stroke; room of the plunger in its barrel, and width of the well, over it.
 _DEPTH, _ROOM, _WIDTH = 2.0, 0.15, 0.3
 
-# Stress over the highest that is rounding.
-_ROUNDING = 1e-6
+# Stress over the highest that is no compression, but the samples of a load that falls at once.
+_ROUNDING = 1e-4
 
 
 def string_shown(machine: Machine) -> RodStringMotion | None:

@@ -15,10 +15,8 @@ from linkwright.kernel.page.table import (
     known_rows,
     part_table,
     parts_of,
-    rows_in,
     rows_of,
 )
-from linkwright.kernel.quantities import in_table
 from linkwright.kernel.reader.numbers import measured, number, quantity
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.rods.diagnosis import CardDiagnosis
@@ -104,16 +102,17 @@ def _loading(section: Any) -> str:
 
 
 def _gear(gear: GearTorque, best: GearTorque) -> Table:
+    """Torques with the given counterbalance, and with the best one where it is another."""
     rated = {"torque_net_up": f"rated {measured(gear.torque_rated, 'N m')}"} if gear.torque_rated else {}
-    # Work and maximum load are those of the string, at corners between which this one is straight.
-    unknown = [name for name in in_table(GearTorque, "gear_torque") if getattr(gear, name) is None]
-    without = [*unknown, "load_max", "work"]
-    of_given, of_best = (rows_in(each, "gear_torque", rated, without=without) for each in (gear, best))
-    rows: list[Row] = [
-        (given[0], given[1], given[2], other[2], given[3])
-        for given, other in zip(of_given, of_best, strict=True)
-    ]
-    heads = ("quantity", "", "value", "best counterbalance", "rating")
+    # Work and maximum load are those of the string, not those of the straight lines between angles.
+    rows, of_best = (
+        known_rows(each, "gear_torque", rated, without=("load_max", "work")) for each in (gear, best)
+    )
+    heads: Row = ("quantity", "", "value", "rating")
+    if best is not gear:
+        heads = ("quantity", "", "value", "best counterbalance", "rating")
+        beside = {row[0]: row[2] for row in of_best}
+        rows = [(*row[:3], beside.get(row[0], "–"), row[3]) for row in rows]
     return Table("rod_gear", "Torque of the gearbox under the rod string", heads, rows)
 
 

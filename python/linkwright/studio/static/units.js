@@ -19,6 +19,7 @@ export const UNITS = {
   kg: { word: "Mass", units: { kg: 1, g: 1e-3, t: 1e3, lb: 0.45359237 }, sets: ["kg", "kg", "lb"] },
   "kg m²": { word: "Moment of inertia", units: { "kg m²": 1, "kg cm²": 1e-4, "lb ft²": 0.04214011009380480 }, sets: ["kg m²", "kg m²", "lb ft²"] },
   W: { word: "Power", units: { W: 1, kW: 1e3, hp: 745.6998715822701 }, sets: ["W", "kW", "hp"] },
+  "m³/s": { word: "Volume flow", units: { "m³/s": 1, "m³/d": 1 / 86400, "l/min": 1e-3 / 60, "bbl/d": 0.158987294928 / 86400 }, sets: ["m³/d", "m³/d", "bbl/d"] },
   s: { word: "Time", units: { s: 1, ms: 1e-3, min: 60 }, sets: ["s", "s", "s"] },
   J: { word: "Energy", units: { J: 1, kJ: 1e3, "kW h": 3.6e6, Btu: 1055.056 }, sets: ["J", "J", "Btu"] },
   Pa: { word: "Pressure", units: { Pa: 1, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 }, sets: ["MPa", "MPa", "psi"] },
