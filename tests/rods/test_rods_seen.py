@@ -13,9 +13,11 @@ import linkwright as lw
 from linkwright.app.report.scene import moving_scene, scene
 from linkwright.app.study import study
 from linkwright.pumping.unit import pumping_unit
+from linkwright.rods import prediction
 from linkwright.rods.along import along_rods, cards
 from linkwright.rods.figures import string_figures
 from linkwright.rods.model.rod_string import GRAVITY
+from linkwright.rods.tables import string_headline, string_tables
 from linkwright.rods.warnings import string_warnings
 from linkwright.studio.analyses import fast
 
@@ -184,3 +186,33 @@ def test_the_studio_draws_and_plots_a_string_with_every_change():
             assert len(curve["values"]) == len(plot["x"]["values"])
             assert curve["values"][0] == curve["values"][-1]
         assert (np.diff(plot["x"]["values"]) > 0).all()
+
+
+def test_speeds_are_shown_in_strokes_a_minute_and_production_by_the_day():
+    """8 strokes of 7.5 s a minute and volume a stroke times 11 520 strokes a day, where nobody asks for other
+    units; SI for who does.
+    """
+    machine = lw.replace(UNIT, {"drive.speed": 8 * 2 * np.pi / 60})
+    motion = lw.rod_string(machine, accuracy=1e-2)
+    daily = motion.production * motion.period * 11_520
+
+    def shown(name, row):
+        tables = {table.name: table for table in string_tables(motion)}
+        return next(cells[2] for cells in tables[name].rows if cells[0] == row)
+
+    assert shown("rod_numbers", "pumping speed") == "8 1/min"
+    assert shown("rod_string", "production") == f"{daily:.4g} m³/d"
+    assert ("production", f"{daily:.4g}", "m³/d") in list(string_headline(motion))
+    with lw.shown_in("Hz, bbl/d"):
+        assert shown("rod_numbers", "pumping speed") == "0.1333 Hz"
+        assert shown("rod_string", "production") == f"{daily / 0.158987294928:.4g} bbl/d"
+
+
+def test_the_torque_of_the_gearbox_is_computed_for_the_last_solution_alone(monkeypatch):
+    """Once where the best counterbalance is given, however many samples were tried before."""
+    calls = []
+    known = prediction.gear_torque
+    monkeypatch.setattr(prediction, "gear_torque", lambda *given: calls.append(1) or known(*given))
+    motion = lw.rod_string(UNIT)
+    assert motion.harmonics > 1000
+    assert len(calls) == 1

@@ -70,7 +70,9 @@ def day_tables(day: CardDiagnoses) -> Iterator[Table]:
         lambda card: measured(card.production, "m³/s", usual="m^3/d"),
         lambda card: words[card.name],
     )
-    faults: list[Row] = [(name, "", fault) for name, fault in zip(day.names, day.faults, strict=True) if fault]
+    faults: list[Row] = [
+        (name, "", fault) for name, fault in zip(day.names, day.faults, strict=True) if fault
+    ]
     if faults:
         yield Table("day_faults", "Cards that were not diagnosed", ("card", "", "reason"), faults)
 

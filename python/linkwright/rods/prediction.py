@@ -58,7 +58,7 @@ DYNAMIC_LOAD = Label(
 )
 ROD_POSITION = Label("position of the polished rod", "s", "m", "Above the bottom of its stroke.")
 BALANCE = Label(
-    *("residual of the work balance", "", "", "Of the string, over the work of the polished rod.")
+    *("residual of the work balance", "", "", "Of the string, over the work of the polished rod."), scale=1.0
 )
 
 

@@ -37,18 +37,18 @@ class StringNumbers(Generic[N]):
             "Against the barrel, which moves with tubing that is not anchored.",
         ),
     ]
-    plunger_travel: Annotated[N, Label("travel of the plunger", "", "m", "Against the casing.")]
     load_max: Annotated[N, _of("peak polished-rod load", "PPRL", "N")]
     load_min: Annotated[N, _of("minimum polished-rod load", "MPRL", "N")]
+    production: Annotated[N, _of("production", "Q", "m³/s", "Liquid, at discharge pressure.", usual="m^3/d")]
     weight_air: Annotated[N, _of("weight of the rods in air", "W_r", "N")]
     weight_fluid: Annotated[N, _of("weight of the rods in the fluid", "W_rf", "N")]
     fluid_load: Annotated[N, _of("fluid load on the plunger", "F_o", "N")]
     stretch: Annotated[N, _of("stretch of the rods by the fluid load", "F_o/k_r", "m", "Static.")]
-    production: Annotated[N, _of("production", "Q", "m³/s", "Liquid, at discharge pressure.", usual="m^3/d")]
     power_rod: Annotated[N, _of("power of the polished rod", "P_PR", "W")]
     power_pump: Annotated[N, _of("power of the pump", "P_p", "W", "Area of its card.")]
     power_damping: Annotated[N, _of("power lost to damping", "P_c", "W")]
     power_hydraulic: Annotated[N, _of("hydraulic power", "P_h", "W", "Production times pressure rise.")]
+    plunger_travel: Annotated[N, Label("travel of the plunger", "", "m", "Against the casing.")]
 
 
 def string_scalars(
