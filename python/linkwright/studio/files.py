@@ -42,13 +42,13 @@ class Folder:
         # On Windows a colon leads to another drive, or into a hidden stream of a file.
         is_elsewhere = Path(name).is_absolute() or (system.WINDOWS and ":" in name)
         if not name.isprintable() or not name.endswith(".toml") or is_elsewhere:
-            raise InputError(f"{name!r}: expected the name of a .toml file below the folder of the studio")
+            raise InputError(f"{name!r}: expected the name of a .toml file below {self.root}")
         try:
             path = (self.root / name).resolve()
         except OSError as error:
             raise InputError(f"{name!r}: {error.strerror}") from None
         if not path.is_relative_to(self.root) or path.suffix != ".toml":
-            raise InputError(f"{name!r} lies outside the folder of the studio, {self.root}")
+            raise InputError(f"{name!r} lies outside the folder {self.root}")
         return path
 
     def read(self, name: str) -> str:
@@ -59,8 +59,9 @@ class Folder:
                 raise InputError(f"{name!r}: expected a file")
             return text_of(path, FILE_BYTES)
         except TextError as error:
+            expected = f", expected {error.expected}" if error.expected else ""
             raise InputError(
-                f"{name}: found {error.found}; {error.remedy or 'choose another file'}"
+                f"{name}: found {error.found}{expected}; {error.remedy or 'choose another file'}"
             ) from None
         except OSError as error:
             raise InputError(f"{name}: {error.strerror}") from None
