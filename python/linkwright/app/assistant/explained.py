@@ -7,7 +7,7 @@ glossary. Of a message that is whatever it names.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
@@ -63,7 +63,7 @@ def explained(words: str) -> dict[str, Any]:
         known = [entry.place[-1] for entry in entries()] + [term.term for term in glossary()]
         near = close_match(text, known) or "see the resource linkwright://schema, or `linkwright glossary`"
         raise InputError(f'found "{text}", which is no entry, quantity or term; {near}')
-    say = {"entries": _entry, "quantities": dict, "terms": _term}
+    say: dict[str, Callable[[Any], dict[str, Any]]] = {"entries": _entry, "quantities": dict, "terms": _term}
     return {of: [say[of](each) for each in known[:_LISTED]] for of, known in found.items() if known}
 
 
