@@ -126,6 +126,7 @@ def replies(folder: Path) -> Mapping[str, Any]:
             "sweep": await ask("sweep", file="study.toml", first=1, rows=3),
             "too many": await ask("sweep", file="study.toml", rows=1001),
             "far": await ask("sweep", file="far.toml"),
+            "motor": await ask("check", file="press.toml", set=["drive.motor.file=../outside.toml"]),
             "explain": await ask("explain", what="steady_state.unevenness"),
             "nothing": await ask("explain", what="unevenes"),
             **{name: await ask("check", file=name) for name in OUTSIDE},
@@ -203,6 +204,8 @@ def test_entries_and_resources_lead_nowhere_else(replies: Mapping[str, Any]) -> 
     """A study names no machine outside the folder, and no resource has the text of such a file."""
     assert replies["far"].is_error
     assert "far.toml:2: machine" in replies["far"].text
+    assert replies["motor"].is_error
+    assert "a file in the folder of the machine file, or below it" in replies["motor"].text
     assert all(isinstance(each, MCPError) for each in replies["refused"].values()), replies["refused"]
     assert "secret" not in str(replies["refused"])
 

@@ -42,7 +42,7 @@ class Folder:
         # On Windows a colon leads to another drive, or into a hidden stream of a file.
         is_elsewhere = Path(name).is_absolute() or (system.WINDOWS and ":" in name)
         if not name.isprintable() or not name.endswith(".toml") or is_elsewhere:
-            raise InputError(f"{name!r}: expected the name of a .toml file below {self.root}")
+            raise InputError(f"{name!r}: expected the name of a .toml file below the folder {self.root}")
         try:
             path = (self.root / name).resolve()
         except OSError as error:

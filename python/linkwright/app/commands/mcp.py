@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -40,4 +41,6 @@ def mcp(folder: Folder = None, seconds: Seconds = 60.0, skill: Skill = False) ->
     require("mcp.server.mcpserver", "mcp", "a server for assistants needs mcp 2")
     from linkwright.app.assistant.server import server
 
+    if sys.stdin.isatty():
+        click.echo("An assistant starts this command and speaks with it; end with Ctrl+C.", err=True)
     server(root, seconds).run("stdio")
