@@ -33,21 +33,21 @@ class Folder:
         """The folder at a path, links followed."""
         return cls(path.resolve())
 
-    def inside(self, name: str) -> Path:
+    def inside(self, name: str, ending: str = ".toml") -> Path:
         """The real path of a machine file below the folder, wherever links lead; an `InputError` if it is
         none.
 
-        `name`: relative to the folder, with strokes between its parts.
+        `name`: relative to the folder, with strokes between its parts; `ending`: that of another file.
         """
         # On Windows a colon leads to another drive, or into a hidden stream of a file.
         is_elsewhere = Path(name).is_absolute() or (system.WINDOWS and ":" in name)
-        if not name.isprintable() or not name.endswith(".toml") or is_elsewhere:
-            raise InputError(f"{name!r}: expected the name of a .toml file below the folder {self.root}")
+        if not name.isprintable() or not name.endswith(ending) or is_elsewhere:
+            raise InputError(f"{name!r}: expected the name of a {ending} file below the folder {self.root}")
         try:
             path = (self.root / name).resolve()
         except OSError as error:
             raise InputError(f"{name!r}: {error.strerror}") from None
-        if not path.is_relative_to(self.root) or path.suffix != ".toml":
+        if not path.is_relative_to(self.root) or path.suffix != ending:
             raise InputError(f"{name!r} lies outside the folder {self.root}")
         return path
 

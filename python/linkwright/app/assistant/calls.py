@@ -54,10 +54,13 @@ class Calls:
             # Names what is similar where there is no such machine.
             library_path(name)
             return name
-        path = self.folder.inside(name)
         # Refuses what is no file that can be read before a process begins.
         self.folder.read(name)
-        return path.relative_to(self.folder.root).as_posix()
+        return self._real(name, ".toml")
+
+    def _real(self, name: str, ending: str) -> str:
+        """The real place of a file, from the folder on."""
+        return self.folder.inside(name, ending).relative_to(self.folder.root).as_posix()
 
     async def run(
         self,
@@ -72,7 +75,8 @@ class Calls:
         `entries`: as for ``--set``; `keys`: the parts of the results that are wanted, all without any. Raises
         `InputError` with the message of the command, or if the answer is too long or takes too long.
         """
-        line = words(command, self.place(file), entries, options or {})
+        place = self.place(file)
+        line = words(command, place, entries, options or {}, partial(self._real, ending=".csv"))
         return _within_limits(await self._answer(line), keys)
 
     async def sweep(

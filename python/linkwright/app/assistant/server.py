@@ -48,7 +48,7 @@ _Set = Annotated[
 ]
 _Command = Annotated[
     str,
-    Field(description=f"One of {', '.join(OFFERED)}. optimise and tolerance take a study file."),
+    Field(description=f"One of {', '.join(OFFERED)}. optimise, fit and tolerance take a study file."),
 ]
 _Options = Annotated[
     dict[str, Any] | None,
