@@ -281,7 +281,7 @@ CASES = {
 }
 
 # Commands that print a text of their own, and no answer about a machine for programs.
-WITHOUT = {"draw", "new", "report", "schema", "studio"}
+WITHOUT = {"draw", "mcp", "new", "report", "schema", "studio"}
 # Keys besides those that all have.
 EXTRA = {"cam": {"files"}, "torsion": {"balance"}}
 

@@ -28,7 +28,8 @@ from linkwright.app.application import COMMANDS, GROUPS
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / "README.md"
-PAGES = sorted((ROOT / "docs").rglob("*.md"))
+# Commands of the cases are run, and their numbers compared, in `tests/cases`.
+PAGES = sorted(page for page in (ROOT / "docs").rglob("*.md") if page.name != "cases.md")
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 # Of a clone, or of what a reader has at hand.

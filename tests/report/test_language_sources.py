@@ -21,10 +21,10 @@ from linkwright.kernel.quantities import quantities_of
 
 SOURCE = Path(linkwright.__file__).parent
 
-# Modules whose texts no report shows: they are for the terminal, for notebooks and for whoever wrote a file
+# Modules whose texts no report shows: for the terminal, assistants, notebooks and whoever wrote a file
 # that is refused, or belong to the studio and the papers, which are tested by themselves.
 OTHERS = re.compile(
-    r"(studio|papers|kernel/(files|description|command|units|public|figure))/"
+    r"(studio|papers|app/assistant|kernel/(files|description|command|units|public|figure))/"
     r"|kernel/(errors|quantities|result|system|extras|limits)\.py|kernel/page/(typeset|notebook|language)\.py"
     r"|app/(application|curves)\.py|app/commands/(schema|new|draw|glossary)\.py|app/report/(company|moving)\.py"
     r"|cam/laws/(boundary|limited|optimal|polynomial|spline)\.py|synthesis/(task|commands)\.py"

@@ -6,6 +6,7 @@ time.
 | module | |
 | --- | --- |
 | `application` | All commands, one a file |
+| `assistant/` | Tools for programs that write machine files |
 | `commands/` | Commands that are of no single subject |
 | `curves` | Curves of a study by name: those of all its results, and of its motion over the cycle |
 | `feasibility` | What a machine can be seen to be unable to do without solving for its motion |

@@ -73,6 +73,7 @@ COMMANDS = {
         "Define the terms of tables, messages and reports.", "app.commands.glossary:glossary", False
     ),
     "studio": Place("Edit and animate a machine in the browser.", "studio.command:studio", False),
+    "mcp": Place("Serve an assistant: check, run, sweep, explain.", "app.commands.mcp:mcp", False),
 }
 
 GROUPS = {

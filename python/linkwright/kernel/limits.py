@@ -82,5 +82,8 @@ LATIN_ROWS = Limit(
     "each variable keeps the order of all rows in memory; sobol has none",
 )
 SAMPLES = Limit(200_000, "samples of a manoeuvre of a train", "8 MB for each disc and five shafts")
+ANSWER = Limit(100_000, "characters in an answer to an assistant", "what a language model reads at once")
+ANSWER_ROWS = Limit(1_000, "rows of a sweep in an answer to an assistant", "more are for a folder of files")
+OUTPUT = Limit(100_000_000, "bytes in what a command answers to an assistant", "curves have a few MB")
 
 ALL = tuple(limit for limit in list(globals().values()) if isinstance(limit, Limit))

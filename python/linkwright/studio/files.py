@@ -33,22 +33,22 @@ class Folder:
         """The folder at a path, links followed."""
         return cls(path.resolve())
 
-    def inside(self, name: str) -> Path:
+    def inside(self, name: str, ending: str = ".toml") -> Path:
         """The real path of a machine file below the folder, wherever links lead; an `InputError` if it is
         none.
 
-        `name`: relative to the folder, with strokes between its parts.
+        `name`: relative to the folder, with strokes between its parts; `ending`: that of another file.
         """
         # On Windows a colon leads to another drive, or into a hidden stream of a file.
         is_elsewhere = Path(name).is_absolute() or (system.WINDOWS and ":" in name)
-        if not name.isprintable() or not name.endswith(".toml") or is_elsewhere:
-            raise InputError(f"{name!r}: expected the name of a .toml file below the folder of the studio")
+        if not name.isprintable() or not name.endswith(ending) or is_elsewhere:
+            raise InputError(f"{name!r}: expected the name of a {ending} file below the folder {self.root}")
         try:
             path = (self.root / name).resolve()
         except OSError as error:
             raise InputError(f"{name!r}: {error.strerror}") from None
-        if not path.is_relative_to(self.root) or path.suffix != ".toml":
-            raise InputError(f"{name!r} lies outside the folder of the studio, {self.root}")
+        if not path.is_relative_to(self.root) or path.suffix != ending:
+            raise InputError(f"{name!r} lies outside the folder {self.root}")
         return path
 
     def read(self, name: str) -> str:
@@ -59,8 +59,9 @@ class Folder:
                 raise InputError(f"{name!r}: expected a file")
             return text_of(path, FILE_BYTES)
         except TextError as error:
+            expected = f", expected {error.expected}" if error.expected else ""
             raise InputError(
-                f"{name}: found {error.found}; {error.remedy or 'choose another file'}"
+                f"{name}: found {error.found}{expected}; {error.remedy or 'choose another file'}"
             ) from None
         except OSError as error:
             raise InputError(f"{name}: {error.strerror}") from None

@@ -5,6 +5,7 @@
 | `check` | `linkwright check FILE`: is the machine file sound, and the geometry that it describes? |
 | `draw` | `linkwright draw FILE`: a mechanism to scale, still or in motion |
 | `glossary` | `linkwright glossary [WORD]`: the terms of tables, messages and reports |
+| `mcp` | `linkwright mcp`: checks, results and meanings for assistants |
 | `new` | `linkwright new TEMPLATE`: a machine file to start from |
 | `papers` | `linkwright papers`: published numbers against computed ones |
 | `plot` | `linkwright plot FILE QUANTITY…`: curves of a machine as picture and table |
