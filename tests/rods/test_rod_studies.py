@@ -58,8 +58,8 @@ def test_the_most_production_is_at_the_rating_of_the_gearbox(study_of):
 
 
 def test_the_best_counterbalance_for_the_motor_is_that_of_least_squares(study_of):
-    """The mean square of T_rod − M sin θ is lowest at M = ⟨T_rod sin θ⟩/⟨sin² θ⟩: a few machines find its root
-    to 2 %, and the study has its value at the moment that was found.
+    """The mean square of T_rod − M sin θ is lowest at M = ⟨T_rod sin θ⟩/⟨sin² θ⟩: a few machines find its
+    root to 2 %, and the study has its value at the moment that was found.
     """
     found = lw.optimise(study_of("counterbalance.toml", well=SIZED), 12)
     gear = lw.rod_string(found.machine).gear
