@@ -138,6 +138,7 @@ _OTHERWISE = {
     "oz in": "ozf in",
     "in oz": "ozf in",
     "PS": "metric_horsepower",
+    "bbl": "oil_bbl",
     "ft lb": "ft lbf",
     "lb ft": "ft lbf",
     "lbf ft": "ft lbf",
