@@ -206,9 +206,9 @@ def solution(machine: Machine, accuracy: float) -> Solution:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         result = _result(string, rod, moved, solved)
         change = np.inf if before is None else _difference(result, before)
-        # The error at a corner is of first order, but a change may be small by chance: the one before
+        # The error beside corners is of second order, but a change may be small by chance: the one before
         # counts too.
-        reached = _SURE * max(change, last / 2)
+        reached = _SURE * max(change, last / 4)
         if reached <= accuracy or 2 * least > _MOST:
             return Solution(string, rod, moved, solved, replace(result, accuracy=float(reached)))
         last = 0.0 if before is None else change
