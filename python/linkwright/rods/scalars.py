@@ -15,8 +15,9 @@ from linkwright.kernel.numerics.tangent import primal
 from linkwright.rods.core import Cards
 from linkwright.rods.model.rod_string import GRAVITY, RodString
 
-# By what a cut corner may seem higher, where its harmonics end.
-_RINGING = 1.2
+# Samples of the cards beside a peak through which the lines of its sides go, beyond those between which a
+# corner is rounded; by what that may seem more, where harmonics end.
+_NEAR, _FAR, _RINGING = 3, 5, 1.2
 
 
 def string_scalars(
@@ -89,15 +90,17 @@ def peak(load: Any, sign: int) -> Any:
 
     A valve that opens or shuts makes a corner, which a chord between two samples of the waves cuts off. The
     lines of both its sides, of slopes a and −b, meet at most 2ab/(a + b) above the higher of these samples;
-    what seems to be higher is beside a jump.
+    what seems to be higher is beside a jump. Where a corner moves, loads follow its entries with a jump:
+    derivatives beside it are those of its sides, and the corner has its own by both.
     """
     top = (sign * primal(load)).argmax(axis=-1)
-    l_3, l_2, highest, r_2, r_3 = (_picked(load, top + step) for step in (-3, -2, 0, 2, 3))
-    rise, fall = l_2 - l_3, r_3 - r_2
+    steps = (-_FAR, -_NEAR, 0, _NEAR, _FAR)
+    left_end, left, highest, right, right_end = (_picked(load, top + step) for step in steps)
+    rise, fall = ((pair[1] - pair[0]) / (_FAR - _NEAR) for pair in ((left_end, left), (right, right_end)))
     is_corner = (sign * primal(rise) > 0) & (sign * primal(fall) < 0)
     bend = np.where(is_corner, rise - fall, 1.0)
-    place = (r_2 - l_2 - 2 * (rise + fall)) / bend
-    height = l_2 + rise * (place + 2)
+    place = (right - left - _NEAR * (rise + fall)) / bend
+    height = left + rise * (place + _NEAR)
     above, most = sign * primal(height - highest), sign * primal(-rise * fall * 2 / bend)
     is_corner = is_corner & (np.abs(primal(place)) <= 2) & (above <= _RINGING * most)
     return np.where(is_corner, height, highest)
