@@ -15,7 +15,7 @@ with t(φ) the time of the steady motion at a crank angle.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -36,7 +36,6 @@ from linkwright.rods.core import Cards, numbers_of, solve_along
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.polished_rod import (
     HarmonicRod,
-    RodMotion,
     UnitRod,
     crank_speed,
     gear_load,
@@ -75,7 +74,7 @@ def moved_rod(
     programs = []
     if isinstance(rod, UnitRod):
         programs.append(directions(rod.rod.machine, [name for name in own if name.startswith(_UNIT)]))
-    if has_motor:
+    if isinstance(rod, UnitRod) and has_motor:
         moving = [name for name in own if not name.startswith((_STRING, _LOAD))]
         programs.append(directions(rod.driven(rod.torque), moving))
     for program in programs:
@@ -139,7 +138,7 @@ class _Follower:
     unit: Any
     speed: Any
     beam: Floats  # derivatives of the numbers of the unit alone, (parameters, known)
-    driven: Floats | None = None  # of those of the drive
+    driven: Floats = field(default_factory=lambda: np.zeros((0, 0)))  # of those of the drive
 
     @cached_property
     def rod(self) -> UnitRod:
@@ -153,9 +152,11 @@ class _Follower:
         return RodAlong.of_unit(self.rod.rod, self.unit, self.beam)
 
     @cached_property
-    def still(self) -> RodMotion:
-        """The motion itself, at the samples of the cards."""
-        return self.rod.motion(2 * len(self.solved.moved.position))
+    def angles(self) -> Floats:
+        """Crank angles at the samples of the cards."""
+        angles = self.rod.motion(2 * len(self.solved.moved.position)).crank_angle
+        assert angles is not None
+        return angles
 
     @cached_property
     def bottom(self) -> Floats:
@@ -165,18 +166,18 @@ class _Follower:
     @cached_property
     def motion(self) -> Any:
         """Rise of the polished rod and its derivatives at fixed crank angles of the samples."""
-        return self.along.motion(self.still.crank_angle)
+        return self.along.motion(self.angles)
 
     def at_speed(self) -> MovedRod:
         """At constant pumping speed."""
-        n = len(self.still.position)
+        n = len(self.angles)
         return self._moved(np.broadcast_to(self.bottom, (n, len(self.known))), 2 * np.pi / self.speed, None)
 
     def _moved(self, late: Floats, period: Any, drive: Derivatives | None) -> MovedRod:
         """By derivatives `late` of the crank angles at the samples."""
-        angles = Tangent(self.still.crank_angle, late)
+        angles = Tangent(self.angles, late)
         travel, factor = self.motion[0], primal(self.motion[1])
-        position = travel + factor * (angles - self.still.crank_angle)
+        position = travel + factor * (angles - self.angles)
         cards, mean_load = _cards(self.solved, self.string, period, position, len(self.known))
         stroke = self.unit.stroke
         return MovedRod(
@@ -207,7 +208,6 @@ class _Follower:
         seeds = [Tangent(*pair) for pair in zip(torque, np.eye(len(torque)), strict=True)]
         numbers = Translation(self.rod.driven(seeds), motor=True, brake=False)
         rows = np.array([lifted(x, len(torque)).d for x in numbers.program.parameters])
-        assert self.driven is not None
         return np.concatenate([rows, np.zeros((len(self.driven) - len(rows), len(torque)))])
 
     def _directions(self, load: Floats) -> Directions:
@@ -215,7 +215,6 @@ class _Follower:
         factor = self.along.motion(table_angles())[1]
         turn, given = gear_load(self.unit, factor, Tangent(self.rod.load, load))
         net: Any = turn.net(given) if given is not None else self._balanced(turn)
-        assert self.driven is not None
         values = self.driven + self._torque @ lifted(net, len(self.known)).d
         sizes = np.array([abs(float(entry_of(self.machine, name))) or 1.0 for name in self.known])
         return Directions(self.known, values, sizes, {})
@@ -240,7 +239,7 @@ class _Follower:
         """The motion by derivatives of the loads over the crank angle."""
         _, solution, machine = self._steady
         gradient = gradient_along(machine, solution, self._directions(load))
-        angles, bottom = self.still.crank_angle, self.rod.ends[0]
+        angles, bottom = self.angles, self.rod.ends[0]
         order, back = np.unique(np.append(angles, bottom), return_inverse=True)
         speed = solution.curves(order).speed[back]
         time = gradient.curves(order).time[back]
