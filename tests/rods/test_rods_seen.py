@@ -55,8 +55,13 @@ def test_the_string_between_stations_meets_them():
     for node, station in ((0, 0), (taper, 1), (taper + 1, 1), (-1, 2)):
         assert along.position[node] == pytest.approx(motion.position[station], abs=1e-6)
     assert along.load[-1] == pytest.approx(motion.load[-1], abs=1e-3)
-    assert along.stress[taper + 1].max() == pytest.approx(motion.stress.stress_max[1], rel=1e-9)
-    assert along.load[0].max() == pytest.approx(motion.load_max, rel=1e-9)
+    loads = [load for _, _, load in cards(UNIT.rod_string, motion)]
+    area = UNIT.rod_string.columns.area[1]
+    assert along.stress[taper + 1] == pytest.approx(loads[1] / area, rel=1e-9)
+    assert along.load[0] == pytest.approx(loads[0], rel=1e-9)
+    # A corner of the load between two samples stands a little above them.
+    assert 1 <= motion.load_max / loads[0].max() < 1.002
+    assert 1 <= motion.stress.stress_max[1] * area / loads[1].max() < 1.002
 
 
 def test_the_area_of_each_card_is_the_work_of_its_station():
@@ -83,7 +88,8 @@ def test_the_drawn_string_hangs_on_the_polished_rod_and_its_plunger_moves_to_sca
     assert shares.min() > -0.01
     assert shares.max() <= 1.0
     part = next(part for part in drawn["parts"] if part["kind"] == "rods")
-    assert part["range"][1] == pytest.approx(motion.stress.stress_max.max(), rel=1e-6)
+    # What is drawn are samples, between which a corner stands a little higher.
+    assert part["range"][1] == pytest.approx(motion.stress.stress_max.max(), rel=0.01)
     low, high = part["barrel"]
     assert low < heights[-1].min() < heights[-1].max() < high
     assert drawn["box"][1] <= low

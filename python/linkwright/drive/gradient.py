@@ -120,7 +120,11 @@ def steady_tangents(machine: Machine, along: Directions) -> SteadyTangents:
 
 def steady_derivatives(machine: Machine, variables: Sequence[str]) -> Derivatives:
     """Scalars of steady motion by some entries. Raises what `steady_tangents` raises."""
-    program = directions(machine, variables)
+    return derivatives_along(machine, directions(machine, variables))
+
+
+def derivatives_along(machine: Machine, program: Directions) -> Derivatives:
+    """Scalars of steady motion along directions of the program's numbers."""
     steady = steady_tangents(machine, program)
     listed = [name for name, (_, mark) in declared(SteadyState).items() if isinstance(mark, Label)]
     values = {name: getattr(steady.state, name) for name in listed}

@@ -23,7 +23,7 @@ from linkwright.kernel.numerics.implicit import solution_along
 from linkwright.kernel.numerics.tangent import Tangent, lifted, numbers, on_lines, primal
 from linkwright.kernel.numerics.turn_fit import turn_curve
 from linkwright.pumping.gear_torque import GearTorque, StrokeLoad, Strokes, effect_of_weights, stroke_load
-from linkwright.pumping.unit import PolishedRod, PumpingUnitMotion, end_angles
+from linkwright.pumping.unit import PolishedRod, end_angles
 
 # A place this near to a corner of the table of the load, as a share of the stroke or in radians, is on it.
 _ON_CORNER = 1e-6
@@ -34,10 +34,10 @@ _PIECE, _NODES = np.pi / 12, 12
 
 
 def gear_scalars(
-    rod: PolishedRod, along: Any, result: PumpingUnitMotion
+    rod: PolishedRod, along: Any, gear: GearTorque | None
 ) -> tuple[dict[str, Any], dict[str, str]]:
     """Scalars of the gearbox with their derivatives; ties by name of the response."""
-    load, gear = rod.unit.load, result.gear
+    load = rod.unit.load
     if load is None or gear is None:
         return {}, {}
     is_air = rod.unit.geometry == "air_balanced"

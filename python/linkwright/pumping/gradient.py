@@ -41,7 +41,7 @@ def pumping_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     scalars = _scalars(rod, along, result)
     listed = tuple(name for name in variables if name not in refused)
     tangents = scalars_of(result, scalars, known, listed)
-    gear, ties = gear_scalars(rod, along, result)
+    gear, ties = gear_scalars(rod, along, result.gear)
     tangents |= {f"gear.{name}": x for name, x in scalars_of(result.gear, gear, known, listed).items()}
     missing = {f"gear.{name}": why for name, why in without_derivatives(result.gear).items()}
     return Derivatives(listed, tangents | _at_speed(result, tangents, listed), ties, missing, refused)

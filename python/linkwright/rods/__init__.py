@@ -15,6 +15,7 @@
 | `many` | Many predictions at once |
 | `many_cards` | Measured cards of a field day at once |
 | `model/` | A rod string with its pump in a machine file |
+| `motion_gradient` | The string in motion with derivatives, at constant speed or with its motor |
 | `numbers` | Terms of API RP 11L |
 | `plunger_load` | What a pump card tells: plunger stroke, fluid load, fillage |
 | `polished_rod` | Motion of the polished rod in time, with the drive that moves it |

@@ -17,8 +17,9 @@ from linkwright.rods.model.rod_string import RodString
 # Share of the extreme velocity from which on the plunger counts as moving.
 _MOVING = 0.3
 
-# Share of the fluid load beyond which a sample is no scatter about a level but a change of it.
-_SCATTER = 0.25
+# Share of the samples, the nearest to their level, whose scatter counts: beside a sudden fall of the load its
+# harmonics ring.
+_COUNTED = 0.9
 
 # Fluid load of a pump card over that of a full column of fluid, beyond which it is no pump's.
 _COLUMN = 1.75
@@ -77,8 +78,7 @@ class PlungerLoad(NamedTuple):
     fluid_load: float  # level of the upstroke over that of the downstroke [N]
     level: float  # load while the plunger sinks through the fluid [N]
     fillage: float  # share of the stroke left when half the fluid load has fallen
-    # Mean square of the scatter about both levels, over the square of the fluid load.
-    unevenness: float
+    unevenness: float  # mean square of the scatter about both levels, over the square of the fluid load
 
 
 def against_barrel(string: RodString, position: Floats, load: Floats) -> Floats:
@@ -126,11 +126,8 @@ def plunger_load(position: Floats, load: Floats) -> PlungerLoad | None:
     span = high - low
     if not span > 0:
         return None
-    limit = (_SCATTER * span) ** 2
-    scatter = np.concatenate(
-        [np.minimum((load[up] - high) ** 2, limit), np.minimum((load[sinking] - low) ** 2, limit)]
-    )
-    unevenness = float(scatter.mean()) / span**2
+    scatter = np.sort(np.concatenate([np.abs(load[up] - high), np.abs(load[sinking] - low)]))
+    unevenness = float(np.square(scatter[: int(_COUNTED * len(scatter))]).mean()) / span**2
     fillage = _fillage(position, load, 0.5 * (high + low))
     return PlungerLoad(float(np.ptp(position)), span, low, fillage, unevenness)
 

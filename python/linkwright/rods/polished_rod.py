@@ -6,7 +6,7 @@ that load is a load of the crankshaft, the steady motion under it gives the cran
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +19,7 @@ from linkwright.kinetostatics.model.loads import TorqueAngle
 from linkwright.machine.machine import Machine
 from linkwright.pumping.gear_torque import StrokeLoad, equal_peaks
 from linkwright.pumping.model.polished_rod_load import PolishedRodLoad
+from linkwright.pumping.model.unit import PumpingUnit
 from linkwright.pumping.unit import PolishedRod
 from linkwright.rods.model.rod_string import RodString
 
@@ -53,6 +54,7 @@ class HarmonicRod:
 
     def __init__(self, stroke: float, speed: float) -> None:
         self.stroke, self.period = stroke, 2 * np.pi / speed
+        self.rounds: list[tuple[Floats, Floats]] = []
 
     def motion(self, n: int) -> RodMotion:
         """Its position at n samples."""
@@ -78,7 +80,7 @@ class UnitRod:
         self.rounds: list[tuple[Floats, Floats]] = []
         speed = crank_speed(machine, string)
         if self.has_motor:
-            angles = self._table_angles()
+            angles = table_angles()
             rises = self.rod.motion(angles)[1] > 0
             self.load = np.where(rises, string.weight_fluid + string.fluid_load, string.weight_fluid)
             self._drive(self.load)
@@ -89,10 +91,6 @@ class UnitRod:
             )
         else:
             self.period = 2 * np.pi / speed
-
-    @staticmethod
-    def _table_angles() -> Floats:
-        return np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
 
     def motion(self, n: int) -> RodMotion:
         """Its position at n samples."""
@@ -113,38 +111,6 @@ class UnitRod:
             at_start -= float((angle_of(at_start) - start) / angle_of(at_start, 1))
         return np.asarray(angle_of((at_start + times * self.period) % self.period))
 
-    @property
-    def load_entries(self) -> PolishedRodLoad:
-        """Counterbalance and efficiency of the unit."""
-        return PolishedRodLoad() if self.unit.load is None else self.unit.load
-
-    @property
-    def has_given_counterbalance(self) -> bool:
-        """Whether the counterbalance is given in place of the best one."""
-        entries = self.load_entries
-        return isinstance(entries.counterbalance, float) or entries.counterbalance_effect is not None
-
-    def with_load(self, angles: Floats, load: Floats, *, is_best: bool) -> Any:
-        """The unit with a load of the polished rod over crank angles; `is_best`: with the best
-        counterbalance.
-        """
-        order = np.argsort(angles)
-        entries: Mapping[str, Any] = {
-            "angle": tuple(angles[order].tolist()),
-            "force": tuple(load[order].tolist()),
-            **({"counterbalance": "optimal", "counterbalance_effect": None} if is_best else {}),
-        }
-        return self.unit.with_entries({"load": self.load_entries.with_entries(entries)})
-
-    def stroke_load(self, angles: Floats, load: Floats) -> tuple[StrokeLoad, float]:
-        """Torques at crank angles under loads there, and the size of the counterbalance."""
-        entries, factor = self.load_entries, self.rod.motion(angles)[1]
-        unit = self.unit.with_entries({"load": entries})
-        turn = StrokeLoad(unit, load, factor, np.sin(angles + entries.phase))
-        is_air = self.unit.geometry == "air_balanced"
-        given = entries.counterbalance_effect if is_air else entries.counterbalance
-        return turn, float(given) if isinstance(given, int | float) else equal_peaks(turn, factor >= 0)
-
     def take(self, load: Floats) -> float:
         """The motion of the drive under samples (n,) of the load over the period.
 
@@ -154,8 +120,7 @@ class UnitRod:
             return 0.0
         before = self.motion(len(load))
         assert before.crank_angle is not None
-        target = np.interp(self._table_angles(), *_by_angle(before.crank_angle, load), period=2 * np.pi)
-        self.load = self._extrapolated(target)
+        self.load = self._extrapolated(over_angle(before.crank_angle, load))
         self._drive(self.load)
         after = self.motion(len(load))
         moved = float(np.abs(after.position - before.position).max()) / before.stroke
@@ -176,25 +141,65 @@ class UnitRod:
 
     def _drive(self, load: Floats) -> None:
         """The steady motion of the drive under loads at the angles of the table."""
-        angles = self._table_angles()
-        turn, size = self.stroke_load(angles, load)
-        torque = TorqueAngle.model_construct(
-            kind="torque_angle", angle=tuple(angles.tolist()), torque=tuple(turn.net(size).tolist())
+        turn, given = gear_load(self.unit, self.rod.motion(table_angles())[1], load)
+        size = equal_peaks(turn, turn.factor >= 0) if given is None else given
+        self.torque: list[float] = turn.net(size).tolist()
+        self.steady = steady_state(self.driven(self.torque), n=_INTERVALS)
+        self.period = self.steady.period
+
+    def driven(self, torque: Sequence[Any]) -> Machine:
+        """The machine whose crankshaft has torques of the gearbox at the angles of the table as a load."""
+        table = TorqueAngle.model_construct(
+            kind="torque_angle", angle=tuple(table_angles().tolist()), torque=tuple(torque)
         )
-        machine = self.machine.with_entries(
+        return self.machine.with_entries(
             {
-                "loads": {**self.machine.loads, _LOAD: torque},
+                "loads": {**self.machine.loads, _LOAD: table},
                 "rod_string": None,
                 "pumping_unit": self.unit.with_entries({"load": None}),
             }
         )
-        self.steady = steady_state(machine, n=_INTERVALS)
-        self.period = self.steady.period
 
 
-def _by_angle(angles: Floats, load: Floats) -> tuple[Floats, Floats]:
-    order = np.argsort(angles)
-    return angles[order], load[order]
+def table_angles() -> Floats:
+    """Crank angles at which the drive knows the load of the polished rod [rad]."""
+    return np.linspace(0.0, 2 * np.pi, _ANGLES, endpoint=False)
+
+
+def over_angle(angles: Any, load: Any) -> Any:
+    """Loads at crank angles as those at the angles of the table."""
+    return np.interp(table_angles(), angles, load, period=2 * np.pi)
+
+
+def gear_load(unit: PumpingUnit, factor: Any, load: Any) -> tuple[StrokeLoad, Any]:
+    """Torques at the angles of the table under loads there, and the counterbalance if it is given."""
+    unit = with_load(unit, load)
+    entries = unit.load
+    assert entries is not None
+    turn = StrokeLoad(unit, load, factor, np.sin(table_angles() + entries.phase))
+    return turn, given_counterbalance(unit)
+
+
+def given_counterbalance(unit: PumpingUnit) -> Any:
+    """The counterbalance that is given in place of the best one; None where it is not."""
+    if unit.load is None:
+        return None
+    is_air = unit.geometry == "air_balanced"
+    given = unit.load.counterbalance_effect if is_air else unit.load.counterbalance
+    return None if isinstance(given, str) else given
+
+
+def with_load(unit: PumpingUnit, load: Any, *, is_best: bool = False) -> PumpingUnit:
+    """The unit with loads of the polished rod at the angles of the table; `is_best`: with the best
+    counterbalance.
+    """
+    entries: Mapping[str, Any] = {
+        "angle": tuple(table_angles().tolist()),
+        "force": tuple(load),
+        **({"counterbalance": "optimal", "counterbalance_effect": None} if is_best else {}),
+    }
+    given = PolishedRodLoad() if unit.load is None else unit.load
+    return unit.with_entries({"load": given.with_entries(entries)})
 
 
 def crank_speed(machine: Machine, string: RodString) -> Any:

@@ -32,7 +32,16 @@ from linkwright.pumping.gear_torque import GearTorque, gear_torque
 from linkwright.rods.core import Solved, sample_counts, solve_string
 from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.numbers import ApiNumbers, api_numbers
-from linkwright.rods.polished_rod import HarmonicRod, RodMotion, UnitRod, polished_rod_of
+from linkwright.rods.polished_rod import (
+    HarmonicRod,
+    RodMotion,
+    UnitRod,
+    given_counterbalance,
+    over_angle,
+    polished_rod_of,
+    table_angles,
+    with_load,
+)
 from linkwright.rods.scalars import StringNumbers, string_scalars
 from linkwright.rods.stress import RodStress, rod_stress
 
@@ -47,9 +56,6 @@ _SURE = 2.0
 
 # Numbers of samples that are tried.
 _TRIALS = 4
-
-# Corners of the load by which the torque of the gearbox is examined.
-_CORNERS = 360
 
 
 # Of a prediction and of a diagnosis alike.
@@ -170,9 +176,9 @@ def solution(machine: Machine, accuracy: float) -> Solution:
         moved, solved = _settled(string, rod, least, start, _ALIKE * accuracy)
         scalars = _scalars(string, rod, moved, solved)
         change = np.inf if before is None else _difference(scalars, before)
-        # The error at a corner is of first order, but a change may be small by chance: the one before
+        # The error beside corners is of second order, but a change may be small by chance: the one before
         # counts too.
-        reached = _SURE * max(change, last / 2)
+        reached = _SURE * max(change, last / 4)
         if reached <= accuracy or 2 * least > _MOST:
             result = _result(string, rod, moved, solved, scalars, float(reached))
             return Solution(string, rod, moved, solved, result)
@@ -193,10 +199,12 @@ def _settled(
 ) -> tuple[RodMotion, Solved]:
     """String and drive at their common motion."""
     counts = sample_counts(string, rod.period, least)
+    # Answers to other samples differ by more than those that are extrapolated from.
+    rod.rounds.clear()
     for _ in range(_ROUNDS):
         moved, solved = _periodic(string, rod, counts, start)
         start = np.asarray(solved.wave)
-        if rod.take(polished_rod_load(string, moved, solved.cards.load[0][::2])) <= alike:
+        if rod.take(polished_rod_load(string, moved.position, solved.cards.load[0][::2])) <= alike:
             return moved, solved
     raise ConvergenceError(
         "string and drive have not come to a common steady motion: the drive is close to its limit"
@@ -222,12 +230,12 @@ def _periodic(
     )
 
 
-def polished_rod_load(string: RodString, moved: RodMotion, dynamic: Floats) -> Floats:
+def polished_rod_load(string: RodString, position: Floats, dynamic: Any) -> Any:
     """Load of the polished rod: dynamic load, weight of the rods in the fluid, friction of the stuffing
     box [N].
     """
-    direction = np.sign(np.roll(moved.position, -1) - np.roll(moved.position, 1))
-    return np.asarray(dynamic + string.weight_fluid + string.stuffing_box * direction)
+    direction = np.sign(np.roll(position, -1) - np.roll(position, 1))
+    return dynamic + string.weight_fluid + string.stuffing_box * direction
 
 
 def _difference(fine: Mapping[str, float], coarse: Mapping[str, float]) -> float:
@@ -254,9 +262,9 @@ def _result(
 ) -> RodStringMotion:
     cards, period = solved.cards, moved.period
     moved = rod.motion(len(cards.load[0]))
-    load = polished_rod_load(string, moved, cards.load[0])
+    load = polished_rod_load(string, moved.position, cards.load[0])
     gear = _gear(rod, moved, load, is_best=False)
-    is_given = gear is not None and isinstance(rod, UnitRod) and rod.has_given_counterbalance
+    is_given = isinstance(rod, UnitRod) and given_counterbalance(rod.unit) is not None
     best = _gear(rod, moved, load, is_best=True) if is_given else gear
     peak = None if best is None else max(best.torque_net_up, best.torque_net_down)
     numbers = api_numbers(string, scalars, peak)
@@ -291,8 +299,6 @@ def station_names(string: RodString) -> tuple[str, ...]:
 def _gear(rod: HarmonicRod | UnitRod, moved: RodMotion, load: Floats, *, is_best: bool) -> GearTorque | None:
     if not isinstance(rod, UnitRod) or moved.crank_angle is None:
         return None
-    order = np.argsort(moved.crank_angle)
-    angles = np.linspace(0.0, 2 * np.pi, _CORNERS, endpoint=False)
-    at = np.interp(angles, moved.crank_angle[order], load[order], period=2 * np.pi)
-    shown = np.linspace(0.0, 2 * np.pi, _CORNERS + 1)
-    return gear_torque(rod.with_load(angles, at, is_best=is_best), rod.rod.motion, rod.ends, shown)
+    loaded = with_load(rod.unit, over_angle(moved.crank_angle, load), is_best=is_best)
+    shown = np.append(table_angles(), 2 * np.pi)
+    return gear_torque(loaded, rod.rod.motion, rod.ends, shown)

@@ -1,6 +1,7 @@
 """Numbers of a rod string in motion, by formulas that take numbers, arrays of many strings, or derivatives.
 
-An extreme of a curve has the derivative of the curve at its place.
+A valve that opens or shuts makes a corner in the load, between two samples: the lines of both its sides meet
+there.
 """
 
 from __future__ import annotations
@@ -16,6 +17,10 @@ from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.quantities import Label
 from linkwright.rods.core import Cards
 from linkwright.rods.model.rod_string import GRAVITY, RodString
+
+# Samples of the cards beside a peak through which the lines of its sides go, beyond those between which a
+# corner is rounded; by what that may seem more, where harmonics end.
+_NEAR, _FAR, _RINGING = 3, 5, 1.2
 
 # A number, or one of each of many strings.
 N = TypeVar("N")
@@ -76,8 +81,8 @@ def string_scalars(
         "stroke": stroke,
         "plunger_stroke": plunger_stroke,
         "plunger_travel": span(plunger),
-        "load_max": extreme(rod, +1) + weight,
-        "load_min": extreme(rod, -1) + weight,
+        "load_max": peak(rod, +1) + weight,
+        "load_min": peak(rod, -1) + weight,
         "weight_air": string.weight_air,
         "weight_fluid": weight,
         "fluid_load": fluid_load,
@@ -96,7 +101,7 @@ def goodman_loadings(string: RodString, load: Any) -> dict[int, Any]:
     found = {}
     for n, section in enumerate(string.sections):
         if section.strength is not None:
-            high, low = (extreme(load[..., n, :], sign) + below for sign in (+1, -1))
+            high, low = (peak(load[..., n, :], sign) + below for sign in (+1, -1))
             found[n] = goodman(string, section.strength, high / section.area, low / section.area)[1]
         below = below - GRAVITY * string.buoyancy_factor * section.length * section.mass
     return found
@@ -116,13 +121,38 @@ def goodman(string: RodString, tensile: Any, high: Any, low: Any) -> tuple[Any, 
     return limit, np.where(is_none, np.inf, loading)
 
 
+def peak(load: Any, sign: int) -> Any:
+    """Maximum (+1) or minimum (−1) over the last axis of loads at twice the samples of their waves.
+
+    A valve that opens or shuts makes a corner, which a chord between two samples of the waves cuts off. The
+    lines of both its sides, of slopes a and −b, meet at most 2ab/(a + b) above the higher of these samples;
+    what seems to be higher is beside a jump. Where a corner moves, loads follow its entries with a jump:
+    derivatives beside it are those of its sides, and the corner has its own by both.
+    """
+    top = (sign * primal(load)).argmax(axis=-1)
+    steps = (-_FAR, -_NEAR, 0, _NEAR, _FAR)
+    left_end, left, highest, right, right_end = (_picked(load, top + step) for step in steps)
+    rise, fall = ((pair[1] - pair[0]) / (_FAR - _NEAR) for pair in ((left_end, left), (right, right_end)))
+    is_corner = (sign * primal(rise) > 0) & (sign * primal(fall) < 0)
+    bend = np.where(is_corner, rise - fall, 1.0)
+    place = (right - left - _NEAR * (rise + fall)) / bend
+    height = left + rise * (place + _NEAR)
+    above, most = sign * primal(height - highest), sign * primal(-rise * fall * 2 / bend)
+    is_corner = is_corner & (np.abs(primal(place)) <= 2) & (above <= _RINGING * most)
+    return np.where(is_corner, height, highest)
+
+
 def extreme(curve: Any, sign: int) -> Any:
     """Maximum (+1) or minimum (−1) over the last axis."""
-    values = primal(curve)
-    at = (sign * values).argmax(axis=-1)
-    if values.ndim == 1:
+    return _picked(curve, (sign * primal(curve)).argmax(axis=-1))
+
+
+def _picked(curve: Any, at: Any) -> Any:
+    """The sample of each curve at a place, counted round the period."""
+    at = at % curve.shape[-1]
+    if curve.ndim == 1:
         return curve[int(at)]
-    return np.take_along_axis(values, at[..., None], axis=-1)[..., 0]
+    return np.take_along_axis(curve, at[..., None], axis=-1)[..., 0]
 
 
 def span(curve: Any) -> Any:

@@ -25,7 +25,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.rods.model.rod_string import GRAVITY, RodString
-from linkwright.rods.scalars import goodman
+from linkwright.rods.scalars import goodman, peak
 
 _of = partial(Label, shape="(sections,)")
 
@@ -70,7 +70,7 @@ def weight_below(string: RodString) -> Floats:
 def rod_stress(string: RodString, load: Floats) -> RodStress:
     """Of dynamic loads (stations, n) at the tops of sections and at the pump [N]."""
     columns, below = string.columns, weight_below(string)
-    high, low = load.max(axis=1) + below, load.min(axis=1) + below
+    high, low = peak(load, +1) + below, peak(load, -1) + below
     largest, smallest = high[:-1] / columns.area, low[:-1] / columns.area
     tensile = np.array([np.nan if s.strength is None else s.strength for s in string.sections])
     limit, loading = goodman(string, tensile, largest, smallest)

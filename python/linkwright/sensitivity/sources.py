@@ -11,6 +11,7 @@
 | ``forced_vibration.shaft_torque_max.SHAFT`` | there too |
 | ``turning_moment.…`` | integrals of the torques' derivatives (`linkwright.turning.gradient`) |
 | ``pumping_unit.…`` | the transfer functions of the beam (`linkwright.pumping.gradient`) |
+| ``rod_string.…`` | sweeps of the string in dual numbers, with its drive (`linkwright.rods.gradient`) |
 | ``rod_rotator.…`` | places of the stroke, the slope of the lever (`linkwright.pumping.rotator_gradient`) |
 | ``topper.…`` | closed forms, and conditions of the worst head (`linkwright.topping.gradient`) |
 | ``cam.CAM.…`` | the law and the contact in tangents (`linkwright.cam.gradient`) |
