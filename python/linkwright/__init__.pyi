@@ -104,6 +104,7 @@ from linkwright.machine.read import loads as loads
 from linkwright.machine.read import read as read
 from linkwright.machine.write import write as write
 from linkwright.papers.published_lengths import length_verdict as length_verdict
+from linkwright.outlines.plate import outline as outline
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator
 from linkwright.pumping.unit import pumping_unit as pumping_unit

@@ -57,6 +57,7 @@ SUBJECTS = (
     "drive",
     "driveline",
     "kinetostatics",
+    "outlines",
     "cam",
     "torsion",
     "pumping",
