@@ -2,8 +2,10 @@
 
 | module | |
 | --- | --- |
+| `analyses` | The comparison of drawn plates with their links |
 | `commands` | ``linkwright outline`` |
 | `figures` | The outline with its joints and its centre |
+| `joints` | Whether drawing and link have joints of one distance |
 | `model/` | Curves of a DXF file, closed outlines with holes, their area and moments |
 | `plate` | Area, mass, centre and moment of inertia of a plate |
 | `solid` | The plate as STEP |

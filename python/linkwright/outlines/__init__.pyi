@@ -1,4 +1,4 @@
-"""What the room exports: each name is loaded on first use."""
+"""What others use of this room; `__init__.py` loads it on first use."""
 
 from linkwright.outlines.model.section import Section as Section
 from linkwright.outlines.model.section import section_of as section_of

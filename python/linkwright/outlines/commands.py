@@ -34,7 +34,9 @@ End = Annotated[
 Thickness = Annotated[float | None, Value("--thickness", positive(LENGTH), "Thickness of the plate.")]
 Density = Annotated[float | None, Value("--density", positive(DENSITY), "Density of the material.")]
 On = Annotated[str, Option("--on", "LINK", "Link of the machine file that the lines are written for.")]
-Step = Annotated[bool, Option("--step", help="With --out: the plate as a STEP solid in the axes of the link.")]
+Step = Annotated[
+    bool, Option("--step", help="With --out: the plate as a STEP solid in the axes of the link.")
+]
 To = Annotated[
     FolderOutput, to_folder("Write results.json, the lines of the machine file and the drawing there.")
 ]
@@ -77,9 +79,7 @@ def outline(
     is_whole = thickness is not None and density is not None
     files: dict[str, Any] = {"body.toml": lines} if is_whole else {}
     if step:
-        files[f"{file.stem}.step"] = later(
-            "outlines.solid:plate_bytes", file.stem, plate.section, thickness
-        )
+        files[f"{file.stem}.step"] = later("outlines.solid:plate_bytes", file.stem, plate.section, thickness)
     hint = [] if is_whole else ["The mass needs --thickness and --density."]
     answer = Answer(
         machine=file.stem,

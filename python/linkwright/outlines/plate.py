@@ -69,7 +69,7 @@ def outline(
     path: str | os.PathLike[str],
     *,
     layers: Sequence[str] = (),
-    unit: str | float | None = None,
+    unit: float | None = None,
     start: Sequence[float] | None = None,
     end: Sequence[float] | None = None,
     thickness: float | None = None,
@@ -83,8 +83,8 @@ def outline(
         DXF file with one closed outline and its holes: lines, arcs, circles, ellipses, polylines, splines.
     layers : sequence of str
         Their layers; without names, the only layer that has curves.
-    unit : str or float, optional
-        Unit of the drawing, such as ``"1 mm"``; without it, the one that the drawing states.
+    unit : float, optional
+        Unit of the drawing [m]; without it, the one that the drawing states.
     start, end : sequence of float, optional
         Joints of the link in the drawing [m]; without them its origin, and its x axis.
     thickness, density : float, optional
@@ -102,7 +102,11 @@ def outline(
     InputError
         A value is out of range, or the end is the start.
     """
-    for name, value, kind in (("thickness", thickness, LENGTH), ("density", density, DENSITY)):
+    for name, value, kind in (
+        ("unit", unit, LENGTH),
+        ("thickness", thickness, LENGTH),
+        ("density", density, DENSITY),
+    ):
         if value is not None:
             in_range(**{name: (value, positive(kind))})
     for name, joint in (("start", start), ("end", end)):

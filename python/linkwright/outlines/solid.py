@@ -33,7 +33,9 @@ def plate_solid(section: Section, thickness: float) -> Any:
     outer, *holes = (wire_of(_NAME, edges.of(loop)) for loop in section.region.loops)
     # A hole runs the other way round than the outline.
     signs = [loop.integrals(np.zeros(2))[0][0] for loop in section.region.loops]
-    turned = [hole.Reversed() if sign * signs[0] > 0 else hole for hole, sign in zip(holes, signs[1:], strict=True)]
+    turned = [
+        hole.Reversed() if sign * signs[0] > 0 else hole for hole, sign in zip(holes, signs[1:], strict=True)
+    ]
     topology = kernel("TopoDS").TopoDS
     return prism(_NAME, outer, thickness, [topology.Wire(hole) for hole in turned])
 
@@ -84,9 +86,7 @@ class _Edges:
         direction = self.section.in_link((arc.centre + major)[None]) - self.section.in_link(arc.centre[None])
         axes = gp.gp_Ax2(centre, gp.gp_Dir(0, 0, sense), gp.gp_Dir(*direction[0].tolist(), 0))
         large, small = (1e3 * self.section.scale * math.hypot(*axis) for axis in (major, minor))
-        shape = (
-            gp.gp_Circ(axes, large) if arc.radius is not None else gp.gp_Elips(axes, large, small)
-        )
+        shape = gp.gp_Circ(axes, large) if arc.radius is not None else gp.gp_Elips(axes, large, small)
         if arc.is_closed:
             return make(shape).Edge()
         low, high = sorted((first, first + arc.sweep))

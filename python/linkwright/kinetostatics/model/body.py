@@ -26,7 +26,6 @@ from linkwright.kernel.units.marks import Length, not_negative
 from linkwright.kinetostatics.model.plate import Plate
 from linkwright.linkages.model.topology import Topology
 
-
 # What a plate gives.
 _OF_PLATE = ("mass", "inertia", "along", "across")
 

@@ -45,9 +45,7 @@ class Plate(CheckedDescription):
         None, description="Polar second moment of area about its centre."
     )
     along: Length = Field(0.0, description="Position of its centre along the link, from its start.")
-    across: Length = Field(
-        0.0, description="Position of its centre across the link, positive to the left."
-    )
+    across: Length = Field(0.0, description="Position of its centre across the link, positive to the left.")
     distance: Annotated[float, positive(LENGTH)] | None = Field(
         None, description="Distance of the two joints in the drawing, which is compared with the link."
     )

@@ -52,7 +52,9 @@ def _places(path: Path, unit: Any) -> Layers:
     apart = {layer: list(_apart(group, _SAME * reach)) for layer, group in places.items()}
     if all(len(group) > 1 for group in apart.values()):
         listed = ", ".join(places)
-        raise wrong_drawing(path, _KEY, f"several places in each of the layers {listed}", "one point in a layer")
+        raise wrong_drawing(
+            path, _KEY, f"several places in each of the layers {listed}", "one point in a layer"
+        )
     return Layers({layer: [[x * size, y * size] for x, y in group] for layer, group in apart.items()})
 
 

@@ -29,8 +29,11 @@ if TYPE_CHECKING:
 
 # What a drawing has besides outlines.
 _IGNORED = frozenset(
-    "ATTDEF ATTRIB ARC_DIMENSION DIMENSION HATCH IMAGE LARGE_RADIAL_DIMENSION LEADER MLEADER MTEXT MULTILEADER "
-    "OLE2FRAME POINT RAY TEXT TOLERANCE UNDERLAY VIEWPORT WIPEOUT XLINE ACAD_TABLE".split()
+    (
+        *("ATTDEF", "ATTRIB", "HATCH", "IMAGE", "LEADER", "MLEADER", "MTEXT", "MULTILEADER", "OLE2FRAME"),
+        *("ACAD_TABLE", "ARC_DIMENSION", "DIMENSION", "LARGE_RADIAL_DIMENSION", "POINT", "RAY", "TEXT"),
+        *("TOLERANCE", "UNDERLAY", "VIEWPORT", "WIPEOUT", "XLINE"),
+    )
 )
 
 # Curves that an outline may have, and blocks inside one another.
@@ -54,7 +57,9 @@ def curves_of(document: Document, layers: Collection[str], unit: Any, key: str) 
         raise DrawingError(found, "the outline of a link", f"the layers of the drawing are {listed}")
     if not layers and len(there) > 1:
         found = f"curves on the layers {', '.join(there)}"
-        raise DrawingError(found, "curves on one layer", f'name those of the outline: layers = ["{there[0]}"]')
+        raise DrawingError(
+            found, "curves on one layer", f'name those of the outline: layers = ["{there[0]}"]'
+        )
     return [curve for _, curve in drawn], size
 
 
@@ -109,7 +114,7 @@ def _circle(entity: Any) -> Iterator[Curve]:
 
 
 def _ellipse(entity: Any) -> Iterator[Curve]:
-    # Its centre and axis are in the plane of the drawing; the second axis turns with the side it is seen from.
+    # Centre and major axis are in the plane of the drawing; the minor one turns with its side.
     mirror = _mirror(entity)
     a = _xy(entity.dxf.major_axis)
     b = mirror * float(entity.dxf.ratio) * np.array([-a[1], a[0]])

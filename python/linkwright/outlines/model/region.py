@@ -44,11 +44,9 @@ class Region:
 
 def region_of(loops: Sequence[Loop]) -> Region:
     """The outline and its holes. Raises DrawingError: loops cross, or there are several outlines."""
-    _require_apart(loops)
     _require_single(loops)
-    depths = [
-        sum(other.encloses(loop.polygon[0]) for other in loops if other is not loop) for loop in loops
-    ]
+    _require_apart(loops)
+    depths = [sum(other.encloses(loop.polygon[0]) for other in loops if other is not loop) for loop in loops]
     outer = [loop for loop, depth in zip(loops, depths, strict=True) if depth == 0]
     if len(outer) > 1:
         places = " and ".join(place_words(loop.polygon.mean(axis=0)) for loop in outer[:3])
@@ -76,18 +74,23 @@ def _require_single(loops: Sequence[Loop]) -> None:
 
 
 def _require_apart(loops: Sequence[Loop]) -> None:
-    """No outline crosses itself or another, as far as the points show by which they are drawn."""
+    """No outline crosses or touches itself or another, by the points by which they are drawn."""
     starts = np.concatenate([loop.polygon for loop in loops])
     ends = np.concatenate([np.roll(loop.polygon, -1, axis=0) for loop in loops])
-    for first, second in _crossings(starts, ends):
+    sizes = [len(loop.polygon) for loop in loops]
+    whose = np.repeat(np.arange(len(loops)), sizes)
+    for first, second in _meetings(starts, ends):
+        is_same = whose[first] == whose[second]
+        # Sides that follow each other share their ends.
+        if is_same and second - first in (1, sizes[whose[first]] - 1):
+            continue
+        found = "an outline that crosses itself" if is_same else "outlines that cross or touch"
         where = place_words(0.5 * (starts[first] + ends[first]))
-        whose = np.repeat(np.arange(len(loops)), [len(loop.polygon) for loop in loops])
-        found = "an outline that crosses itself" if whose[first] == whose[second] else "outlines that cross"
-        raise DrawingError(f"{found} near {where}", "outlines that neither cross nor overlap")
+        raise DrawingError(f"{found} near {where}", "outlines that neither cross nor touch")
 
 
-def _crossings(starts: Floats, ends: Floats) -> Iterator[tuple[int, int]]:
-    """Pairs of sides that cross, ends excluded."""
+def _meetings(starts: Floats, ends: Floats) -> Iterator[tuple[int, int]]:
+    """Pairs of sides that have a point in common."""
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
     for block in range(0, len(starts), _BLOCK):
         own = slice(block, block + _BLOCK)
@@ -95,14 +98,14 @@ def _crossings(starts: Floats, ends: Floats) -> Iterator[tuple[int, int]]:
         first, second = np.nonzero(near)
         first, second = first[second > first + block] + block, second[second > first + block]
         a, b, c, d = starts[first], ends[first], starts[second], ends[second]
-        apart = _side(a, b, c) * _side(a, b, d) < 0
-        crossing = np.nonzero(apart & (_side(c, d, a) * _side(c, d, b) < 0))[0]
-        yield from zip(first[crossing].tolist(), second[crossing].tolist(), strict=True)
+        meets = (_side(a, b, c) * _side(a, b, d) <= 0) & (_side(c, d, a) * _side(c, d, b) <= 0)
+        found = np.nonzero(meets)[0]
+        yield from zip(first[found].tolist(), second[found].tolist(), strict=True)
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """On which side of the line from a to b the point c lies; zero within rounding."""
+    """On which side of the line from a to b the point c lies: −1, 1, or 0 within rounding."""
     u, v = b - a, c - a
     value = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     size = np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1)
-    return np.where(np.abs(value) > 1e-9 * size, value, 0.0)
+    return np.where(np.abs(value) > 1e-9 * size, np.sign(value), 0.0)
