@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.kernel.figure.style import BLUE, INK, RED, panels, styled
+from linkwright.kernel.figure.style import BLUE, INK, PAPER, RED, panels, styled
 from linkwright.outlines.plate import PlateProperties
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ def outline_figure(plate: PlateProperties) -> Figure:
     figure, (axes,) = panels(1, height=3.4)
     for n, loop in enumerate(plate.section.region.loops):
         points = 1e3 * plate.section.in_link(np.vstack([loop.polygon, loop.polygon[:1]]))
-        axes.fill(*points.T, facecolor="none" if n else "#eef2f5", edgecolor=INK, linewidth=1.2)
+        axes.fill(*points.T, facecolor=PAPER if n else "#eef2f5", edgecolor=INK, linewidth=1.2)
     ends = [0.0] if plate.distance is None else [0.0, 1e3 * plate.distance]
     axes.plot(ends, [0.0] * len(ends), "o-", color=BLUE, label="joints of the link", linewidth=0.8)
     axes.plot(1e3 * plate.along, 1e3 * plate.across, "P", color=RED, label="centre of mass", markersize=8)
