@@ -39,6 +39,6 @@ def _differences(machine: Machine) -> Iterator[str]:
         if abs(drawn - link.length) > _ALIKE * link.length:
             yield (
                 f"The joints of the plate {name} are {quantity(drawn, 'm')} apart in its drawing; the link "
-                f"is {quantity(float(link.length), 'm')} long: correct the drawing, or start and end of the "
-                "plate"
+                f"is {quantity(float(link.length), 'm')} long: correct the drawing, or the joints that "
+                "the file gives"
             )

@@ -15,7 +15,7 @@ def plate_tables(plate: PlateProperties) -> Iterator[Table]:
     heads = ("quantity", "", "value", "")
     yield Table("plate", "Plate", heads, known_rows(plate, "plate", length="mm"))
     if plate.holes:
-        heads = ("hole", "", "along the link {mm}", "across the link {mm}", "diameter {mm}")
+        heads = ("hole", "", "along the link [{mm}]", "across the link [{mm}]", "diameter [{mm}]")
         cells = ("name", "", "hole_along", "hole_across", "hole_diameter")
         yield part_table("holes", "Holes", parts_of(plate, "holes"), heads, *cells)
 

@@ -6,7 +6,7 @@ Source: Norton, *Design of Machinery*, section 10.5.
 """
 
 from collections.abc import Iterator
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 from pydantic_core import InitErrorDetails
@@ -18,6 +18,8 @@ from linkwright.kernel.units.marks import Length, Lengths, positive
 
 class Plate(CheckedDescription):
     """A link cut from a plate, by a drawing of its outline or by the area and its moments."""
+
+    shown_with_part: ClassVar[bool] = True
 
     file: str | None = Field(
         None,

@@ -58,12 +58,12 @@ class Arc:
     @property
     def start(self) -> Floats:
         """Where it begins, (2,)."""
-        return self.at(np.zeros(1))[0][0]
+        return _place(self, 0.0)
 
     @property
     def end(self) -> Floats:
         """Where it ends, (2,)."""
-        return self.at(np.ones(1))[0][0]
+        return _place(self, 1.0)
 
     @property
     def is_closed(self) -> bool:
@@ -107,12 +107,12 @@ class Spline:
     @property
     def start(self) -> Floats:
         """Where it begins, (2,)."""
-        return self.at(np.zeros(1))[0][0]
+        return _place(self, 0.0)
 
     @property
     def end(self) -> Floats:
         """Where it ends, (2,)."""
-        return self.at(np.ones(1))[0][0]
+        return _place(self, 1.0)
 
     @cached_property
     def _weighted(self) -> tuple[Any, Any]:
@@ -134,6 +134,12 @@ class Spline:
 
 
 Curve = Line | Arc | Spline
+
+
+def _place(curve: Curve, u: float) -> Floats:
+    """Place at one parameter, (2,)."""
+    place: Floats = curve.at(np.array([u]))[0][0]
+    return place
 
 
 def bulged(start: Floats, end: Floats, bulge: float) -> Curve:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,9 @@ from linkwright.outlines.model.region import Region, region_of
 
 # Entries of a plate that say how its drawing is read.
 _OF_FILE = ("layers", "unit", "start", "end")
+
+# Share of the size of a section below which a place of its centre is rounding.
+_NOTHING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -81,8 +84,9 @@ def section_of(
         moment * scale**4,
         accuracy,
     )
-    object.__setattr__(section, "centre", section.in_link(centre))
-    return section
+    place = section.in_link(centre)
+    # A centre on the line of the link lies there, and not within rounding of it.
+    return replace(section, centre=np.where(np.abs(place) > _NOTHING * math.sqrt(section.area), place, 0.0))
 
 
 def with_plates(tables: dict[str, Any], folder: Path, *, allow_outside: bool = False) -> None:
