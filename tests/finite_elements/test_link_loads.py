@@ -142,7 +142,7 @@ def test_bending_of_a_swinging_rod() -> None:
 def test_instants_are_where_curves_peak() -> None:
     """Each named instant is the crank angle of the largest value of its curve."""
     loads = lw.link_loads(four_bar(), "R.coupler")
-    at = {name: instant.index for instant in loads.instants for name in instant.names}
+    at = {name: instant.place for instant in loads.instants for name in instant.names}
     assert at["maximum force at A"] == int(np.argmax(loads.loads["A"].size))
     assert at["maximum bending moment"] == int(np.argmax(np.abs(loads.bending)))
     assert at["maximum angular acceleration"] == int(np.argmax(np.abs(loads.acceleration)))
@@ -236,7 +236,7 @@ def test_steps_of_calculix_with_a_mesh(tmp_path: Path) -> None:
     for step, instant in zip(
         read_back(step_text(loads, Model("calculix", mesh=mesh))), loads.instants, strict=True
     ):
-        i = instant.index
+        i = instant.place
         assert [line[0] for line in step["*DLOAD"]] == [*map(str, range(1, 11)), "EALL"]
         for line in step["*DLOAD"][:-1]:
             x = 10 * int(line[0]) - 5

@@ -73,7 +73,7 @@ def _inertia(mass: LinkMass, sections: Floats, omega: Floats, alpha: Floats) -> 
 
     def over(xi: Floats) -> Floats:
         """The integral of the moment about the section, up to ξ."""
-        across = q0 * (arm * xi + xi**2 / 2) + q1 * (arm * xi**2 / 2 + xi**3 / 3)
+        across: Floats = q0 * (arm * xi + xi**2 / 2) + q1 * (arm * xi**2 / 2 + xi**3 / 3)
         return across - y * (p0 * xi + p1 * xi**2 / 2)
 
     start = np.full_like(arm, -rod / 2)

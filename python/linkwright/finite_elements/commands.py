@@ -94,7 +94,7 @@ def loads(
     """
     from linkwright.finite_elements.loads import loads_of_links
     from linkwright.kernel.files.output import file_names
-    from linkwright.kinetostatics.commands import angle_range, frictions_of
+    from linkwright.kinetostatics.commands import angle_range, frictions_of, nothing_to_carry
     from linkwright.kinetostatics.motion import motion_at
     from linkwright.kinetostatics.places import Scene
     from linkwright.linkages.zero import zero_over
@@ -121,7 +121,7 @@ def loads(
         zero=zero_over(machine, zero, *links.values()),
         results={"loads": links},
         findings=next(iter(links.values())).findings,
-        warnings=_left_out(links, model),
+        warnings=[*nothing_to_carry(machine), *_left_out(links, model)],
         head=partial(speed_words, speeds),
         tables=later("finite_elements.tables:links_tables", links),
         files={

@@ -44,12 +44,12 @@ class Instant(NamedTuple):
     ----------
     names : tuple of str
         What peaks there, in words.
-    index : int
+    place : int
         Number of the angle.
     """
 
     names: tuple[str, ...]
-    index: int
+    place: int
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,7 @@ class LinkLoads(Result):
         """Scalars, maximum forces and instants by name; with ``curves`` also all loads as lists."""
         results = super().to_dict(curves=curves) | {"force_max": self.force_max}
         results["instants"] = [
-            {"names": list(instant.names), "crank_angle": float(self.crank_angle[instant.index])}
+            {"names": list(instant.names), "crank_angle": float(self.crank_angle[instant.place])}
             for instant in self.instants
         ]
         if curves:

@@ -89,7 +89,7 @@ def _where(load: LinkLoad, i: int, model: Model) -> str:
 
 
 def _step(loads: LinkLoads, instant: Instant, model: Model) -> Iterator[str]:
-    i = instant.index
+    i = instant.place
     yield f"** {'; '.join(instant.names)}: crank angle {math.degrees(loads.crank_angle[i]):.6g} deg"
     yield "*STEP"
     yield "*STATIC"

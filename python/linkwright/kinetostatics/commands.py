@@ -139,7 +139,7 @@ def forces(
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
         warnings=[
-            *_nothing_to_carry(machine),
+            *nothing_to_carry(machine),
             *first_revolution_words(machine),
             *shaft_of_laws(machine),
             *unjudged_limits(machine),
@@ -155,7 +155,8 @@ def forces(
     to.hand_over(answer)
 
 
-def _nothing_to_carry(machine: Machine) -> list[str]:
+def nothing_to_carry(machine: Machine) -> list[str]:
+    """That all forces are zero, where nothing has mass or load."""
     if machine.bodies or machine.all_loads:
         return []
     words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."

@@ -12,8 +12,8 @@ from linkwright.outlines.plate import PlateProperties
 
 def plate_tables(plate: PlateProperties) -> Iterator[Table]:
     """Area, mass and moments of a plate, and its holes."""
-    heads = ("quantity", "", "value", "")
-    yield Table("plate", "Plate", heads, known_rows(plate, "plate", length="mm"))
+    rows = known_rows(plate, "plate", length="mm")
+    yield Table("plate", "Plate", ("quantity", "", "value", ""), rows)
     if plate.holes:
         heads = ("hole", "", "along the link [{mm}]", "across the link [{mm}]", "diameter [{mm}]")
         cells = ("name", "", "hole_along", "hole_across", "hole_diameter")

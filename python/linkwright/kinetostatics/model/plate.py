@@ -55,12 +55,14 @@ class Plate(CheckedDescription):
     @property
     def mass(self) -> Any:
         """m = ρ t A [kg]."""
-        return self.density * self.thickness * self.area
+        area: Any = self.area
+        return self.density * self.thickness * area
 
     @property
     def inertia(self) -> Any:
         """About the centre of mass, J = ρ t I_p [kg m²]."""
-        return self.density * self.thickness * self.second_moment
+        second_moment: Any = self.second_moment
+        return self.density * self.thickness * second_moment
 
     def _faults(self) -> Iterator[InitErrorDetails]:
         if self.file is not None:

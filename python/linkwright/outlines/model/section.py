@@ -45,7 +45,8 @@ class Section:
     def in_link(self, places: Floats) -> Floats:
         """Places of the drawing in the axes of the link, (n, 2) [m]."""
         cos, sin = math.cos(self.angle), math.sin(self.angle)
-        return (places * self.scale - self.start) @ np.array([[cos, -sin], [sin, cos]])
+        own: Floats = (places * self.scale - self.start) @ np.array([[cos, -sin], [sin, cos]])
+        return own
 
 
 def section_of(
