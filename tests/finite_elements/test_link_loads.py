@@ -139,6 +139,29 @@ def test_bending_of_a_swinging_rod() -> None:
     assert abs(loads.bending[0]) == pytest.approx(5 * 0.6**3 / 3 * 7, rel=1e-6)
 
 
+def test_whip_of_a_connecting_rod() -> None:
+    """m r ω² l/(9√3) in a uniform rod square to its crank (Khurmi, Gupta, Theory of Machines, chapter 15)."""
+    length, radius, omega = 10.0, 0.1, 20.0
+    machine = lw.loads(
+        f"""
+        format = 1
+        name = "Long rod"
+        [mechanism.cranks.A]
+        radius = {radius}
+        [mechanism.sliders.S]
+        crank = "A"
+        rod = {length}
+        [bodies]
+        "S.rod" = {{ mass_per_length = 3 }}
+        """
+    )
+    loads = lw.link_loads(machine, "S.rod", speed=omega, angles=[np.arctan(length / radius)])
+    whip = 3 * length * radius * omega**2 * length / (9 * np.sqrt(3))
+    # The slider end is accelerated across the rod by (r/l)² of the crank's.
+    assert abs(loads.bending[0]) == pytest.approx(whip, rel=1e-3)
+    assert loads.bending_place[0] == pytest.approx(length * (1 - 1 / np.sqrt(3)), abs=0.05)
+
+
 def test_instants_are_where_curves_peak() -> None:
     """Each named instant is the crank angle of the largest value of its curve."""
     loads = lw.link_loads(four_bar(), "R.coupler")

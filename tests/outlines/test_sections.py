@@ -288,6 +288,14 @@ def solid(space: Any) -> None:
     space.add_solid([(0, 0), (1, 0), (1, 1)])
 
 
+def speck(space: Any) -> None:
+    space.add_circle((3, 4), 0)
+
+
+def endless(space: Any) -> None:
+    space.add_lwpolyline([(0, 0), (float("nan"), 0), (1, 1)], close=True)
+
+
 def nothing(space: Any) -> None:
     space.add_point((0, 0))
 
@@ -302,6 +310,8 @@ FAULTS = {
     twice: "an outline that is drawn twice, about (5, 5)",
     layers: "curves on the layers PLATE, HOLES",
     solid: "SOLID on the layer 0",
+    speck: "an outline without size at (3, 4)",
+    endless: "no finite number",
     nothing: "no curve",
 }
 

@@ -114,6 +114,8 @@ def closed_loops(curves: Sequence[Curve]) -> list[Loop]:
     """The closed outlines that curves form, by their ends. Raises DrawingError: one is open or branches."""
     points = np.concatenate([curve.at(np.linspace(0.0, 1.0, 9))[0] for curve in curves])
     size = float(np.max(np.ptp(points, axis=0))) or 1.0
+    if not math.isfinite(size):
+        raise DrawingError("a curve with a coordinate that is no finite number", "a plane drawing")
     whole = [curve for curve in curves if _closes(curve, SAME * size)]
     parts = [
         curve

@@ -29,7 +29,10 @@ class Region:
         return (self.outline, *self.holes)
 
     def integrals(self) -> tuple[float, Floats, float, float]:
-        """Area, centre (2,), polar second moment of area about the centre, and their relative accuracy."""
+        """Area, centre (2,), polar second moment of area about the centre, and their relative accuracy.
+
+        Raises DrawingError: there is no area.
+        """
         origin = 0.5 * (self.outline.polygon.min(axis=0) + self.outline.polygon.max(axis=0))
         total, error = np.zeros(4), 0.0
         for sign, loop in ((1.0, self.outline), *((-1.0, hole) for hole in self.holes)):
@@ -38,12 +41,19 @@ class Region:
             total += sign * math.copysign(1.0, values[0]) * values
             error = max(error, own)
         area = float(total[0])
+        if not 0 < area < math.inf:
+            where = place_words(self.outline.polygon[0])
+            raise DrawingError(f"an outline without area at {where}", "an outline that encloses an area")
         shift = total[1:3] / area
         return area, origin + shift, float(total[3] - area * (shift @ shift)), error
 
 
 def region_of(loops: Sequence[Loop]) -> Region:
     """The outline and its holes. Raises DrawingError: loops cross, or there are several outlines."""
+    for loop in loops:
+        if not np.ptp(loop.polygon, axis=0).max() > 0:
+            found = f"an outline without size at {place_words(loop.polygon[0])}"
+            raise DrawingError(found, "outlines that enclose an area")
     _require_single(loops)
     _require_apart(loops)
     depths = [sum(other.encloses(loop.polygon[0]) for other in loops if other is not loop) for loop in loops]
@@ -90,17 +100,23 @@ def _require_apart(loops: Sequence[Loop]) -> None:
 
 
 def _meetings(starts: Floats, ends: Floats) -> Iterator[tuple[int, int]]:
-    """Pairs of sides that have a point in common."""
+    """Pairs of sides that have a point in common, the lower number first."""
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    # From left to right a side can meet those alone that begin before it ends.
+    order = np.argsort(low[:, 0])
+    last = np.searchsorted(low[order, 0], high[order, 0], side="right")
     for block in range(0, len(starts), _BLOCK):
-        own = slice(block, block + _BLOCK)
-        near = (low[own, None] <= high[None]).all(-1) & (high[own, None] >= low[None]).all(-1)
-        first, second = np.nonzero(near)
-        first, second = first[second > first + block] + block, second[second > first + block]
+        own = np.arange(block, min(block + _BLOCK, len(starts)))
+        counts = last[own] - own - 1
+        left = np.repeat(own, counts)
+        right = left + 1 + np.arange(len(left)) - np.repeat(np.cumsum(counts) - counts, counts)
+        first, second = order[left], order[right]
+        near = (low[first, 1] <= high[second, 1]) & (high[first, 1] >= low[second, 1])
+        first, second = first[near], second[near]
         a, b, c, d = starts[first], ends[first], starts[second], ends[second]
         meets = (_side(a, b, c) * _side(a, b, d) <= 0) & (_side(c, d, a) * _side(c, d, b) <= 0)
-        found = np.nonzero(meets)[0]
-        yield from zip(first[found].tolist(), second[found].tolist(), strict=True)
+        for one, other in zip(first[meets].tolist(), second[meets].tolist(), strict=True):
+            yield min(one, other), max(one, other)
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:

@@ -66,12 +66,12 @@ def section_of(
     no outline.
     """
 
-    def read(document: Any) -> tuple[Region, float]:
+    def read(document: Any) -> tuple[Region, float, tuple[float, Floats, float, float]]:
         curves, scale = curves_of(document, layers, unit, key)
-        return region_of(closed_loops(curves)), scale
+        region = region_of(closed_loops(curves))
+        return region, scale, region.integrals()
 
-    region, scale = read_drawing(path, key, read)
-    area, centre, moment, accuracy = region.integrals()
+    region, scale, (area, centre, moment, accuracy) = read_drawing(path, key, read)
     origin = np.array((0.0, 0.0) if start is None else start)
     chord = np.array([1.0, 0.0]) if end is None else np.array(end) - origin
     section = Section(
