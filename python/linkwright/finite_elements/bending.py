@@ -11,7 +11,7 @@ Source: Norton, *Machine Design*, section 3.9; d'Alembert's principle.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -71,9 +71,9 @@ def _inertia(mass: LinkMass, sections: Floats, omega: Floats, alpha: Floats) -> 
     q1, p1 = -mass.mass * alpha / rod, mass.mass * omega**2 / rod
     arm = x - sections
 
-    def over(xi: Floats) -> Floats:
+    def over(xi: Floats) -> Any:
         """The integral of the moment about the section, up to ξ."""
-        across: Floats = q0 * (arm * xi + xi**2 / 2) + q1 * (arm * xi**2 / 2 + xi**3 / 3)
+        across = q0 * (arm * xi + xi**2 / 2) + q1 * (arm * xi**2 / 2 + xi**3 / 3)
         return across - y * (p0 * xi + p1 * xi**2 / 2)
 
     start = np.full_like(arm, -rod / 2)

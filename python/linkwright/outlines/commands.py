@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from linkwright.kernel.command.answer import Answer
-from linkwright.kernel.command.common import FolderOutput, to_folder
+from linkwright.kernel.command.common import FolderOutput, belong_to, to_folder
 from linkwright.kernel.command.parameter import Argument, Option, Value
 from linkwright.kernel.errors import InputError, UnitError
 from linkwright.kernel.later import later
@@ -64,6 +64,8 @@ def outline(
 
     if step and (to.out is None or thickness is None):
         raise InputError("--step: found without --out and --thickness, expected both")
+    if thickness is None or density is None:
+        belong_to("--thickness and --density", "on")
     plate = compute(
         file,
         layers=layer or (),
