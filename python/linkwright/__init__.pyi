@@ -54,6 +54,7 @@ from linkwright.driveline.elastic_motion import elastic_motion as elastic_motion
 from linkwright.driveline.in_time import DriveSwitch as DriveSwitch
 from linkwright.driveline.in_time import elastic_transient as elastic_transient
 from linkwright.driveline.run_up import elastic_run_up as elastic_run_up
+from linkwright.finite_elements.loads import link_loads as link_loads
 from linkwright.kernel.errors import AssemblyError as AssemblyError
 from linkwright.kernel.errors import CamError as CamError
 from linkwright.kernel.errors import ConvergenceError as ConvergenceError
@@ -103,6 +104,7 @@ from linkwright.machine.machine import Machine as Machine
 from linkwright.machine.read import loads as loads
 from linkwright.machine.read import read as read
 from linkwright.machine.write import write as write
+from linkwright.outlines.plate import outline as outline
 from linkwright.papers.published_lengths import length_verdict as length_verdict
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator

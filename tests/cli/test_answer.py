@@ -28,6 +28,7 @@ from linkwright.studies.sweep import begun
 ROOT = Path(__file__).parents[2]
 FILES = {path.stem: str(path) for path in (ROOT / "machines").glob("*.toml")} | {
     "undercut": str(ROOT / "examples" / "cam_roller_undercut" / "machine.toml"),
+    "drawn_rod": str(ROOT / "examples" / "drawn_connecting_rod" / "rod.dxf"),
     "coupling": str(ROOT / "examples" / "elastic_coupling_of_carts" / "machine.toml"),
     "engine": str(ROOT / "examples" / "weak_cylinder" / "machine.toml"),
 }
@@ -175,6 +176,10 @@ CASES = {
     "forces": Case(
         "{roller_two_carts}", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --angles 1deg"
     ),
+    "loads": Case(
+        "{roller_two_carts} --link A1", "{roller_two_carts}" + _SHORT_ROD, "{roller_two_carts} --link nobody"
+    ),
+    "outline": Case("{drawn_rod}", NEVER, "{drawn_rod} --start 3"),
     "balance": Case(
         "{roller_two_carts} --links A1",
         "{roller_two_carts} --links A1" + _SHORT_ROD,

@@ -67,6 +67,9 @@ def prepared(page: Path, folder: Path) -> None:
         step = len(motion.rod_load) // 200
         rows = [f"{x:.5f}, {F:.1f}" for x, F in zip(motion.rod_position, motion.rod_load, strict=True)]
         (folder / "card.csv").write_text("\n".join(["position [m], load [N]", *rows[::step]]) + "\n")
+    if "rod.dxf" in text:
+        drawing = ROOT / "examples" / "drawn_connecting_rod" / "rod.dxf"
+        (folder / "rod.dxf").write_bytes(drawing.read_bytes())
     if "trial.csv" in text:
         (folder / "trial.csv").write_text("speed [rpm], line [MPa]\n60, 21.5\n76, 90\n90, 30\n")
 

@@ -18,7 +18,7 @@ from linkwright.kernel.files.output import MARKER, OutputFolder, file_name, file
 PACKAGE = Path(__file__).parents[2] / "python" / "linkwright"
 
 # The one module that writes, and two whose libraries write to a path: that of a trial.
-WRITERS = {"kernel/files/output.py", "cam/manufacture/dxf.py", "cam/manufacture/step.py"}
+WRITERS = {"kernel/files/output.py", "cam/manufacture/dxf.py", "kernel/files/step.py"}
 
 
 def seen(folder: Path) -> dict[str, str]:

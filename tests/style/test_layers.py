@@ -57,6 +57,8 @@ SUBJECTS = (
     "drive",
     "driveline",
     "kinetostatics",
+    "outlines",
+    "finite_elements",
     "cam",
     "torsion",
     "pumping",
@@ -100,6 +102,14 @@ EDGES = {
     ("kinetostatics.commands", "drive"),
     # Crank angles are counted from a dead centre of the linkage.
     ("kinetostatics.commands", "linkages"),
+    # The loads on one link are part of the equilibrium of all.
+    ("finite_elements", "drive"),
+    ("finite_elements", "kinetostatics"),
+    ("finite_elements", "kinetostatics.model"),
+    ("finite_elements.commands", "drive"),
+    ("finite_elements.commands", "kinetostatics"),
+    ("finite_elements.commands", "kinetostatics.commands"),
+    ("finite_elements.commands", "linkages"),
     # A drive moves a linkage against its loads; its shafts are those of torsion.
     ("drive", "linkages"),
     ("drive.commands", "linkages"),

@@ -51,6 +51,8 @@ COMMANDS = {
     "plot": Place("Draw curves of a machine.", "app.commands.plot:plot"),
     "draw": Place("Draw a mechanism, still or in motion.", "app.commands.draw:draw", False),
     "forces": Place("Compute joint reactions and shaking force.", "kinetostatics.commands:forces"),
+    "outline": Place("Mass and inertia of a link by its drawing.", "outlines.commands:outline"),
+    "loads": Place("Loads on links, for finite elements.", "finite_elements.commands:loads"),
     "rods": Place("Rod string: cards, loads, stresses; measured cards.", "rods.commands:rods"),
     "axes": Place("Torque of servo axes, and their motors.", "axes.commands:axes"),
     "balance": Place("Find counterweights.", "kinetostatics.commands:balance"),

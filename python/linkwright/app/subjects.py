@@ -8,6 +8,7 @@ from linkwright.drive import analyses as drive
 from linkwright.driveline import analyses as driveline
 from linkwright.kinetostatics import analyses as kinetostatics
 from linkwright.linkages import analyses as linkages
+from linkwright.outlines import analyses as outlines
 from linkwright.pumping import analyses as pumping
 from linkwright.rods import analyses as rods
 from linkwright.topping import analyses as topping
@@ -18,6 +19,7 @@ ANALYSES = (
     *(turning.DIAGRAM, topping.TOPPER, topping.FIELD),
     *(cam.CAM, cam.SIZES, cam.CHECK),
     *(pumping.UNIT, pumping.GEARBOX, pumping.ROTATOR),
+    outlines.PLATES,
     *(linkages.LINKAGE, drive.MOTION, drive.CYCLE, drive.REDUCTION, drive.CONSTANT_ENERGY, drive.STEADY),
     *(drive.STEP_METHOD, drive.RUN_UP, drive.RUN_DOWN, driveline.ELASTIC, driveline.RUN_UP),
     rods.STRING,

@@ -36,6 +36,7 @@ TEXT = Limit(10_000, "characters in a text", "a description of some pages")
 NAME = Limit(100, "characters in a name or key", "a name appears in tables, figures and file names")
 TITLE = Limit(300, "characters in the name of a machine", "it heads tables and reports")
 POINT_BYTES = Limit(20_000_000, "bytes in a file of points", "200 bytes a row")
+MESH_BYTES = Limit(200_000_000, "bytes in a mesh", "a million elements")
 LOGO_BYTES = Limit(2_000_000, "bytes in a logo", "it appears in every report")
 ROWS = Limit(
     100_000, "rows in a file of points", "a record of a hundred revolutions, a thousand samples each"

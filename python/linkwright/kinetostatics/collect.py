@@ -34,7 +34,7 @@ KEEPS = "increase the spring force, reduce the speed, or use a groove."
 TIGHTENS = "increase the load on its end, or reduce the speed."
 
 # Kinds of models that are no pairs.
-_DRIVES = ("torque", "force", "contact")
+DRIVES = ("torque", "force", "contact")
 
 
 class Collector:
@@ -72,7 +72,7 @@ class Collector:
         self.total = solution.x.sum(axis=-1)
         sizes = np.cumsum([0] + [len(model.unknowns) for model in models])
         self.spans = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
-        self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in _DRIVES}
+        self.works = {model.name: model.unknowns[0].power() for model in models if model.kind in DRIVES}
         if (solution.singular | solution.locked).all():
             raise FindingError(_where(self.solution, scene.motion.crank_angle)[0])
 
@@ -111,7 +111,7 @@ class Collector:
     def drives(self) -> dict[str, Floats]:
         """Torque or force of each drive, (n,)."""
         spans = zip(self.models, self.spans, strict=True)
-        return {m.name: self.total[:, span.start] for m, span in spans if m.kind in _DRIVES}
+        return {m.name: self.total[:, span.start] for m, span in spans if m.kind in DRIVES}
 
     def drive_and_frame(self) -> tuple[Floats, Floats]:
         """Driving torque, (n,), and what acts on the frame, (n, 3)."""
@@ -123,14 +123,14 @@ class Collector:
 
     def _pairs(self) -> list[tuple[PairModel, slice]]:
         spans = zip(self.models, self.spans, strict=True)
-        return [(model, span) for model, span in spans if model.kind not in _DRIVES]
+        return [(model, span) for model, span in spans if model.kind not in DRIVES]
 
     def _on_second(self, model: PairModel, span: slice, x: Floats) -> Floats:
         """What a pair does to its second member, viscous friction included, (n, 3)."""
-        at = self._passed(model, span, x, model.second)
+        at = self.passed(model, span, x, model.second)
         return at + self._viscous(model) if model.extra is not None and model.friction.viscous else at
 
-    def _passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
+    def passed(self, model: PairModel, span: slice, x: Floats, member: str) -> Floats:
         """What a pair does to a member for values (n, unknowns): force and moment, (n, 3)."""
         passed: Floats = np.zeros((self.scene.n, 3))
         for j, unknown in enumerate(model.unknowns):
@@ -184,7 +184,7 @@ class Collector:
     def shaft_torques(self) -> dict[str, Floats]:
         """Torque of each drive referred to the shaft that all follow, (n,)."""
         spans = zip(self.models, self.spans, strict=True)
-        return {m.name: self._on_shaft(m, span, self.total) for m, span in spans if m.kind in _DRIVES}
+        return {m.name: self._on_shaft(m, span, self.total) for m, span in spans if m.kind in DRIVES}
 
     def _on_shaft(self, model: PairModel, span: slice, x: Floats) -> Floats:
         """The work of a drive on its member in a radian of the shaft, with what a contact loses."""
@@ -197,8 +197,8 @@ class Collector:
         frame = reduce(add, [source.wrenches.on_member(FRAME) for source in sources])
         for model, span in zip(self.models, self.spans, strict=True):
             if model.acts_on(FRAME):
-                frame = frame + self._passed(model, span, x, FRAME)
-            if model.kind in _DRIVES:
+                frame = frame + self.passed(model, span, x, FRAME)
+            if model.kind in DRIVES:
                 torque = torque + self._on_shaft(model, span, x)
         return torque, frame
 
@@ -207,8 +207,8 @@ class Collector:
         torque, frame = self._borne([source], x)
         reactions = {}
         for model, span in zip(self.models, self.spans, strict=True):
-            if model.kind not in _DRIVES:
-                at = self._passed(model, span, x, model.second)
+            if model.kind not in DRIVES:
+                at = self.passed(model, span, x, model.second)
                 reactions[model.name] = (at + self._viscous(model) if name == "friction" else at)[:, :2]
         return Contribution(reactions, torque, frame[:, :2], frame[:, 2])
 

@@ -119,7 +119,7 @@ def forces(
         raise InputError("--at and --angles: one crank angle or a range, not both")
     if acceleration is not None and speed is None and at is None:
         raise InputError("--acceleration: it belongs to --speed or --at; a steady motion has its own")
-    given = {"speed": speed, "acceleration": acceleration, "angles": _range(angles, speed)}
+    given = {"speed": speed, "acceleration": acceleration, "angles": angle_range(angles, speed)}
     options = {"pressure_angle": pressure_angle} | {k: x for k, x in given.items() if x is not None}
     machine = file.read()
     if at is not None:
@@ -139,7 +139,7 @@ def forces(
             _named(name, finding, cases) for name, result in cases.items() for finding in result.findings
         ],
         warnings=[
-            *_nothing_to_carry(machine),
+            *nothing_to_carry(machine),
             *first_revolution_words(machine),
             *shaft_of_laws(machine),
             *unjudged_limits(machine),
@@ -155,7 +155,8 @@ def forces(
     to.hand_over(answer)
 
 
-def _nothing_to_carry(machine: Machine) -> list[str]:
+def nothing_to_carry(machine: Machine) -> list[str]:
+    """That all forces are zero, where nothing has mass or load."""
     if machine.bodies or machine.all_loads:
         return []
     words = "The machine has no masses and no loads: all forces are zero. Add [bodies] and [loads]."
@@ -215,7 +216,8 @@ def _named(name: str, finding: str, cases: dict[str, Forces]) -> str:
     return finding if len(cases) == 1 else f"{name}: {finding}"
 
 
-def _range(span: str | None, speed: float | None) -> list[float] | None:
+def angle_range(span: str | None, speed: float | None) -> list[float] | None:
+    """Crank angles between the ends of ``--angles``; None without it."""
     if span is None:
         return None
     ends = [option_value("--angles", end.strip(), ANGLE) for end in span.split(",")]
@@ -231,14 +233,15 @@ def _cases(
 ) -> dict[str, Forces]:
     from linkwright.kinetostatics.forces import forces as compute
 
-    options["friction"] = _frictions(machine, frictions)
+    options["friction"] = frictions_of(machine, frictions)
     if not cases:
         return {machine.name: compute(machine, **options)}
     named = dict(named_entries("--case", text, "idle: loads.work.force=0") for text in cases)
     return {name: compute(file.read(entries), **options) for name, entries in named.items()}
 
 
-def _frictions(machine: Machine, texts: list[str]) -> dict[str, Friction]:
+def frictions_of(machine: Machine, texts: list[str]) -> dict[str, Friction]:
+    """Friction by name of the pair, as ``--friction`` says it."""
     from linkwright.linkages.model.structure import structure
 
     if not texts:

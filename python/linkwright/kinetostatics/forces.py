@@ -109,7 +109,6 @@ def forces(
     ----------
     .. [1] Norton, Design of Machinery, chapter 11.
     """
-    in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
     if motion is not None and angles is not None:
         raise InputError("angles: found together with a motion, which has its own; omit them")
     if motion is None:
@@ -131,6 +130,7 @@ def acting(
     scene: Scene, friction: Mapping[str, Friction], pressure_angle: float = PRESSURE_ANGLE
 ) -> tuple[list[PairModel], dict[str, AppliedLoad]]:
     """Pairs and drives of a scene, and what acts on it."""
+    in_range(pressure_angle=(pressure_angle, Quantity(ANGLE, _ACUTE)))
     models = pair_models(scene, checked(friction, scene.structure.pairs), pressure_angle)
     return models, _sources(scene, models)
 

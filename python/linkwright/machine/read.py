@@ -174,6 +174,10 @@ def loads_as(
                 lambda file: read_as(Machine, file, allow_outside=allow_outside),
                 allow_outside=allow_outside,
             )
+        if _has_plates(tables):
+            from linkwright.outlines.model.section import with_plates
+
+            with_plates(tables, Path(path).parent, allow_outside=allow_outside)
         with_dxf_points(tables, Path(path).parent, allow_outside=allow_outside)
         columns = with_points(tables, Path(path).parent, allow_outside=allow_outside)
         described = model.model_validate(tables)
@@ -186,6 +190,13 @@ def loads_as(
         # A tolerance behind a value stands where the value does.
         problems = [replace(problem, key=behind.get(problem.key, problem.key)) for problem in error.problems]
         raise MachineFileError(_located(problems, text, path, places, columns)) from None
+
+
+def _has_plates(tables: dict[str, Any]) -> bool:
+    """Whether a body is cut from a plate, whose drawing is read then alone."""
+    bodies = tables.get("bodies")
+    entries = bodies.values() if isinstance(bodies, dict) else ()
+    return any(isinstance(body, dict) and "plate" in body for body in entries)
 
 
 def _text(path: Path, expected: str) -> str:

@@ -19,69 +19,34 @@ from linkwright.cam.manufacture.fit import FileOutline
 from linkwright.cam.manufacture.spline import EvaluatedSpline, Spline
 from linkwright.kernel.arrays import Floats
 from linkwright.kernel.errors import ExchangeError
-from linkwright.kernel.extras import require
+from linkwright.kernel.files.step import filled, kernel, prism, wire_of, write_solid
 
 # How far above its plane the kernel may put the lower face [mm].
 _PLANE = 1e-6
 
 
-def _kernel(module: str) -> Any:
-    """A module of Open CASCADE; the error says how to install it."""
-    need = "STEP files need the Open CASCADE kernel"
-    kernel, message = (require(f"OCP.{name}", "step", need) for name in (module, "Message"))
-    # It would print what it does, into the output of whoever called.
-    printers = message.Message_PrinterOStream.get_type_descriptor_s()
-    message.Message.DefaultMessenger_s().RemovePrinters(printers)
-    return kernel
-
-
 def write_step(file: File, name: str, path: Spline, width: float) -> None:
     """Write a solid as STEP. ``width``: its width [m]."""
-    build, static = _kernel("BRepBuilderAPI"), _kernel("Interface").Interface_Static
-    wire = build.BRepBuilderAPI_MakeWire()
-    wire.Add(_edge(path))
-    if not wire.IsDone() or not wire.Wire().Closed():
-        raise ExchangeError(f"{file}: Open CASCADE does not close the outline")
-    face = build.BRepBuilderAPI_MakeFace(wire.Wire(), True).Face()
-    along = _kernel("gp").gp_Vec(0, 0, 1e3 * width)
-    solid = _kernel("BRepPrimAPI").BRepPrimAPI_MakePrism(face, along).Shape()
-    if not _kernel("BRepCheck").BRepCheck_Analyzer(solid).IsValid():
-        raise ExchangeError(f"{file}: Open CASCADE does not make a sound solid of the outline")
-    control = _kernel("STEPControl")
-    writer = control.STEPControl_Writer()
-    static.SetCVal_s("write.step.schema", "AP214IS")
-    static.SetCVal_s("write.step.unit", "MM")
-    static.SetCVal_s("write.step.product.name", name)
-    writer.Transfer(solid, control.STEPControl_StepModelType.STEPControl_ManifoldSolidBrep)
-    if writer.Write(str(file)) != _kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
-        raise ExchangeError(f"{file}: Open CASCADE does not write the file")
+    write_solid(file, name, prism(file, wire_of(file, [_edge(path)]), width))
 
 
 def _edge(path: Spline) -> Any:
-    gp, kernel = _kernel("gp"), _kernel("collections")
+    gp, arrays = kernel("gp"), kernel("collections")
     cuts, repeated = np.unique(path.knots, return_counts=True)
     poles = [gp.gp_Pnt(x, y, 0) for x, y in (1e3 * path.controls).tolist()]
-    curve = _kernel("Geom").Geom_BSplineCurve(
-        _filled(kernel.Array1_gp_Pnt, poles),
-        _filled(kernel.Array1_double, cuts.tolist()),
-        _filled(kernel.Array1_int, repeated.tolist()),
+    curve = kernel("Geom").Geom_BSplineCurve(
+        filled(arrays.Array1_gp_Pnt, poles),
+        filled(arrays.Array1_double, cuts.tolist()),
+        filled(arrays.Array1_int, repeated.tolist()),
         path.degree,
     )
-    return _kernel("BRepBuilderAPI").BRepBuilderAPI_MakeEdge(curve).Edge()
-
-
-def _filled(kind: Any, values: list[Any]) -> Any:
-    """An array of Open CASCADE, whose indices begin at 1."""
-    array = kind(1, len(values))
-    for i, value in enumerate(values, start=1):
-        array.SetValue(i, value)
-    return array
+    return kernel("BRepBuilderAPI").BRepBuilderAPI_MakeEdge(curve).Edge()
 
 
 def read_step(file: File, sense: int) -> FileOutline:
     """Read the outline of a solid from a STEP file: that of its lower face."""
-    reader = _kernel("STEPControl").STEPControl_Reader()
-    done = _kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
+    reader = kernel("STEPControl").STEPControl_Reader()
+    done = kernel("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone
     if reader.ReadFile(str(file)) != done or not reader.TransferRoots():
         raise ExchangeError(f"{file}: is not a STEP file that can be read")
     pieces = [piece for wire in _lower_wires(reader.OneShape()) for piece in _pieces(wire)]
@@ -111,29 +76,29 @@ def _at(piece: tuple[Any, float, float], u: float) -> tuple[Floats, Floats]:
 
 def _lower_wires(shape: Any) -> Iterator[Any]:
     """Outer wires of the faces whose corners all lie on z = 0."""
-    top, topology = _kernel("TopAbs").TopAbs_ShapeEnum, _kernel("TopoDS").TopoDS
-    explorer = _kernel("TopExp").TopExp_Explorer
+    top, topology = kernel("TopAbs").TopAbs_ShapeEnum, kernel("TopoDS").TopoDS
+    explorer = kernel("TopExp").TopExp_Explorer
     faces = explorer(shape, top.TopAbs_FACE)
     while faces.More():
         face = topology.Face(faces.Current())
         corners = explorer(face, top.TopAbs_VERTEX)
         heights = []
         while corners.More():
-            heights.append(_kernel("BRep").BRep_Tool.Pnt_s(topology.Vertex(corners.Current())).Z())
+            heights.append(kernel("BRep").BRep_Tool.Pnt_s(topology.Vertex(corners.Current())).Z())
             corners.Next()
         if max(map(abs, heights)) < _PLANE:
-            yield _kernel("BRepTools").BRepTools.OuterWire_s(face)
+            yield kernel("BRepTools").BRepTools.OuterWire_s(face)
         faces.Next()
 
 
 def _pieces(wire: Any) -> Iterator[tuple[Any, float, float]]:
     """Pieces in order: what evaluates them, and the parameter at both ends; a spline's run between knots."""
-    explorer = _kernel("BRepTools").BRepTools_WireExplorer(wire)
-    reversed_ = _kernel("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
-    spline = _kernel("GeomAbs").GeomAbs_CurveType.GeomAbs_BSplineCurve
+    explorer = kernel("BRepTools").BRepTools_WireExplorer(wire)
+    reversed_ = kernel("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+    spline = kernel("GeomAbs").GeomAbs_CurveType.GeomAbs_BSplineCurve
     while explorer.More():
         edge = explorer.Current()
-        curve = _kernel("BRepAdaptor").BRepAdaptor_Curve(edge)
+        curve = kernel("BRepAdaptor").BRepAdaptor_Curve(edge)
         ends = [curve.FirstParameter(), curve.LastParameter()]
         if curve.GetType() == spline:
             shape = curve.BSpline()
@@ -147,7 +112,7 @@ def _pieces(wire: Any) -> Iterator[tuple[Any, float, float]]:
 
 def _evaluator(curve: Any) -> Any:
     """From a parameter to place and first derivative [m]."""
-    gp = _kernel("gp")
+    gp = kernel("gp")
 
     def values(x: float) -> tuple[Floats, Floats]:
         """Place and slope at x [m]."""

@@ -10,5 +10,6 @@
 | `named_file` | Files that a document names: those of its folder |
 | `output` | Files that are whole or not there, and never over those of others |
 | `points` | Columns of files of comma-separated values: points of a machine file, measurements |
+| `step` | STEP files by the Open CASCADE kernel |
 | `text_file` | The text of a file, up to a limit, and sizes of what it holds |
 """

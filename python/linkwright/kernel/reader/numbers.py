@@ -88,7 +88,7 @@ def parted(
 
 def pretty_unit(unit: str) -> str:
     """A unit as it is printed: ``kg m^2`` becomes ``kg m²``."""
-    return unit.replace("^2", "²").replace("^3", "³")
+    return unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
 
 
 class QuantityText(str):

@@ -128,6 +128,8 @@ INERTIA = Kind(
     angle_free=True,
 )
 MASS_PER_LENGTH = Kind("a mass per length", "kg/m", "kilograms per metre", "80 kg/m", 1e-12, 1e9)
+AREA = Kind("an area", "m^2", "square metres", "12 cm^2", 1e-18, 1e9)
+AREA_MOMENT = Kind("a second moment of area", "m^4", "metres to the fourth power", "340 cm^4", 1e-30, 1e12)
 SECTION_MODULUS = Kind("a section modulus", "m^3", "cubic metres", "25 cm^3", 1e-18, 1e6)
 DENSITY = Kind("a density", "kg/m^3", "kilograms per cubic metre", "7850 kg/m^3", 1e-3, 1e6)
 PRESSURE = Kind("a pressure", "Pa", "pascals", "210 GPa", 1e-3, 1e15)
@@ -193,6 +195,8 @@ KINDS = (
     POWER,
     INERTIA,
     MASS_PER_LENGTH,
+    AREA,
+    AREA_MOMENT,
     SECTION_MODULUS,
     DENSITY,
     PRESSURE,

@@ -7,22 +7,27 @@
 | a link | `mass`, `inertia` | centre of mass in the middle, `inertia` about it |
 | a link | `mass`, `inertia`, `along`, `across` | centre of mass there, `inertia` about it |
 | a link | `inertia` | a disc without mass |
+| a link | `plate` | cut from a plate by its outline, which gives mass, place and inertia |
 | a point or a slider | `mass` | a point mass, or a body that does not turn |
 
 The name of a crank means its link; a mass at its pin has `along` equal to the radius and `inertia` zero.
 """
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, model_validator
 from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, fault, suggestion
 from linkwright.kernel.description.place import keys, look
 from linkwright.kernel.units.kinds import INERTIA, MASS, MASS_PER_LENGTH
 from linkwright.kernel.units.marks import Length, not_negative
+from linkwright.kinetostatics.model.plate import Plate
 from linkwright.linkages.model.topology import Topology
+
+# What a plate gives.
+_OF_PLATE = ("mass", "inertia", "along", "across")
 
 
 class Body(CheckedDescription):
@@ -49,12 +54,42 @@ class Body(CheckedDescription):
         description="Position along the axis of the crankshaft, positive towards an observer who sees "
         "counter-clockwise rotation; for the shaking couple.",
     )
+    plate: Plate | None = Field(
+        None, description="Link cut from a plate: its outline gives mass, centre and moment of inertia."
+    )
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        self._fill()
+        return self
+
+    def with_entries(self, entries: Mapping[str, Any]) -> Self:
+        """Copy with some entries exchanged, unchecked; what follows from a plate is computed anew."""
+        copy = super().with_entries(entries)
+        copy._fill()
+        return copy
+
+    def _fill(self) -> None:
+        """Mass, inertia and place of a plate."""
+        for name in _OF_PLATE if self.plate is not None else ():
+            if name not in self.model_fields_set:
+                # The model is frozen for its users; these entries are part of making it.
+                object.__setattr__(self, name, getattr(self.plate, name))
 
     def _faults(self) -> Iterator[InitErrorDetails]:
-        if self.mass_per_length is not None:
+        if self.plate is not None:
+            for name in ("mass_per_length", *_OF_PLATE):
+                if name in self.model_fields_set and getattr(self, name) is not None:
+                    yield fault(
+                        name,
+                        found=getattr(self, name),
+                        expected=f"either plate or {name}",
+                        remedy="a plate gives mass, centre and moment of inertia",
+                    )
+        elif self.mass_per_length is not None:
             yield from self._uniform_faults()
         elif self.mass is None and self.inertia is None:
-            yield fault(expected="mass, mass_per_length or inertia")
+            yield fault(expected="mass, mass_per_length, inertia or plate")
         elif self._centre_given() and self.mass is None:
             yield fault("mass", expected="a mass, because the place of its centre is given")
         elif self._centre_given() and self.inertia is None:
@@ -102,7 +137,8 @@ def _on_nothing(topology: Topology, carrier: str, place: tuple[str, ...]) -> Ini
 def _point_faults(name: str, carrier: str, body: object, topology: Topology) -> Iterator[InitErrorDetails]:
     links = [link for link, element in topology.links.items() if element == carrier]
     remedy = f'"{carrier}" is a point' + (f'; the link is "{links[0]}"' if links else "")
-    for key in ("mass_per_length", "inertia", "along", "across"):
+    has_plate = look(body, "plate") is not None
+    for key in ("plate",) if has_plate else ("mass_per_length", "inertia", "along", "across"):
         value = look(body, key)
         given = key in keys(body) and value not in (None, 0.0) if key == "across" else value is not None
         if given:
