@@ -95,7 +95,8 @@ def scalars_at(machine, n):
         wave, dynamic = solved.wave, solved.cards.load[0][::2]
         if rod.take(prediction.polished_rod_load(string, moved.position, dynamic)) < 1e-13:
             break
-    motion = prediction._result(string, rod, moved, solved)
+    scalars = prediction._scalars(string, rod, moved, solved)
+    motion = prediction._result(string, rod, moved, solved, scalars, 0.0)
     found = {name: getattr(motion, name) for name in SCALARS}
     for part, names in PARTS.items():
         of = getattr(motion, part)
