@@ -52,7 +52,7 @@ def test_an_exceeded_limit_of_a_clutch_ends_the_command_with_one(tmp_path: Path)
 
 
 def test_a_locked_freewheel_is_judged_by_its_torque() -> None:
-    """Two discs under 30 N m on the first one turn as one: the freewheel carries J₂/(J₁+J₂) of it."""
+    """Two locked discs under 30 N m on the first one: the freewheel carries J₂/(J₁+J₂) of it."""
     text = ENGAGING.split("[train.clutches]")[0].format() + (
         '[train.freewheels]\nf = { between = ["a", "b"], torque_permitted = 20.0 }\n'
         "[train.transient]\nduration = 0.5\nspeeds = { a = 1.0, b = 1.0 }\n"
