@@ -23,25 +23,26 @@ def numbers(machine: lw.Machine, names: tuple[str, ...]) -> np.ndarray:
     for name in names:
         quantity, _, part = name.removeprefix("elastic_motion.").partition(".")
         value = getattr(motion, quantity)
-        places = motion.stations if part in motion.stations else motion.shafts
-        found.append(float(value[places.index(part)] if part else value))
+        places = (motion.stations, motion.shafts, motion.motors)
+        at = [listed.index(part) for listed in places if part in listed and len(listed) == np.size(value)]
+        found.append(float(value[at[0]] if part else value))
     return np.array(found)
 
 
 def differences(
-    machine: lw.Machine, change: Mapping[str, float], names: tuple[str, ...]
+    machine: lw.Machine, change: Mapping[str, float], names: tuple[str, ...], step: float = STEP
 ) -> tuple[np.ndarray, np.ndarray]:
     """Derivatives along a direction of entries by Richardson's central differences, and their errors."""
 
-    def moved(step: float) -> np.ndarray:
-        entries = {name: lw.get(machine, name) * (1 + step * by) for name, by in change.items()}
+    def moved(by_share: float) -> np.ndarray:
+        entries = {name: lw.get(machine, name) * (1 + by_share * by) for name, by in change.items()}
         return numbers(lw.replace(machine, entries), names)
 
-    slopes = [(moved(h) - moved(-h)) / (2 * h) for h in (4 * STEP, 2 * STEP, STEP)]
+    slopes = [(moved(h) - moved(-h)) / (2 * h) for h in (4 * step, 2 * step, step)]
     coarse, fine = ((4 * b - a) / 3 for a, b in itertools.pairwise(slopes))
     best = (16 * fine - coarse) / 15
     # What two neighbouring orders differ by, and rounding of the motions over the step.
-    return best, np.abs(best - fine) + 1e-12 / STEP * np.abs(numbers(machine, names))
+    return best, np.abs(best - fine) + 1e-12 / step * np.abs(numbers(machine, names))
 
 
 def varied(rng: Generator) -> lw.Machine:

@@ -209,6 +209,16 @@ def test_torques_beyond_what_is_permitted_are_findings() -> None:
     assert any("limit exceeded" in text for text in lw.study(machine).findings)
 
 
+def test_a_nearly_rigid_coupling_without_damping_is_answered_or_refused_with_a_remedy() -> None:
+    """10¹⁰ N m/rad: speeds of the rigid machine, a torque that finer steps keep; 10¹²: too many steps."""
+    rigid = lw.steady_state(two_carts(1e10, 0.0))
+    coarse, fine = (lw.elastic_motion(two_carts(1e10, 0.0), accuracy=error, n=8) for error in (1e-9, 1e-10))
+    assert fine.speed_max[-1] == pytest.approx(rigid.speed_max, rel=1e-6)
+    assert coarse.torque_max == pytest.approx(fine.torque_max, rel=1e-8)
+    with pytest.raises(lw.ConvergenceError, match="leave out a stiffness that is rigid at this speed"):
+        lw.elastic_motion(two_carts(1e12, 0.0))
+
+
 def test_a_machine_that_cannot_move_says_why() -> None:
     """A rigid driveline, no motor, and a motor too weak for the load are refused with the reason."""
     with pytest.raises(lw.InputError, match="the driveline is rigid"):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from elastic_drives import Drive
-from loose_drives import Law, LooseDrive, loose_cycle, random_loose_drive
-from sizes import random_cases
+from loose_drives import Law, LooseDrive, loose_cycle, parting, random_loose_drive
+from sizes import generator, random_cases
 
 import linkwright as lw
 from linkwright.driveline.parametric import parametric_zones
@@ -15,17 +15,13 @@ from linkwright.driveline.solving import multipliers_of, ready, solved
 
 def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down_here() -> None:
     """Start, multipliers, period, losses and extremes of drives with up to three links."""
-    refused = chaotic = 0
+    refused = []
     for number, rng in random_cases(4802, 1, 200, also=(9,)):
         loose = random_loose_drive(rng)
         try:
             motion = lw.elastic_motion(loose.machine, angles=np.zeros(1))
-        except lw.ConvergenceError:
-            refused += 1
-            continue
-        except lw.SteadyStateError:
-            # Neighbouring motions part.
-            chaotic += 1
+        except (lw.ConvergenceError, lw.SteadyStateError):
+            refused.append(number)
             continue
         lead, masses = loose.drive.ratio, _masses(motion)
         speed = motion.speed[masses, 0] / motion.ratio[masses]
@@ -50,8 +46,12 @@ def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down
             size = np.abs(expected).max(axis=1)
             assert np.abs((low - expected[:, 0]) / size).max() <= 1e-6, number
             assert np.abs((high - expected[:, 1]) / size).max() <= 1e-6, number
-    assert refused <= 1 + number // 20
-    assert chaotic <= 1 + number // 8
+    assert len(refused) <= 1 + number // 15
+    for case in refused:
+        # Seen in time: neighbouring motions part, and no cycle of up to 24 revolutions repeats.
+        factor, near = parting(random_loose_drive(generator(4802, case)))
+        assert factor > 1.05, case
+        assert near > 1e-5, case
 
 
 def _masses(motion: lw.ElasticMotion) -> list[int]:

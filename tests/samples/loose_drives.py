@@ -6,7 +6,9 @@ variational equation, by complex steps.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from elastic_drives import Drive, random_drive
@@ -161,21 +163,35 @@ def loose_cycle(loose: LooseDrive, start: np.ndarray, turns: int = 1) -> LooseCy
 
     def rate(phi: float, z: np.ndarray) -> np.ndarray:
         y, change = z[:m], z[m : m + m * m].reshape(m, m)
-        own, _, _, lost = rates(loose, phi, y)
-        moved = rates(loose, phi, y[:, None] + _TINY * 1j * change)[0].imag / _TINY
-        return np.concatenate([own, moved.ravel(), [1 / y[-1]], lost / y[-1]])
+        beside = np.concatenate([np.zeros((m, 1)), change], axis=1)
+        own, _, _, lost = rates(loose, phi, y[:, None] + _TINY * 1j * beside)
+        moved = own[:, 1:].imag / _TINY
+        return np.concatenate([own[:, 0].real, moved.ravel(), [1 / y[-1]], lost[:, 0].real / y[-1]])
+
+    def curves(states: Callable[[np.ndarray], np.ndarray], at: np.ndarray) -> np.ndarray:
+        y = states(at)[:m]
+        _, acceleration, torque, _ = rates(loose, at, y)
+        return np.concatenate([y[links:], acceleration, torque])
+
+    known: tuple[np.ndarray | None, list[float]] = (None, [])
+
+    def kinks(z: np.ndarray) -> list[float]:
+        nonlocal known
+        if known[0] is not z:
+            slip = z[links : m - 1] - z[links + 1 : m]
+            known = z, [value for k, law in enumerate(loose.laws) for value in law.kinks(z[k], slip[k])]
+        return known[1]
 
     def kink(which: int):
         def event(phi: float, z: np.ndarray) -> float:
-            slip = z[links : m - 1] - z[links + 1 : m]
-            return [value for k, law in enumerate(loose.laws) for value in law.kinks(z[k], slip[k])][which]
+            return kinks(z)[which]
 
         event.terminal = True
         return event
 
     count = len([1 for law in loose.laws for _ in law.kinks(1.0, 1.0)])
     z = np.concatenate([start, np.eye(m).ravel(), np.zeros(1 + links)])
-    samples, phi, passed = [], 0.0, set()
+    pieces, phi, passed = [], 0.0, set()
     while phi < 2 * np.pi * turns * (1 - 1e-14):
         until = np.pi * (np.floor(phi / np.pi + 1e-12) + 1)
         asked = [k for k in range(count) if k not in passed]
@@ -184,32 +200,64 @@ def loose_cycle(loose: LooseDrive, start: np.ndarray, turns: int = 1) -> LooseCy
             events=[kink(k) for k in asked],
         )  # fmt: skip
         met = [k for k, times in zip(asked, solved.t_events, strict=True) if len(times)]
-        at = np.linspace(phi, solved.t[-1], 1001)
-        y = solved.sol(at)[:m]
-        _, acceleration, torque, _ = rates(loose, at, y)
-        samples.append((y[links:], acceleration, torque))
+        pieces.append((np.linspace(phi, solved.t[-1], 1001), partial(curves, solved.sol)))
         # Kinks that ended this part are passed in the next: their functions are zero but for rounding there.
         passed = set(met) | (passed if solved.t[-1] - phi < 1e-9 else set())
         phi, z = solved.t[-1], solved.y[:, -1]
-    sums = [_extremes([sample[k] for sample in samples]) for k in range(3)]
-    return LooseCycle(z[:m], z[m : m + m * m].reshape(m, m), z[m + m * m], z[m + m * m + 1 :], *sums)
+    extremes = np.split(_extremes(pieces), [n, 2 * n])
+    return LooseCycle(z[:m], z[m : m + m * m].reshape(m, m), z[m + m * m], z[m + m * m + 1 :], *extremes)
 
 
-def _extremes(pieces: list[np.ndarray]) -> np.ndarray:
-    """Minimum and maximum over pieces, with the parabola through the three samples about each, (rows, 2)."""
-    found = np.empty((len(pieces[0]), 2))
+def _extremes(pieces: list[tuple[np.ndarray, Callable[[np.ndarray], np.ndarray]]]) -> np.ndarray:
+    """Minimum and maximum of curves over pieces, looked at again about the best samples, (rows, 2)."""
+    values = [read(at) for at, read in pieces]
+    found = np.empty((len(values[0]), 2))
     for k, sign in enumerate((-1.0, 1.0)):
         for r in range(len(found)):
-            best = -np.inf
-            for piece in pieces:
-                row = sign * piece[r]
-                at = int(np.argmax(row))
-                top = row[at]
-                if 0 < at < len(row) - 1:
-                    a, b, c = row[at - 1 : at + 2]
-                    bend = a - 2 * b + c
-                    if bend < 0:
-                        top = b - (c - a) ** 2 / (8 * bend)
-                best = max(best, top)
-            found[r, k] = sign * best
+            tops = np.array([np.max(sign * value[r]) for value in values])
+            near = 1e-3 * np.ptp(np.concatenate([value[r] for value in values]))
+            for piece in np.flatnonzero(tops >= tops.max() - near):
+                at, read = pieces[piece]
+                best = int(np.argmax(sign * values[piece][r]))
+                closer = np.linspace(at[max(best - 1, 0)], at[min(best + 1, len(at) - 1)], 201)
+                tops[piece] = max(tops[piece], _top(sign * read(closer)[r]))
+            found[r, k] = sign * tops.max()
     return found
+
+
+def _top(row: np.ndarray) -> float:
+    """Maximum of samples, with the parabola through the three about it."""
+    at = int(np.argmax(row))
+    if 0 < at < len(row) - 1:
+        a, b, c = row[at - 1 : at + 2]
+        bend = a - 2 * b + c
+        if bend < 0:
+            return float(b - (c - a) ** 2 / (8 * bend))
+    return float(row[at])
+
+
+def parting(loose: LooseDrive, settling: int = 20, cycles: int = 40) -> tuple[float, float]:
+    """Mean factor by which neighbouring motions part in a cycle, and how near a cycle comes to one before.
+
+    The motion is followed from the linear drive's speed without twist; its logarithm is the largest Lyapunov
+    exponent. Nearness: of the last start to those of up to 24 cycles before, over the sizes of the states.
+    """
+    n = len(loose.drive.inertia)
+    omega = lw.elastic_motion(loose.drive.machine, n=8).speed_mean_time
+    y = np.concatenate([np.zeros(n - 1), np.full(n, omega)])
+    off = np.concatenate([np.full(n - 1, 1e-2), np.full(n, omega)]) * 1e-7
+    size, logs, starts = np.abs(off), [], [y]
+    for _ in range(settling + cycles):
+        pair = np.stack([y, y + off], axis=1)
+        for low in (0.0, np.pi):
+            pair = solve_ivp(
+                lambda phi, z: rates(loose, phi, z.reshape(-1, 2))[0].ravel(),
+                (low, low + np.pi), pair.ravel(), "DOP853", rtol=1e-9, atol=1e-12,
+            ).y[:, -1].reshape(-1, 2)  # fmt: skip
+        y, off = pair[:, 0], pair[:, 1] - pair[:, 0]
+        logs.append(np.log(np.abs(off / size).max()))
+        off /= np.abs(off / size).max()
+        starts.append(y)
+    listed = np.array(starts[-25:])
+    near = np.abs((listed[:-1] - listed[-1]) / np.abs(listed).max(axis=0)).max(axis=1).min()
+    return float(np.exp(np.mean(logs[settling:]))), float(near)

@@ -8,7 +8,7 @@ const NO_TWIST: f64 = 1e-12;
 
 /// What errors of the numbers of a state are compared with: the largest of each over the cycle. A speed against the crank counts
 /// beside the speed itself, and beside the torque that dampers make of it.
-pub(crate) fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
+pub fn scales(solution: &Solution, chain: &Chain) -> Vec<f64> {
     let (m, others) = (chain.states(), chain.masses() - 1);
     let mut largest = vec![0.0_f64; m];
     let mut torques = vec![0.0_f64; chain.links.len()];

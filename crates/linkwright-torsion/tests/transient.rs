@@ -1,5 +1,8 @@
 //! Motion of trains in time: closed forms, laws of energy and momentum, promised accuracy, work.
 
+mod common;
+
+use common::require_derivatives;
 use linkwright_kernel::error::PlanError;
 use linkwright_torsion::transient::course::{Course, End, Method, Request, follow};
 use linkwright_torsion::transient::curve::Curve;
@@ -422,45 +425,9 @@ fn momentum_is_the_impulse() {
 /// The derivatives that Newton uses against differences of the accelerations.
 #[test]
 fn derivatives_of_the_accelerations() {
-    let system = everything();
-    let n = system.len();
-    let mut rates = Rates::new(&system);
-    rates.enter(0.2);
     let angle = [0.3, 0.31, 0.29, 0.28, 0.33];
     let speed = [101.0, 99.0, 103.0, 100.5, 97.0];
-    let (mut by_angle, mut by_speed) = (vec![0.0; n * n], vec![0.0; n * n]);
-    let acceleration = |rates: &mut Rates<'_>, angle: &[f64], speed: &[f64]| {
-        let state = rates.state(angle, speed);
-        rates.derivative(0.2, &state, &mut state.clone());
-        rates.acceleration.clone()
-    };
-    acceleration(&mut rates, &angle, &speed);
-    rates.jacobian(0.2, &mut by_angle, &mut by_speed);
-    for j in 0..n {
-        for (matrix, is_angle, step) in [(&by_angle, true, 1e-6), (&by_speed, false, 1e-4)] {
-            let mut shifted = |by: f64| {
-                let (mut angle, mut speed) = (angle, speed);
-                if is_angle {
-                    angle[j] += by
-                } else {
-                    speed[j] += by
-                }
-                acceleration(&mut rates, &angle, &speed)
-            };
-            let (a, b) = (shifted(-step), shifted(step));
-            for i in 0..n {
-                let difference = (b[i] - a[i]) / (2.0 * step);
-                let size = matrix[i * n..(i + 1) * n].iter().fold(1.0_f64, |most, x| most.max(x.abs()));
-                let off = (difference - matrix[i * n + j]) / size;
-                // Central differences err by step² and by rounding of 1e-16·10⁵ over the step.
-                assert!(
-                    off.abs() < 1e-6,
-                    "∂a{i} by {} {j}: {off:e}",
-                    if is_angle { "angle" } else { "speed" }
-                );
-            }
-        }
-    }
+    require_derivatives(&everything(), 0.2, [&angle, &speed], 1e-6);
 }
 
 /// Twists keep their digits after a million revolutions: the state counts the masses from the first.

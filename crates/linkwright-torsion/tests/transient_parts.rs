@@ -1,10 +1,12 @@
 //! Motion in time of stages with losses, meshes on a carrier, joints, pendulums and controllers: energy, momentum, both methods.
 
+mod common;
+
+use common::require_derivatives;
 use linkwright_torsion::transient::controllers::Controller;
 use linkwright_torsion::transient::course::{Course, End, Method, Request, follow};
 use linkwright_torsion::transient::curve::Curve;
 use linkwright_torsion::transient::pendulums::Pendulum;
-use linkwright_torsion::transient::rates::Rates;
 use linkwright_torsion::transient::system::{Carrier, Joint, Link, Loss, Manner, System};
 use linkwright_torsion::transient::torque::{Law, Torque};
 
@@ -146,45 +148,7 @@ fn methods_agree() {
 /// The derivatives that Newton uses against differences of the accelerations.
 #[test]
 fn derivatives_of_the_accelerations() {
-    let system = everything();
-    let n = system.len();
-    let mut rates = Rates::new(&system);
-    rates.enter(0.1);
     let angle = [0.3, 0.3, 0.29, 0.28, 0.24, 0.23, 0.24, 0.23, 1e-4, 0.0];
     let speed = [101.0, 101.0, 103.0, 90.5, 97.0, 98.0, 99.0, 97.0, 0.4, -5.0];
-    let (mut by_angle, mut by_speed) = (vec![0.0; n * n], vec![0.0; n * n]);
-    let state = rates.state(&angle, &speed);
-    rates.set_senses(0.1, &state);
-    let acceleration = |rates: &mut Rates<'_>, angle: &[f64], speed: &[f64]| {
-        let state = rates.state(angle, speed);
-        rates.derivative(0.1, &state, &mut state.clone());
-        rates.acceleration.clone()
-    };
-    acceleration(&mut rates, &angle, &speed);
-    rates.jacobian(0.1, &mut by_angle, &mut by_speed);
-    for j in 0..n {
-        for (matrix, is_angle, step) in [(&by_angle, true, 1e-7), (&by_speed, false, 1e-4)] {
-            let mut shifted = |by: f64| {
-                let (mut angle, mut speed) = (angle, speed);
-                if is_angle {
-                    angle[j] += by
-                } else {
-                    speed[j] += by
-                }
-                acceleration(&mut rates, &angle, &speed)
-            };
-            let (a, b) = (shifted(-step), shifted(step));
-            for i in 0..n {
-                let difference = (b[i] - a[i]) / (2.0 * step);
-                let size = matrix[i * n..(i + 1) * n].iter().fold(1.0_f64, |most, x| most.max(x.abs()));
-                let off = (difference - matrix[i * n + j]) / size;
-                // Central differences err by step² and by rounding over the step.
-                assert!(
-                    off.abs() < 1e-6,
-                    "∂a{i} by {} {j}: {off:e}",
-                    if is_angle { "angle" } else { "speed" }
-                );
-            }
-        }
-    }
+    require_derivatives(&everything(), 0.1, [&angle, &speed], 1e-7);
 }

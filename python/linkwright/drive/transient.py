@@ -266,16 +266,7 @@ def transient(
     .. [1] Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 (DOP853).
     .. [2] Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5 (Radau IIA, for stiff drives).
     """
-    if duration == turns == np.inf:
-        raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
-    in_range(
-        angle=(angle, _ANGLE),
-        speed=(speed, _SPEED),
-        duration=(None if duration == np.inf else duration, _DURATION),
-        turns=(None if turns == np.inf else turns, _TURNS),
-    )
-    if not 1e-14 <= accuracy <= 1e-2:
-        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
+    require_motion(angle, speed, (duration, turns), accuracy)
     if motor and machine.drive and isinstance(machine.drive.motor, ConstantSpeedMotor):
         raise InputError("a constant-speed motor has no run-up: it keeps its speed under any load")
     compiled = compile_machine(machine, motor=motor, brake=brake)
@@ -317,6 +308,21 @@ def transient(
         between=StepPolynomials(motion.factors),
         implicit=motion.implicit,
     )
+
+
+def require_motion(angle: float, speed: float, limits: tuple[float, float], accuracy: float) -> None:
+    """Raise InputError unless start, duration, turns and accuracy of a motion in time are possible."""
+    duration, turns = limits
+    if duration == turns == np.inf:
+        raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
+    in_range(
+        angle=(angle, _ANGLE),
+        speed=(speed, _SPEED),
+        duration=(None if duration == np.inf else duration, _DURATION),
+        turns=(None if turns == np.inf else turns, _TURNS),
+    )
+    if not 1e-14 <= accuracy <= 1e-2:
+        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
 
 
 # What a self-locking gearbox holds would turn backwards.

@@ -21,6 +21,7 @@
 | `solving` | Checks, where the search begins, and why it fails |
 | `study` | The analysis in the study of a machine, its check and its warnings |
 | `tables` | A row a shaft, a row a station, energy and stability; time and energy of a motion in time |
+| `tangents` | Derivatives by all entries, those of mounted mechanisms among them |
 | `train_chain` | A train with motors and mechanisms as masses and links |
 | `words` | Formulas, sources and assumptions |
 """

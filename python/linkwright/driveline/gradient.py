@@ -17,7 +17,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -45,7 +45,7 @@ from linkwright.machine.own_motors import on_crankshaft, without_drive
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import DrivelineGradient, DrivelineMotion
 from linkwright.machine.tangents import Derivatives, Directions, directions, followed
-from linkwright.torsion.excitation.drive_line import mean_inertia, mechanism_alone
+from linkwright.torsion.excitation.drive_line import mean_inertia, mechanism_alone, mounted_machine
 
 # Relative accuracy of the motion whose derivatives are taken.
 _ACCURACY = 1e-11
@@ -60,16 +60,26 @@ _ROUNDING = 1e-9
 # A disturbance of which no more than this is left has died out: what is left is rounding.
 _DIED_OUT = 1e-9
 
+_LOAD_JUMPS = (
+    "a load of a further mechanism jumps at an angle that the motion moves; smooth the jump, or compare two "
+    "motions"
+)
+_KINKS_MEET = (
+    "two kinks of links, motors or mechanisms occur at one angle, and move apart with these entries; compare "
+    "two motions"
+)
 
-def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
+
+def tangents_on_crank(machine: Machine, variables: Sequence[str], own: Mapping[str, str]) -> Derivatives:
     """Numbers of the elastic motion by some entries: ``period``, ``torque_max.crankshaft``.
 
+    `own`: addresses of entries of the first mechanism of a train, with those in its own machine.
     Raises what `elastic_motion` raises.
     """
     solved = solved_motion(machine, _ACCURACY)
     compiled, chain, motion = solved.driven.compiled, solved.chain, solved.motion
     refused: dict[str, str] = {}
-    along, moved, values = _directions(machine, variables, refused)
+    along, moved, values = _directions(machine, variables, own, refused)
     steady = result_of(machine, motion, chain, np.zeros(1), solved.turns)
     if not along.variables:
         return Derivatives((), {}, {}, {}, refused)
@@ -81,18 +91,15 @@ def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
     missing |= dict.fromkeys(
         _held(named, chain), "the motor keeps its speed: it is zero within rounding error"
     )
-    if not chain.is_linear or chain.links["stations"]:
-        missing["multiplier_max"] = (
-            "kinks of links and of further mechanisms move with the motion, which multipliers feel; compare "
-            "two motions"
-        )
-    elif steady.multiplier_max > _DIED_OUT:
-        largest = _largest_multiplier(motion, gradient, chain)
-        named["multiplier_max"] = Tangent(steady.multiplier_max, largest)
-    else:
+    largest = _largest_multiplier(motion, gradient, chain)
+    named["multiplier_max"] = Tangent(steady.multiplier_max, largest)
+    if steady.multiplier_max <= _DIED_OUT:
         missing["multiplier_max"] = "disturbances die out: it is zero within rounding error"
+    if np.isnan(gradient.period).all():
+        missing |= dict.fromkeys(named, _LOAD_JUMPS)
     tangents = {name: x for name, x in named.items() if name not in missing}
-    ties = {
+    ties = {name: _KINKS_MEET for name, x in tangents.items() if np.isnan(x.d).any()}
+    ties |= {
         f"{name}.{part}": why for name, part, why in _ties(compiled, motion, steady, chain, along, values)
     }
     words, units = _words(tangents)
@@ -103,11 +110,11 @@ def elastic_tangents(machine: Machine, variables: Sequence[str]) -> Derivatives:
 
 
 def _directions(
-    machine: Machine, variables: Sequence[str], refused: dict[str, str]
+    machine: Machine, variables: Sequence[str], own: Mapping[str, str], refused: dict[str, str]
 ) -> tuple[Directions, Chain, Floats]:
     """Entries with derivatives, the driveline with tangents, and directions of all numbers of the core."""
     if machine.has_mounted_mechanisms:
-        return _directions_of_train(machine, variables, refused)
+        return _directions_of_train(machine, variables, own, refused)
     program = directions(machine, variables)
     refused.update(program.refused)
     inertia = mean_inertia(machine) if _is_lossy(machine) else None
@@ -121,19 +128,46 @@ def _directions(
 
 
 def _directions_of_train(
-    machine: Machine, variables: Sequence[str], refused: dict[str, str]
+    machine: Machine, variables: Sequence[str], own: Mapping[str, str], refused: dict[str, str]
 ) -> tuple[Directions, Chain, Floats]:
-    """The same of a train, whose numbers are those of the driveline: mechanisms keep theirs."""
-    for name in variables:
-        if not name.startswith("train.") or ".machine." in name:
-            refused[name] = "a number of a mechanism on a train, of which the motion has only values"
-    own = [name for name in variables if name not in refused]
-    known, moved = followed(machine, own, driveline_chain, refused)
-    sizes = np.abs([float(entry_of(machine, name)) for name in known])
+    """The same of a train: its entries are numbers of the driveline, `own` those of its first mechanism."""
+    known, moved = followed(machine, variables, driveline_chain, refused)
+    of_mechanism, by_inertia, alone = _of_first_mechanism(machine, own, refused)
+    names, n = (*known, *alone), len(known) + len(alone)
+    of_chain = lifted(listed(moved), len(known)).d
+
+    def wider(number: Any) -> Tangent:
+        along = lifted(number, len(known))
+        return Tangent(along.value, np.concatenate([along.d, np.zeros((*along.shape, len(alone)))], axis=-1))
+
+    ratios = {name: wider(getattr(moved, name)) for name in ("ratio", "lead", "motor_ratio")}
+    moved = moved._replace(**ratios)
+    of_chain = np.hstack([of_chain, by_inertia]) if n else np.zeros((0, 0))
+    own_numbers = np.hstack([np.zeros((len(of_mechanism), len(known))), of_mechanism])
+    sizes = np.abs([float(entry_of(machine, name)) for name in names])
+    along = Directions(names, own_numbers, np.where(sizes > 0, sizes, 1.0), {})
+    return along, moved, np.ascontiguousarray(np.vstack([along.values, of_chain]) if n else of_chain)
+
+
+def _of_first_mechanism(
+    machine: Machine, own: Mapping[str, str], refused: dict[str, str]
+) -> tuple[Floats, Floats, list[str]]:
+    """Directions of the numbers of the first mechanism and of the driveline by its entries, and these."""
+    assert machine.train is not None
+    first = next(iter(machine.train.mechanisms))
+    alone = without_drive(on_crankshaft(mounted_machine(machine, first)))
     count = len(driven_train(machine).compiled.one)
-    along = Directions(known, np.zeros((count, len(known))), np.where(sizes > 0, sizes, 1.0), {})
-    of_chain = lifted(listed(moved), len(known)).d if known else np.zeros((0, 0))
-    return along, moved, np.ascontiguousarray(np.vstack([along.values, of_chain]) if known else of_chain)
+    idle = [name for name, inner in own.items() if inner.startswith("drive.")]
+    refused |= dict.fromkeys(idle, "the drive of a mechanism on a train does not count")
+    names = {inner: name for name, inner in own.items() if name not in idle}
+    along = directions(alone, [*names])
+    refused |= {names[inner]: why for inner, why in along.refused.items()}
+    if not along.variables:
+        return np.zeros((count, 0)), np.zeros((len(listed(driveline_chain(machine))), 0)), []
+    mean = mean_inertia(alone)
+    by_inertia = lifted(listed(driveline_chain(machine, Tangent(mean, np.ones(1)))), 1).d
+    slopes = _mean_inertia_along(alone, along.variables)
+    return along.values, by_inertia * slopes, [names[inner] for inner in along.variables]
 
 
 def _is_lossy(machine: Machine) -> bool:

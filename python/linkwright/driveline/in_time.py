@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 from linkwright.drive.load_checks import require_half_turns, require_sound_loads
 from linkwright.drive.model.motor import ConstantSpeedMotor, DcMotor, InductionMotor
 from linkwright.drive.reduction import NO_INERTIA
+from linkwright.drive.transient import require_motion
 from linkwright.driveline.chain import Chain, Driven, chain_of
 from linkwright.driveline.elastic_motion import ElasticMotion
 from linkwright.driveline.permitted import TorqueJudgement, in_motion
@@ -279,12 +280,7 @@ def elastic_transient(
     .. [2] Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5 (Radau IIA, for stiff drives).
     .. [3] Dresig and Holzweißig, Dynamics of Machinery, 2010, sections 2.3 and 4.3.
     """
-    if duration == turns == np.inf:
-        raise InputError("duration, turns: found neither, expected one of them as the end of the motion")
-    if not (duration > 0 and turns > 0):
-        raise InputError("duration, turns: expected numbers above 0")
-    if not 1e-14 <= accuracy <= 1e-2:
-        raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
+    require_motion(angle, speed, (duration, turns), accuracy)
     moving = followed(
         machine,
         _state(machine, start, (angle, speed)),

@@ -28,8 +28,8 @@ CYCLES = 300
 AWAY = 100
 
 # Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: one that
-# repeats, or drifts over a torus, has 1 at most; on the steps on which it is followed the factor is rough.
-CHAOTIC = 1.3
+# repeats, or drifts over a torus, has 1 at most, and 100 cycles of 1.1 are a factor of 10 000.
+CHAOTIC = 1.1
 
 # Angles of a revolution at which the minimum inertia is looked for.
 ANGLES = 36

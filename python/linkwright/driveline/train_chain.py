@@ -105,12 +105,15 @@ def moving_train(machine: Machine, *, motor: bool = True) -> Driven:
     return Driven(mounted[0].compiled, chain, speed)
 
 
-def driveline_chain(machine: Machine) -> Chain:
-    """Masses and links of a train with mechanisms, or of the driveline that [drive] describes."""
-    return _chain(machine)[0] if machine.has_mounted_mechanisms else chain_of(machine)
+def driveline_chain(machine: Machine, inertia: Any = None) -> Chain:
+    """Masses and links of a train with mechanisms, or of the driveline that [drive] describes.
+
+    `inertia`: mean inertia of the first mechanism, if it is not that of its machine [kg m²].
+    """
+    return _chain(machine, inertia)[0] if machine.has_mounted_mechanisms else chain_of(machine, inertia)
 
 
-def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
+def _chain(machine: Machine, inertia: Any = None) -> tuple[Chain, list[_Mounted]]:
     train = machine.train
     assert train is not None
     require_carried(train)
@@ -124,7 +127,7 @@ def _chain(machine: Machine) -> tuple[Chain, list[_Mounted]]:
     for one in mounted[1:]:
         by_mass[mass[one.disc]] = by_mass[mass[one.disc]] + one.inertia
     felt = numbers(by_mass)
-    mean = own + felt + first.inertia * (np.arange(len(order)) == last)
+    mean = own + felt + (first.inertia if inertia is None else inertia) * (np.arange(len(order)) == last)
     # Frequencies at which hysteresis counts are those with the mean inertia of the mechanisms.
     whole = replace(referred, inertia=mean[order] / n**2)
     damping, notes = shaft_damping(whole)

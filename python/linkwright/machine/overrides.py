@@ -30,13 +30,13 @@ class Override:
         return f"--set {self.text}"
 
 
-def parse_all(overrides: Sequence[str] | Mapping[str, Any]) -> list[Override]:
+def parse_all(overrides: Sequence[str | Override] | Mapping[str, Any]) -> list[Override]:
     """Overrides by texts ``PATH=VALUE``, else an `InputError`, or by path → value, taken as they are."""
     if isinstance(overrides, Mapping):
         return [_of(address, value) for address, value in overrides.items()]
     if isinstance(overrides, str):
         return [parse(overrides)]
-    return [parse(override) for override in overrides]
+    return [each if isinstance(each, Override) else parse(each) for each in overrides]
 
 
 def parse(text: str) -> Override:

@@ -26,10 +26,11 @@ from linkwright.linkages.model.dxf_points import with_dxf_points
 from linkwright.machine.machine import FORMAT, Machine
 from linkwright.machine.overrides import Override, apply, parse_all
 from linkwright.machine.tolerances import with_known_tolerances, with_tolerances
+from linkwright.machine.train_machines import of_mounted_file, with_machines_of_train
 
 Model = TypeVar("Model", bound=BaseModel)
 
-Overrides = Sequence[str] | Mapping[str, Any]
+Overrides = Sequence[str | Override] | Mapping[str, Any]
 
 # What each override brought in.
 Places = Sequence[tuple[tuple[str, ...], Override]]
@@ -146,7 +147,13 @@ def loads_as(
     """
     tables = tables_of(text, path)
     _check_format(tables, path, text)
-    places = [(apply(tables, change, model), change) for change in parse_all(overrides)]
+    places: list[tuple[tuple[str, ...], Override]] = []
+    mounted: dict[str, list[Override]] = {}
+    for change in parse_all(overrides):
+        if of_mechanism := of_mounted_file(tables, change):
+            mounted.setdefault(of_mechanism[0], []).append(of_mechanism[1])
+        else:
+            places.append((apply(tables, change, model), change))
     if too_large := size_problems(tables):
         raise MachineFileError(_located(too_large, text, path, places, ()))
     given = deepcopy(tables)
@@ -165,13 +172,12 @@ def loads_as(
 
             with_servo_motors_of_files(tables, Path(path).parent, allow_outside=allow_outside)
         if "train" in tables:
-            from linkwright.machine.train_machines import with_machines_of_train
-
             with_machines_of_train(
                 tables,
                 Path(path).parent,
                 lambda file: tables_of(_text(file, "a machine file"), str(file)),
-                lambda file: read_as(Machine, file, allow_outside=allow_outside),
+                lambda file, changes: read_as(Machine, file, changes, allow_outside=allow_outside),
+                mounted,
                 allow_outside=allow_outside,
             )
         if _has_plates(tables):

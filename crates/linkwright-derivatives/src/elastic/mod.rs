@@ -11,14 +11,17 @@
 //! | `sweep` | the linear system of all steps, for any right sides |
 //! | `stage` | the mechanism at a crank angle, along directions |
 //! | `solution` | the solution along directions, and its monodromy matrix |
+//! | `kinks` | kinks that the motion passes, and how they move the monodromy matrix |
 //! | `peaks` | where extremes are, and their derivatives there |
 
+mod kinks;
 mod peaks;
 mod solution;
 mod stage;
 mod sweep;
 
 use crate::along::{Directions, put};
+use kinks::kinks_of;
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_driveline::chain::Chain;
@@ -50,7 +53,7 @@ pub struct ElasticGradient<'a> {
     pub directions: &'a [f64],
 }
 
-/// Derivatives, each list part by part and direction by direction.
+/// Derivatives, each list part by part and direction by direction; no numbers where a load jumps at a kink that moves with the motion.
 #[derive(Clone, Debug)]
 pub struct ElasticDerivatives {
     /// Of the duration of a cycle, (directions).
@@ -77,7 +80,7 @@ pub struct ElasticDerivatives {
     pub torque: [Vec<f64>; 2],
     /// See above.
     pub drive: [Vec<f64>; 2],
-    /// Of the monodromy matrix, row by row, (its numbers, directions).
+    /// Of the monodromy matrix, row by row, (its numbers, directions); no number where a kink that the motion passes has none.
     pub monodromy: Vec<f64>,
 }
 
@@ -138,6 +141,7 @@ impl Job for Derivation<'_> {
         let (n, m) = (of.n(), of.chain.states());
         let sweep = Sweep::new(of.equation(), of.steady);
         let places = places(&of, measures);
+        let kinks = kinks_of(of.equation(), of.steady);
         let (links, drivers) = (of.chain.links.len(), of.chain.drivers.len());
         let fixed = 2 + 2 * drivers + 3 * links;
         let mut table = vec![0.0; (fixed + places.len()) * n];
@@ -150,7 +154,7 @@ impl Job for Derivation<'_> {
             let chain = of.chain.with(of_chain);
             let equation = Equation { plan: of.plan, q, chain: &chain };
             let mut motion = Motion::new(&of.plan.mechanism, q);
-            let along = Along::new(equation, of.steady, &sweep, &mut motion);
+            let along = Along::new(equation, of.steady, &sweep, &kinks, &mut motion);
             let mut rows = table.chunks_exact_mut(n);
             let mut add = |d: R| rows.next().into_iter().for_each(|row| put(d, some, row));
             let work: Work<Dual<R>> = along.work();
@@ -166,10 +170,14 @@ impl Job for Derivation<'_> {
             for &(quantity, place) in &places {
                 add(out_of_line!(R, along.at(quantity, place, &mut motion).d));
             }
-            let moved = out_of_line!(R, along.monodromy(&sweep));
+            let moved = out_of_line!(R, along.monodromy(&sweep, &kinks));
             for (row, d) in monodromy.chunks_exact_mut(n).zip(moved) {
                 put(d, some, row);
             }
+        }
+        if kinks.iter().any(|kink| kink.jumps) {
+            // The motion itself changes with the angle of a jump, which these derivatives hold.
+            table.fill(f64::NAN);
         }
         let row = |at: usize| table[at * n..][..n].to_vec();
         let of_links =
@@ -240,7 +248,7 @@ impl Job for CurvesAlong<'_> {
             let chain = of.chain.with(of_chain);
             let equation = Equation { plan: of.plan, q, chain: &chain };
             let mut motion = Motion::new(&of.plan.mechanism, q);
-            let along = Along::new(equation, of.steady, &sweep, &mut motion);
+            let along = Along::new(equation, of.steady, &sweep, &[], &mut motion);
             for (c, &quantity) in quantities.iter().enumerate() {
                 for (i, &angle) in phi.iter().enumerate() {
                     let d = out_of_line!(R, along.at_angle(quantity, angle, &mut motion).d);

@@ -47,6 +47,11 @@ pub(super) struct Place {
 }
 
 impl Place {
+    /// Whether it is at an end of the step, and moves with it.
+    pub(super) fn is_corner(self) -> bool {
+        self.share <= 0.0 || self.share >= 1.0
+    }
+
     /// The same off the ends of the step.
     pub(super) fn inside(self) -> Place {
         Place { share: self.share.clamp(INSIDE, 1.0 - INSIDE), ..self }

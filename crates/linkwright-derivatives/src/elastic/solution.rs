@@ -1,19 +1,21 @@
 //! A solution along directions: the derivatives of all its numbers, and of its monodromy matrix.
 
+use super::kinks::{Kink, on_sides};
 use super::peaks::{Place, Quantity, read};
 use super::stage::StageRow;
 use super::sweep::{READ, Sweep, identity, product, state_read};
 use crate::moving_kinks::MovingKinks;
 use linkwright_core::drive::equation::Machine;
 use linkwright_core::drive::kinks::kinks;
+use linkwright_core::drive::layout::unbundle;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_driveline::equation::{Equation, Rates};
 use linkwright_driveline::steady::Steady;
 use linkwright_driveline::work::Work;
 use linkwright_kernel::dual::Dual;
 use linkwright_kernel::out_of_line;
-use linkwright_kernel::radau::{A, B, N, S, through, value};
-use linkwright_kernel::real::Real;
+use linkwright_kernel::radau::{A, B, N, S, slope_and_bend, through, value};
+use linkwright_kernel::real::{LANES_MAX, Real};
 
 /// An end of a step this near to a kink of loads or motion \[rad\] moves with it.
 const ON_KINK: f64 = 1e-8;
@@ -28,6 +30,8 @@ pub(super) struct Along<'a, R> {
     /// Derivatives of the state at the start and at all stages.
     start: Vec<R>,
     stages: Vec<R>,
+    /// By how much the ends of the steps move that lie on kinks of the solution, with its state held at their angles.
+    shifts: Vec<R>,
 }
 
 impl<'a, R: Real> Along<'a, R> {
@@ -36,6 +40,7 @@ impl<'a, R: Real> Along<'a, R> {
         equation: Equation<'a, Dual<R>>,
         steady: &'a Steady,
         sweep: &Sweep,
+        kinks: &[Kink],
         m: &mut Motion<Dual<R>>,
     ) -> Self {
         let edges = moving_edges(&equation, steady, m);
@@ -45,8 +50,13 @@ impl<'a, R: Real> Along<'a, R> {
                 rows.push(StageRow::new(&equation, ends[0] + (ends[1] - ends[0]) * at, m));
             }
         }
-        let mut along = Along { equation, steady, edges, rows, start: Vec::new(), stages: Vec::new() };
+        let shifts = vec![R::splat(0.0); edges.len()];
+        let mut along =
+            Along { equation, steady, edges, rows, start: Vec::new(), stages: Vec::new(), shifts };
         out_of_line!(R, along.solve(sweep));
+        for kink in kinks {
+            along.shifts[kink.step] = out_of_line!(R, along.shift(kink, m));
+        }
         along
     }
 
@@ -114,8 +124,18 @@ impl<'a, R: Real> Along<'a, R> {
     #[inline(always)]
     pub(super) fn at(&self, quantity: Quantity, place: Place, m: &mut Motion<Dual<R>>) -> Dual<R> {
         let Place { step, share } = place.inside();
-        let phi = self.edges[step] + self.length(step) * share;
-        read(&self.equation, quantity, phi, &self.state(step, share), m)
+        let mut phi = self.edges[step] + self.length(step) * share;
+        let mut y = self.state(step, share);
+        let edge = step + usize::from(share > 0.5);
+        if place.is_corner() {
+            let (h, shift) = (self.steady.mesh.length(step), self.shifts[edge]);
+            phi.d = phi.d + shift;
+            for (number, y) in y.iter_mut().enumerate() {
+                let slope = slope_and_bend(&self.steady.solution.quintic(step, number), share).0;
+                y.d = y.d + shift * (slope / h);
+            }
+        }
+        read(&self.equation, quantity, phi, &y, m)
     }
 
     /// A quantity at a crank angle that is held.
@@ -153,13 +173,19 @@ impl<'a, R: Real> Along<'a, R> {
         })
     }
 
-    /// Derivatives of the monodromy matrix M = Π U: those of the steps from the change of their Jacobians.
+    /// Derivatives of the monodromy matrix M = Π U: those of the steps from the change of their Jacobians, and those by kinks that
+    /// move. No number where a kink has no derivative.
     #[inline(always)]
-    pub(super) fn monodromy(&self, sweep: &Sweep) -> Vec<R> {
+    pub(super) fn monodromy(&self, sweep: &Sweep, kinks: &[Kink]) -> Vec<R> {
         let m = self.start.len();
         let mut rates = Rates::new(self.equation.chain);
         let (mut end, mut moved) = (identity(m), vec![R::splat(0.0); m * m]);
+        let mut kinks = kinks.iter().peekable();
         for k in 0..self.steady.mesh.steps() {
+            if let Some(kink) = kinks.next_if(|kink| kink.step == k) {
+                let bent = product(&kink.bends, &end, m);
+                moved.iter_mut().zip(bent).for_each(|(to, bent)| *to = *to + self.shifts[k] * bent);
+            }
             let h = self.length(k);
             let mut changes = Vec::with_capacity(S * m * m);
             for i in 0..S {
@@ -192,6 +218,24 @@ impl<'a, R: Real> Along<'a, R> {
             moved = next;
         }
         moved
+    }
+
+    /// By how much a kink of the solution moves.
+    #[inline(always)]
+    fn shift(&self, kink: &Kink, m: &mut Motion<Dual<R>>) -> R {
+        let mut rates = Rates::new(self.equation.chain);
+        let [before, behind] = on_sides(kink.step, |k, share| {
+            let phi = self.edges[k] + self.length(k) * share;
+            let y = self.state(k, share);
+            self.equation.rates(&StageRow::new(&self.equation, phi, m).row(), &y, &mut rates);
+            unbundle(&rates.rate.iter().map(|rate| rate.d).collect::<Vec<R>>())
+        });
+        let mut moves = [0.0; LANES_MAX];
+        for (lane, to) in moves.iter_mut().enumerate().take(R::LANES) {
+            let own = |all: &[f64]| all.iter().skip(lane).step_by(R::LANES).copied().collect::<Vec<f64>>();
+            *to = kink.moves(&own(&before), &own(&behind));
+        }
+        R::load(&moves)
     }
 }
 

@@ -73,12 +73,17 @@ def mounted_mechanism(machine: Machine, name: str) -> CompiledMachine:
 
     That of its file, or the mechanism beside the train.
     """
-    assert machine.train is not None
-    mounted: Machine | None = machine.train.mechanisms[name].machine
     try:
-        return mechanism_alone(machine.with_entries({"train": None}) if mounted is None else mounted)
+        return mechanism_alone(mounted_machine(machine, name))
     except AssemblyError as error:
         raise AssemblyError(f"train.mechanisms.{name}: {error}") from None
+
+
+def mounted_machine(machine: Machine, name: str) -> Machine:
+    """The machine whose mechanism stands on a train: that of its file, or what stands beside the train."""
+    assert machine.train is not None
+    mounted: Machine | None = machine.train.mechanisms[name].machine
+    return machine.with_entries({"train": None}) if mounted is None else mounted
 
 
 @public

@@ -2,14 +2,15 @@ r"""Whether shafts and couplings bear a manoeuvre: largest torques and stresses 
 
 | limit | against |
 | --- | --- |
-| `torque_permitted` | largest torque either way, of shafts, couplings and gear stages |
+| `torque_permitted` | largest torque either way, of shafts, couplings, stages, clutches, brakes, freewheels |
+| `heat_permitted` | friction work of clutches and brakes (VDI 2241-1) |
 | `stress_max` | its stress |
 | `swing_permitted` | largest swing of a pendulum |
 | vibratory stress in transient passage | half the peak-to-peak stress within two revolutions of disc 1 |
 
 Limits of continuous operation, vibratory torques and heat among them, are those of steady running and not
-judged here. Largest torques of shafts and couplings are exact between the samples; those of gear stages and
-those within two revolutions are read from the samples.
+judged here. Largest torques of shafts, couplings and friction parts are exact between the samples; those of
+gear stages and those within two revolutions are read from the samples.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
-from linkwright.kernel.units.kinds import ANGLE, PRESSURE, TORQUE, Kind
+from linkwright.kernel.units.kinds import ANGLE, ENERGY, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.drive_line import train_of
 from linkwright.torsion.limits.criteria import PASSING_STRESS, shown_quantity
@@ -84,7 +85,7 @@ class PeakJudgement:
 def judged(machine: Machine, moved: TorsionTransient) -> tuple[PeakJudgement, ...]:
     """Limits of shafts, couplings and gear stages against a manoeuvre; empty without limits."""
     judgements = (*_torques(machine, moved), *_stresses(machine, moved), *_stages(machine, moved))
-    return (*judgements, *_swings_of_pendulums(machine, moved))
+    return (*judgements, *_swings_of_pendulums(machine, moved), *_frictions(machine, moved))
 
 
 def unjudged(machine: Machine, moved: TorsionTransient) -> Iterator[str]:
@@ -114,6 +115,20 @@ def _swings_of_pendulums(machine: Machine, moved: TorsionTransient) -> Iterator[
             yield PeakJudgement(
                 name, "swing", ANGLE, float(abs(row[worst])), permitted, float(moved.time[worst])
             )
+
+
+def _frictions(machine: Machine, moved: TorsionTransient) -> Iterator[PeakJudgement]:
+    """Clutches, brakes and freewheels: peak torque, and friction work of the whole manoeuvre."""
+    train = machine.train
+    parts = {} if train is None else {**train.clutches, **train.brakes, **train.freewheels}
+    for k, name in enumerate(moved.frictions):
+        torque, heat = (getattr(parts[name], key, None) for key in ("torque_permitted", "heat_permitted"))
+        if torque is not None:
+            time = float(moved.friction_torque_max_time[k])
+            yield PeakJudgement(name, "torque", TORQUE, float(moved.friction_torque_max[k]), torque, time)
+        if heat is not None:
+            end = float(moved.time[-1])
+            yield PeakJudgement(name, "friction work", ENERGY, float(moved.friction_heat[k]), heat, end)
 
 
 def _limited_stages(machine: Machine, moved: TorsionTransient) -> Iterator[tuple[str, Floats, float]]:

@@ -28,7 +28,7 @@ from pydantic_core import InitErrorDetails
 
 from linkwright.kernel.description.base import CheckedDescription, Description, Whole, fault
 from linkwright.kernel.description.curve import curve_faults
-from linkwright.kernel.units.kinds import FORCE, LENGTH, RATIO, TIME, TORQUE
+from linkwright.kernel.units.kinds import ENERGY, FORCE, LENGTH, RATIO, TIME, TORQUE
 from linkwright.kernel.units.marks import QuantityList, Speeds, not_negative, positive
 from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
 
@@ -72,6 +72,12 @@ class FrictionPart(CheckedDescription):
     surfaces: Whole = Field(1, ge=1, description="Number of friction surfaces.")
     stribeck_speed: PositiveSpeed | None = Field(
         None, description="Slip at which the excess of static over sliding torque has fallen to 1/e."
+    )
+    torque_permitted: PositiveTorque | None = Field(
+        None, description="Permitted torque in a manoeuvre, either way."
+    )
+    heat_permitted: Annotated[float, positive(ENERGY)] | None = Field(
+        None, description="Permitted friction work in a manoeuvre."
     )
 
     def _faults(self) -> Iterator[InitErrorDetails]:
@@ -205,3 +211,4 @@ class Freewheel(Description):
         "the disc turn only forwards."
     )
     drag: _Torque = Field(0.0, description="Friction torque while it is overrun.")
+    torque_permitted: PositiveTorque | None = Field(None, description="Permitted torque while it locks.")
