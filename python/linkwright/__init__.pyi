@@ -54,6 +54,7 @@ from linkwright.driveline.elastic_motion import elastic_motion as elastic_motion
 from linkwright.driveline.in_time import DriveSwitch as DriveSwitch
 from linkwright.driveline.in_time import elastic_transient as elastic_transient
 from linkwright.driveline.run_up import elastic_run_up as elastic_run_up
+from linkwright.fmi.fmu import fmu as fmu
 from linkwright.kernel.errors import AssemblyError as AssemblyError
 from linkwright.kernel.errors import CamError as CamError
 from linkwright.kernel.errors import ConvergenceError as ConvergenceError

@@ -1,0 +1,55 @@
+"""The machine as data of an FMU, as the core makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from linkwright import _core
+from linkwright.fmi.parameters import Adjustable
+from linkwright.kernel.arrays import Floats
+from linkwright.machine.program.compiled import CompiledMachine
+from linkwright.machine.program.core import require
+
+
+class Settings(NamedTuple):
+    """What an FMU starts with."""
+
+    start: tuple[float, float]  # crank angle [rad] and speed [rad/s]
+    clockwise: bool  # whether the motor drives the crank clockwise
+    accuracy: float  # relative accuracy of a step, unless the importing tool asks for another
+
+
+class MachineData(NamedTuple):
+    """Content of `resources/machine.lw`."""
+
+    data: bytes
+    states: int
+    indicators: int  # event indicators
+
+
+def machine_data(
+    compiled: CompiledMachine,
+    settings: Settings,
+    entries: Sequence[Adjustable] = (),
+    *,
+    token: str = "",
+    numbers: Floats | None = None,
+    driveline: Mapping[str, Any] | None = None,
+) -> MachineData:
+    """Plan and numbers of a machine, with what may be changed in them.
+
+    `token`: of the instantiation; `numbers`: others than those of the machine.
+    """
+    require("fmu_machine")
+    made = _core.fmu_machine(
+        compiled.plan,
+        compiled.one if numbers is None else numbers,
+        motor=-1 if settings.clockwise else 1,
+        start=settings.start,
+        accuracy=settings.accuracy,
+        parameters=[(entry.value, entry.moves) for entry in entries],
+        token=token,
+        driveline=driveline,
+    )
+    return MachineData(made.data, made.states, made.event_indicators)
