@@ -55,8 +55,8 @@ pub fn rigid() -> Chain {
     }
 }
 
-/// Fowler, Noll, Vo, FNV-1a of 64 bits.
-fn checksum(bytes: &[u8]) -> u64 {
+/// Checksum of bytes: Fowler, Noll, Vo, FNV-1a of 64 bits.
+pub fn checksum(bytes: &[u8]) -> u64 {
     bytes
         .iter()
         .fold(0xcbf2_9ce4_8422_2325, |sum, &byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))

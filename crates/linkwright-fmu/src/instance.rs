@@ -3,7 +3,7 @@
 
 use crate::location::path_of;
 use crate::memory::Handles;
-use linkwright_exchange::data::Data;
+use linkwright_exchange::data::{Data, checksum};
 use linkwright_exchange::model::State;
 use linkwright_exchange::{Fault, Model, Purpose};
 use std::cell::RefCell;
@@ -75,20 +75,27 @@ const PHASES: [Phase; 6] = [
 pub(crate) struct Saved {
     phase: Phase,
     state: State,
+    /// Checksum of what the machine is known by.
+    machine: u64,
 }
 
 impl Saved {
-    /// As bytes: the phase and the state.
+    /// As bytes: a checksum, the machine, the phase and the state.
     fn to_bytes(&self) -> Result<Vec<u8>, Trouble> {
-        let mut bytes = vec![self.phase as u8];
-        bytes.extend(Model::to_bytes(&self.state)?);
-        Ok(bytes)
+        let state = Model::to_bytes(&self.state)?;
+        let parts = [&self.machine.to_le_bytes()[..], &[self.phase as u8], &state].concat();
+        Ok([&checksum(&parts).to_le_bytes()[..], &parts].concat())
     }
 
     fn from_bytes(bytes: &[u8]) -> Result<Self, Trouble> {
-        let (phase, rest) = bytes.split_first().ok_or(Fault::State)?;
-        let phase = *PHASES.get(usize::from(*phase)).ok_or(Fault::State)?;
-        Ok(Saved { phase, state: Model::from_bytes(rest)? })
+        let (sum, parts) = bytes.split_first_chunk().ok_or(Fault::State)?;
+        let (machine, rest) = parts.split_first_chunk().ok_or(Fault::State)?;
+        let (&phase, rest) = rest.split_first().ok_or(Fault::State)?;
+        let phase = *PHASES.get(usize::from(phase)).ok_or(Fault::State)?;
+        if u64::from_le_bytes(*sum) != checksum(parts) {
+            return Err(Fault::State.into());
+        }
+        Ok(Saved { phase, state: Model::from_bytes(rest)?, machine: u64::from_le_bytes(*machine) })
     }
 }
 
@@ -172,10 +179,8 @@ impl Instance {
         if phases.contains(&self.phase) {
             return Ok(());
         }
-        Err(Trouble::error(&format!(
-            "the call is not allowed in this phase ({:?}); it is in {phases:?}",
-            self.phase
-        )))
+        let text = format!("the call is not allowed in the phase {:?}, but in {phases:?}", self.phase);
+        Err(Trouble::error(&text))
     }
 
     /// Refuses a call that is of another interface.
@@ -321,7 +326,8 @@ impl Instance {
 
     /// Saves what changes, under a new handle or in the place of what was saved before.
     pub(crate) fn save(&self, to: &mut [*mut c_void]) -> Outcome {
-        let saved = Saved { phase: self.phase, state: self.model.saved() };
+        let machine = checksum(self.model.token().as_bytes());
+        let saved = Saved { phase: self.phase, state: self.model.saved(), machine };
         let [handle] = to else { return Err(Trouble::error("the place of the state is missing")) };
         if handle.is_null() {
             *handle = SAVED.give(saved);
@@ -334,6 +340,9 @@ impl Instance {
     /// Takes what was saved.
     pub(crate) fn restore(&mut self, handle: *mut c_void) -> Outcome {
         let saved = at(handle)?;
+        if saved.machine != checksum(self.model.token().as_bytes()) {
+            return Err(Fault::State.into());
+        }
         self.model.restore(saved.state.clone(), saved.phase > Phase::Initialization)?;
         self.phase = saved.phase;
         Ok(())
