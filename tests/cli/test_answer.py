@@ -220,7 +220,7 @@ CASES = {
     ),
     "fmu": Case(
         "{roller_two_carts}",
-        "{roller_two_carts} --set mechanism.sliders.cart1.rod=0.1",
+        "{roller_two_carts} --set mechanism.sliders.cart1.rod=0.1 --from-angle=90deg",
         "{roller_two_carts} --accuracy 1",
     ),
     "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),
