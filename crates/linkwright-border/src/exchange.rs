@@ -23,7 +23,7 @@ pub(crate) struct FmuMachine {
 }
 
 #[pyfunction]
-#[pyo3(signature = (plan, q, *, motor, start, accuracy, parameters, token, driveline=None))]
+#[pyo3(signature = (plan, q, *, motor, start, accuracy, parameters, token, driveline=None, brake=None, scales=Vec::new()))]
 pub(crate) fn fmu_machine(
     py: Python<'_>,
     plan: &Plan,
@@ -34,11 +34,16 @@ pub(crate) fn fmu_machine(
     parameters: Vec<Setting>,
     token: String,
     driveline: Option<Driveline<'_>>,
+    brake: Option<usize>,
+    scales: Vec<(u32, f64)>,
 ) -> PyResult<FmuMachine> {
+    let chain = driveline.map_or_else(|| Ok(rigid()), |driveline| driveline.chain())?;
     let data = Data {
+        brake: brake.unwrap_or(chain.masses() - 1),
+        scales,
         q: plan.parameters(&q)?.to_vec(),
         plan: plan.0.clone(),
-        chain: driveline.map_or_else(|| Ok(rigid()), |driveline| driveline.chain())?,
+        chain,
         motor: f64::from(motor),
         start: [start.0, start.1],
         accuracy,

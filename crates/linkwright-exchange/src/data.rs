@@ -6,8 +6,8 @@ use linkwright_core::plan::FORMAT;
 use linkwright_driveline::chain::{Chain, Source, Torque};
 use serde::{Deserialize, Serialize};
 
-/// First bytes of the data.
-const MARK: &[u8; 4] = b"LWFM";
+/// First bytes of the data; the last is the number of their layout.
+const MARK: &[u8; 4] = b"LWF1";
 
 /// Bytes before the parts.
 const HEAD: usize = 16;
@@ -38,6 +38,10 @@ pub struct Data {
     pub accuracy: f64,
     /// Numbers that may be set.
     pub parameters: Vec<Parameter>,
+    /// Mass on which the brake acts.
+    pub brake: usize,
+    /// Value references whose numbers are read times a factor: parts that turn at a speed of their own.
+    pub scales: Vec<(u32, f64)>,
     /// What the description of the variables is known by.
     pub token: String,
 }
@@ -99,13 +103,14 @@ impl Data {
 
     /// Whether lists are as long as they must be.
     fn check(&self) -> Result<(), Fault> {
-        let Data { plan, q, chain, motor, start, accuracy, parameters, .. } = self;
+        let Data { plan, q, chain, motor, start, accuracy, parameters, brake, scales, .. } = self;
         let numbers = q.len() + chain.numbers().len();
         let slots = parameters.iter().flat_map(|one| &one.effects).all(|&(slot, ..)| slot < numbers);
         let is_moving = !chain.drivers.iter().any(|driver| matches!(driver.source, Source::Held(_)));
-        let finite = q.iter().chain(start).chain([accuracy]).all(|x| x.is_finite());
+        let factors = scales.iter().map(|(_, factor)| factor);
+        let finite = q.iter().chain(start).chain([accuracy]).chain(factors).all(|x| x.is_finite());
         match () {
-            () if q.len() != plan.n_parameters || !chain.fits() || !slots => {
+            () if q.len() != plan.n_parameters || !chain.fits() || !slots || *brake >= chain.masses() => {
                 Err(Fault::Damaged("a number is missing"))
             }
             () if !is_moving => Err(Fault::Damaged("a motor keeps its speed")),

@@ -23,8 +23,10 @@ pub struct Around<'a, N> {
     pub supply: f64,
     /// Torque on the crank, counter-clockwise \[N m\].
     pub torque: N,
-    /// Torque of the brake at the crank \[N m\].
+    /// Torque of the brake, referred to the crank \[N m\].
     pub brake: N,
+    /// Mass on which it acts.
+    pub braked: usize,
     /// Speed below which laws are taken at rest \[rad/s\].
     pub slow: f64,
     /// Direction of every mass; 0 where it is held.
@@ -102,13 +104,14 @@ impl<N: Real> Instant<N> {
             motor: zero,
             power: zero,
             drive: zero,
-            load: around.brake * direction(around.senses[n - 1]) - around.torque,
+            load: around.brake * direction(around.senses[around.braked]) - around.torque,
             inertia: zero,
             kinetic: zero,
             y,
         };
         let mut net = vec![zero; n];
-        net[n - 1] = -instant.load;
+        net[n - 1] = around.torque;
+        net[around.braked] = net[around.braked] - around.brake * direction(around.senses[around.braked]);
         instant.add_links(chain, around, &mut net);
         let equation = Equation { plan, q, chain };
         chain.drivers.iter().for_each(|driver| instant.add_driver(equation, driver, around, &mut net));

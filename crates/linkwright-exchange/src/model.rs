@@ -130,18 +130,19 @@ impl Model {
     /// What is to be followed until a time.
     pub(crate) fn start(&self, until: f64) -> Start {
         let State { time, ref y, supply, outside: [torque, brake], accuracy, .. } = self.state;
-        let at_crank = |x: f64| {
-            let mut list = vec![0.0; self.chain.masses()];
-            list[self.chain.masses() - 1] = x;
+        let masses = self.chain.masses();
+        let on = |mass: usize, x: f64| {
+            let mut list = vec![0.0; masses];
+            list[mass] = x;
             list
         };
         Start {
             state: y.clone(),
             time,
             motor: self.data.motor,
-            brakes: at_crank(brake),
+            brakes: on(self.data.brake, brake),
             supply: f64::from(u8::from(supply)),
-            torques: at_crank(torque),
+            torques: on(masses - 1, torque),
             speed: self.speed(),
             until,
             turns: f64::INFINITY,
@@ -198,6 +199,7 @@ impl Model {
             supply: f64::from(u8::from(self.state.supply)),
             torque,
             brake,
+            braked: self.data.brake,
             slow: SLOW * self.speed(),
             senses: modes.senses(),
             zones: modes.zones(),
@@ -217,8 +219,16 @@ impl Model {
             Quantity::Brake => Ok(brake),
             Quantity::Parameter(n) => parameters.get(n).copied().ok_or(missing),
             Quantity::Indicator(n) => self.indicators()?.get(n).copied().ok_or(missing),
-            quantity => quantity.at(self.instant()).ok_or(missing),
+            quantity => {
+                let value = quantity.at(self.instant()).ok_or(missing)?;
+                Ok(value * self.scale(reference))
+            }
         }
+    }
+
+    /// What a number is read times.
+    fn scale(&self, reference: u32) -> f64 {
+        self.data.scales.iter().find(|(of, _)| *of == reference).map_or(1.0, |&(_, factor)| factor)
     }
 
     /// Whether something holds.
@@ -323,7 +333,7 @@ impl Model {
         let instant = Instant::of(&self.data.plan, &q, &chain, y, &around);
         let of = |&reference: &u32| {
             let found = Quantity::of(reference)?.at(&instant).ok_or(Fault::Derivative(reference))?;
-            Ok(found.d)
+            Ok(found.d * self.scale(reference))
         };
         unknowns.iter().map(of).collect()
     }

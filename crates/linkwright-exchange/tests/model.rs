@@ -2,6 +2,7 @@
 
 use linkwright_core::drive::loads::{At, Body, Load, What};
 use linkwright_core::drive::motor::{Drive, Motor};
+use linkwright_core::kernel::formula::{Formula, Op, Variable};
 use linkwright_core::linkage::dyads::SliderRod;
 use linkwright_core::linkage::mechanism::{Element, GroundPoint};
 use linkwright_core::plan::builder::Builder;
@@ -39,6 +40,11 @@ impl Parts {
 
 /// A crank with a flywheel and a motor whose torque falls in proportion to the speed; with a piston where it has a mass.
 fn data(piston: Option<f64>) -> Data {
+    machine(piston, None)
+}
+
+/// The same with a torque that grows in proportion to time, if it does.
+fn machine(piston: Option<f64>, growth: Option<f64>) -> Data {
     let mut parts = Parts { builder: Builder::new(0), q: Vec::new() };
     let (x, y) = (parts.number(0.0), parts.number(0.0));
     parts.builder.fixed(GroundPoint { point: 0, x, y }).expect("a point");
@@ -69,6 +75,12 @@ fn data(piston: Option<f64>) -> Data {
         let load = Load { at: At::Slide { slide: 0, point: 2 }, what: What::Dry { size } };
         parts.builder.load(load).expect("a load");
     }
+    if let Some(growth) = growth {
+        let ops = vec![Op::Number(parts.number(growth)), Op::Variable(Variable::Time), Op::Mul];
+        let formula = parts.builder.formula(Formula::new(ops).expect("a formula")).expect("its number");
+        let load = Load { at: At::Crank, what: What::Formula { formula, turns: 1 } };
+        parts.builder.load(load).expect("a load");
+    }
     let [torque, inverse_speed, ratio, forward, reverse, inertia, speed_start] =
         [M0, 1.0 / W0, 1.0, 1.0, 1.0, J, W0].map(|x| parts.number(x));
     let motor = Motor::Line { torque, inverse_speed };
@@ -84,6 +96,8 @@ fn data(piston: Option<f64>) -> Data {
             Parameter { value: M0, effects: vec![(torque, 1.0, 1.0)] },
             Parameter { value: J, effects: vec![(inertia, 1.0, 1.0)] },
         ],
+        brake: 0,
+        scales: Vec::new(),
         token: "{rotor}".to_owned(),
     }
 }
@@ -138,6 +152,31 @@ fn a_brake_stops_and_holds() {
     model.set_number(TORQUE, -44.0).expect("an input");
     model.step(3.0).expect("a step");
     close(number(&mut model, SPEED), -4.0 / J, 1e-10);
+}
+
+/// A torque c t takes a rotor on from its brake at t = M/c, whatever the steps; then ω = c (t − M/c)²/(2 J).
+#[test]
+fn a_torque_over_time_takes_on_what_is_held() {
+    for steps in [1, 3, 50] {
+        let mut model = begun(machine(None, Some(100.0)), Purpose::Stepping);
+        model.set_truth(SUPPLY, false).expect("an input");
+        model.set_number(BRAKE, 40.0).expect("an input");
+        for step in 1..=steps {
+            model.step(f64::from(step) / f64::from(steps)).expect("a step");
+        }
+        close(number(&mut model, SPEED), 100.0 * 0.36 / (2.0 * J), 1e-9);
+    }
+    let mut model = Model::new(machine(None, Some(100.0)), Purpose::Exchange);
+    model.set_truth(SUPPLY, false).expect("an input");
+    model.set_number(BRAKE, 40.0).expect("an input");
+    model.begin();
+    for (time, is_held) in [(0.2, true), (0.399_999, true), (0.400_001, false)] {
+        model.set_time(time);
+        let lowest = model.indicators().expect("indicators").into_iter().fold(f64::INFINITY, f64::min);
+        assert_eq!(lowest > 0.0, is_held, "{time}");
+    }
+    model.update().expect("an update");
+    assert!(!model.truth(AT_REST).expect("an output"));
 }
 
 /// The energy of a slider-crank with the supply off falls by the work of the dry load on its piston alone: F per metre of its way.
