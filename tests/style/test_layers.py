@@ -172,8 +172,11 @@ EDGES = {
     # An FMU is a drive with its mechanism.
     ("fmi", "drive"),
     ("fmi", "drive.model"),
+    ("fmi", "driveline"),
     ("fmi", "linkages"),
+    ("fmi", "torsion.model"),
     ("fmi.commands", "drive.commands"),
+    ("fmi.commands", "driveline.commands"),
     # A law that goes to a controller is a motion law.
     ("axes.export", "cam.laws"),
 }

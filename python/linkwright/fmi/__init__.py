@@ -3,6 +3,7 @@
 | module | |
 | --- | --- |
 | `fmu` | a machine as an FMU |
+| `program` | its numbers and structure, rigid or elastic |
 | `variables` | what the importing tool sets and reads |
 | `parameters` | entries of the machine that stay adjustable |
 | `units` | units by exponents, and those for display |

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from linkwright.drive.commands import Clockwise, FromAngle, FromSpeed
+from linkwright.driveline.commands import Rigid
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Output, to_file
 from linkwright.kernel.command.parameter import Option
@@ -32,6 +33,7 @@ def fmu(
     from_angle: FromAngle,
     from_speed: FromSpeed,
     clockwise: Clockwise = False,
+    rigid: Rigid = False,
     accuracy: Accuracy = 1e-8,
     to: To,
 ) -> None:
@@ -52,6 +54,7 @@ def fmu(
         speed=from_speed,
         accuracy=accuracy,
         clockwise=clockwise,
+        rigid=rigid,
     )
     to.hand_over(
         Answer(

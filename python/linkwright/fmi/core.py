@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from linkwright import _core
-from linkwright.fmi.parameters import Adjustable
 from linkwright.kernel.arrays import Floats
 from linkwright.machine.program.compiled import CompiledMachine
 from linkwright.machine.program.core import require
@@ -15,9 +14,9 @@ from linkwright.machine.program.core import require
 class Settings(NamedTuple):
     """What an FMU starts with."""
 
-    start: tuple[float, float]  # crank angle [rad] and speed [rad/s]
-    clockwise: bool  # whether the motor drives the crank clockwise
-    accuracy: float  # relative accuracy of a step, unless the importing tool asks for another
+    start: tuple[float, float] = (0.0, 0.0)  # crank angle [rad] and speed [rad/s]
+    clockwise: bool = False  # whether the motor drives the crank clockwise
+    accuracy: float = 1e-8  # relative accuracy of a step, unless the importing tool asks for another
 
 
 class MachineData(NamedTuple):
@@ -28,10 +27,16 @@ class MachineData(NamedTuple):
     indicators: int  # event indicators
 
 
+_PLAIN = Settings()
+
+# The value of an entry, and what it moves: a number of the program, a factor, a power.
+Parameter = tuple[float, Sequence[tuple[int, float, int]]]
+
+
 def machine_data(
     compiled: CompiledMachine,
-    settings: Settings,
-    entries: Sequence[Adjustable] = (),
+    settings: Settings = _PLAIN,
+    parameters: Sequence[Parameter] = (),
     *,
     token: str = "",
     numbers: Floats | None = None,
@@ -48,7 +53,7 @@ def machine_data(
         motor=-1 if settings.clockwise else 1,
         start=settings.start,
         accuracy=settings.accuracy,
-        parameters=[(entry.value, entry.moves) for entry in entries],
+        parameters=parameters,
         token=token,
         driveline=driveline,
     )

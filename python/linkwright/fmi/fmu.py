@@ -11,18 +11,15 @@ from uuid import UUID
 import numpy as np
 
 import linkwright
-from linkwright.drive.load_checks import require_half_turns
-from linkwright.drive.model.motor import ConstantSpeedMotor
-from linkwright.drive.reduction import NO_INERTIA
-from linkwright.drive.study import has_mass
 from linkwright.fmi.archive import archive, identifier
 from linkwright.fmi.core import MachineData, Settings, machine_data
 from linkwright.fmi.description import Description, Experiment, model_description
 from linkwright.fmi.library import libraries
 from linkwright.fmi.parameters import Adjustable, adjustable
+from linkwright.fmi.program import Program, program_of
 from linkwright.fmi.units import unit_definitions
 from linkwright.fmi.variables import Variable, variables_of
-from linkwright.kernel.errors import InputError, SteadyStateError, show
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.files.output import write_file
 from linkwright.kernel.public import public
 from linkwright.kernel.public.in_range import in_range
@@ -31,10 +28,7 @@ from linkwright.kernel.reader.out_units import OutUnits, reader
 from linkwright.kernel.result import Result
 from linkwright.kernel.units.kinds import ANGLE, SPEED
 from linkwright.kernel.units.marks import Quantity
-from linkwright.linkages.closure import require_closed
-from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine, compile_machine
 
 Version = Literal["2.0", "3.0"]
 VERSIONS: tuple[Version, ...] = ("2.0", "3.0")
@@ -88,6 +82,7 @@ def fmu(
     speed: float = 0.0,
     accuracy: float = 1e-8,
     clockwise: bool = False,
+    rigid: bool = False,
 ) -> Fmu:
     """Make an FMU of a drive with its mechanism.
 
@@ -103,6 +98,8 @@ def fmu(
         Relative accuracy of a step in co-simulation, unless the importing tool asks for another.
     clockwise : bool
         Whether the motor drives the crank clockwise.
+    rigid : bool
+        Whether an elastic driveline is taken as rigid.
 
     Returns
     -------
@@ -130,83 +127,37 @@ def fmu(
     in_range(angle=(angle, Quantity(ANGLE)), speed=(speed, Quantity(SPEED)))
     if not 1e-14 <= accuracy <= 1e-2:
         raise InputError(f"accuracy {accuracy:g}: expected a number from 1e-14 to 1e-2")
-    compiled = _ready(machine, angle)
+    program = program_of(machine, angle, rigid=rigid)
     settings = Settings((angle, speed), clockwise, accuracy)
-    entries = adjustable(machine, compiled, _structure_of(compiled, settings))
-    variables = variables_of(compiled, settings.start, entries)
-    return _assembled(machine, compiled, settings, entries, variables, version)
-
-
-def _ready(machine: Machine, angle: float) -> CompiledMachine:
-    """The machine in the core's terms, if its motion in time is determined."""
-    if machine.rod_string is not None:
-        raise InputError(
-            "rod_string: an FMU has no rod string, whose load depends on the whole stroke; export the unit "
-            "without it and apply the load by the input external_torque"
-        )
-    if machine.drive is not None and isinstance(machine.drive.motor, ConstantSpeedMotor):
-        raise InputError(
-            "drive.motor.kind: found constant_speed, a motor that keeps its speed under any load; an FMU "
-            "computes the speed: give a motor whose torque follows its speed, such as induction or dc"
-        )
-    if machine.drive is not None and machine.drive.gearbox.locks:
-        raise InputError(
-            "drive.gearbox.reverse: found 0, a self-locking gearbox, which holds the load while the motor is "
-            "off; an FMU has a motor that can be switched: give the factor of a gearbox that is not "
-            "self-locking"
-        )
-    compiled = compile_machine(machine)
-    if not has_mass(machine):
-        raise InputError(
-            "the machine has no masses, so that its motion in time is not determined; give its bodies or its "
-            "drive their inertia"
-        )
-    require_half_turns(compiled, machine)
-    require_finite_accelerations(machine)
-    at = np.array([angle])
-    require_closed(compiled, machine, at)
-    if not float(compiled.reductions(at).inertia[0]) > 0:
-        raise SteadyStateError(NO_INERTIA)
-    return compiled
-
-
-def _structure_of(compiled: CompiledMachine, settings: Settings) -> Any:
-    """What of a program is not its numbers: its data with the numbers of this one."""
-    numbers = compiled.one
-
-    def structure(other: CompiledMachine) -> bytes:
-        if other.one.shape != numbers.shape:
-            return b""
-        return machine_data(other, settings, numbers=numbers).data
-
-    return structure
+    entries = adjustable(program, rigid=rigid)
+    variables = variables_of(program, settings.start, entries)
+    return _assembled(program, settings, entries, variables, version)
 
 
 def _assembled(
-    machine: Machine,
-    compiled: CompiledMachine,
+    program: Program,
     settings: Settings,
     entries: list[Adjustable],
     variables: list[Variable],
     version: Version,
 ) -> Fmu:
     """Description, data and library in one archive; the token is a digest of the first two."""
-    known, name = libraries(), identifier(machine.name)
-    data = machine_data(compiled, settings, entries)
+    name = identifier(program.machine.name)
+    driveline = None if program.chain is None else program.chain.core
+    parameters = [(entry.value, entry.moves) for entry in entries]
+    data = machine_data(program.compiled, settings, parameters, driveline=driveline)
 
     def description(token: str) -> bytes:
-        return model_description(
-            _description(machine, compiled, settings, variables, data, name, token), version
-        )
+        return model_description(_description(program, settings, variables, data, name, token), version)
 
     token = f"{{{UUID(bytes=sha256(data.data + description('')).digest()[:16])}}}"
-    data = machine_data(compiled, settings, entries, token=token)
+    data = machine_data(program.compiled, settings, parameters, token=token, driveline=driveline)
     return Fmu(
-        name=machine.name,
+        name=program.machine.name,
         identifier=name,
         version=version,
         token=token,
-        platforms=tuple(platform.folder(version) for platform in known),
+        platforms=tuple(platform.folder(version) for platform in libraries()),
         variables=tuple(variables),
         states=data.states,
         event_indicators=data.indicators,
@@ -216,8 +167,7 @@ def _assembled(
 
 
 def _description(
-    machine: Machine,
-    compiled: CompiledMachine,
+    program: Program,
     settings: Settings,
     variables: list[Variable],
     data: MachineData,
@@ -225,16 +175,16 @@ def _description(
     token: str,
 ) -> Description:
     """What `modelDescription.xml` says."""
-    period = 2 * np.pi / compiled.speed_guess
+    period = 2 * np.pi / program.compiled.speed_guess
     stop = float(f"{_REVOLUTIONS * period:.2g}")
     units = ["s", *(variable.unit for variable in variables)]
     return Description(
-        machine.name,
+        program.machine.name,
         name,
         f"Linkwright {linkwright.__version__}",
         token,
         variables,
         data.indicators,
-        unit_definitions(units, reader().over(OutUnits.of_table(machine.units))),
+        unit_definitions(units, reader().over(OutUnits.of_table(program.machine.units))),
         Experiment(stop, stop / (_REVOLUTIONS * _STEPS), settings.accuracy),
     )

@@ -12,22 +12,22 @@ translated anew with other values of the entry.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from linkwright.fmi.program import Program
 from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.description.base import Description
 from linkwright.kernel.description.place import field_names
 from linkwright.kernel.description.schema_walk import annotation_at, mark_of
 from linkwright.kernel.errors import LinkwrightError
-from linkwright.kernel.units.kinds import Kind
+from linkwright.kernel.units.kinds import COUNT, Kind
 from linkwright.kernel.units.marks import Quantity
-from linkwright.machine.address import addresses, entry_at, exchanged, kind, known_place
+from linkwright.machine.address import addresses, entry_at, exchanged, known_place
 from linkwright.machine.machine import Machine
-from linkwright.machine.program.compiled import CompiledMachine, Translation, compile_machine
-from linkwright.machine.tangents import directions
+from linkwright.machine.program.compiled import Translation
 
 # Values of an entry with which the machine is translated, over its own; of an entry that is zero, in SI.
 _TRIALS = (2.0, 0.5, 1.25)
@@ -38,6 +38,9 @@ _POWERS = (1, -1, 2, -2)
 
 # Share of a number that rounding may leave between two translations.
 _ROUNDING = 1e-12
+
+# What an entry raises that cannot have another value.
+_FAILURES = (LinkwrightError, TypeError, ValueError, ArithmeticError)
 
 
 class Move(NamedTuple):
@@ -63,21 +66,14 @@ class Adjustable(NamedTuple):
         return {move.slot: move.factor * (value**move.power - self.value**move.power) for move in self.moves}
 
 
-def adjustable(
-    machine: Machine, compiled: CompiledMachine, structure: Callable[[CompiledMachine], bytes]
-) -> list[Adjustable]:
-    """Entries that may be changed in an FMU, in the order of the file.
-
-    `structure`: what of a program is not its numbers.
-    """
-    own = Translation(machine, motor=True, brake=False).program.n_own
-    values = {name: value for name, value in addresses(machine).items() if kind(machine, name) is not None}
-    slopes = directions(machine, [*values])
-    trials = _Trials(machine, compiled, structure)
+def adjustable(program: Program, *, rigid: bool) -> list[Adjustable]:
+    """Entries that may be changed in an FMU, in the order of the file."""
+    trials = _Trials(program, rigid=rigid)
     kept: list[Adjustable] = []
-    for name, slope in zip(slopes.variables, slopes.values.T, strict=True):
-        if slope.any() and not slope[:own].any():
-            entry = trials.entry(name, float(values[name]), np.flatnonzero(slope).astype(np.int32))
+    for name, value in addresses(program.machine).items():
+        mark = _mark(program.machine, name)
+        if mark is not None and mark.kind is not COUNT:
+            entry = trials.entry(name, float(value), mark)
             if entry is not None and trials.is_independent(entry, kept):
                 kept.append(entry)
     return kept
@@ -101,71 +97,81 @@ def _about(machine: Machine, name: str) -> str:
 def _bounds(mark: Quantity) -> tuple[float | None, float | None]:
     """Minimum and maximum of a quantity."""
     limits = mark.bound.schema
-    return limits.get("minimum", limits.get("exclusiveMinimum")), limits.get(
-        "maximum", limits.get("exclusiveMaximum")
-    )
+    low = limits.get("minimum", limits.get("exclusiveMinimum"))
+    return low, limits.get("maximum", limits.get("exclusiveMaximum"))
 
 
 class _Trials:
     """Translates a machine with other values of its entries."""
 
-    def __init__(
-        self, machine: Machine, compiled: CompiledMachine, structure: Callable[[CompiledMachine], bytes]
-    ) -> None:
-        self.machine, self.compiled, self.structure_of = machine, compiled, structure
-        self.structure = structure(compiled)
+    def __init__(self, program: Program, *, rigid: bool) -> None:
+        self.program, self.rigid = program, rigid
+        # Numbers of the mechanism itself come first.
+        own = program.chain is None or not program.machine.has_mounted_mechanisms
+        self.n_own = Translation(program.machine, motor=True, brake=False).program.n_own if own else 0
 
     def numbers(self, values: Mapping[str, float]) -> Floats | None:
         """Numbers of the program with other entries; None where they do not have them."""
         try:
-            found = compile_machine(exchanged(self.machine, values))
-        except LinkwrightError:
+            found = Program(exchanged(self.program.machine, values), rigid=self.rigid)
+            is_same = found.has_structure_of(self.program)
+        except _FAILURES:
             # silent: an entry that cannot have another value is not offered
             return None
-        return found.parameters if self.structure_of(found) == self.structure else None
+        return found.numbers if is_same else None
 
-    def entry(self, name: str, value: float, slots: Integers) -> Adjustable | None:
+    def entry(self, name: str, value: float, mark: Quantity) -> Adjustable | None:
         """An entry that moves some numbers by its powers; None if it does not."""
-        mark, others = _mark(self.machine, name), [share * (value or 1.0) for share in _TRIALS]
-        rows = [self.numbers({name: other}) for other in others]
-        if mark is None or any(row is None for row in rows):
+        others = [share * (value or 1.0) for share in _TRIALS]
+        first = self.numbers({name: others[0]})
+        if first is None:
             return None
-        powers = _POWERS if value else _POWERS[:1]
-        moves = [self._move(int(slot), value, others, rows, powers) for slot in slots]
+        slots = np.flatnonzero(first != self.program.numbers).astype(np.int32)
+        if not len(slots) or slots[0] < self.n_own:
+            return None
+        rows = [first, *(self.numbers({name: other}) for other in others[1:])]
+        known = [row for row in rows if row is not None]
+        if len(known) < len(rows):
+            return None
+        moves = self._moves(slots, value, others, known)
         entry = Adjustable(
-            name,
-            value,
-            mark.kind,
-            _about(self.machine, name),
-            _bounds(mark),
-            tuple(move for move in moves if move is not None),
+            name, value, mark.kind, _about(self.program.machine, name), _bounds(mark), tuple(moves)
         )
-        agree = all(self._agrees(row, [(entry, other)]) for row, other in zip(rows, others, strict=True))
+        agree = all(self._agrees(row, [(entry, other)]) for row, other in zip(known, others, strict=True))
         return entry if agree else None
 
+    def _moves(
+        self, slots: Integers, value: float, others: list[float], rows: list[Floats]
+    ) -> Sequence[Move]:
+        """How numbers follow an entry, of those that follow by a power of it."""
+        powers = _POWERS if value else _POWERS[:1]
+        moves = (self._move(int(slot), value, others, rows, powers) for slot in slots)
+        return [move for move in moves if move is not None]
+
     def _move(
-        self, slot: int, value: float, others: list[float], rows: list[Floats | None], powers: tuple[int, ...]
+        self, slot: int, value: float, others: list[float], rows: list[Floats], powers: tuple[int, ...]
     ) -> Move | None:
         """The power by which a number follows an entry; None if it follows by none."""
-        at = self.compiled.parameters[slot]
-        changes = [row[slot] - at for row in rows if row is not None]
+        at = self.program.numbers[slot]
+        changes = [row[slot] - at for row in rows]
+        size = _ROUNDING * max(abs(at), *map(abs, changes))
         for power in powers:
             basis = [other**power - value**power for other in others]
             factor = changes[0] / basis[0]
-            size = _ROUNDING * max(abs(at), *map(abs, changes))
             if all(abs(factor * b - c) <= size for b, c in zip(basis, changes, strict=True)):
                 return Move(slot, float(factor), power)
         return None
 
     def _agrees(self, found: Floats | None, values: list[tuple[Adjustable, float]]) -> bool:
         """Whether a machine with other entries has the numbers that its FMU will take."""
-        expected = self.compiled.parameters.copy()
+        own = self.program.numbers
+        expected = own.copy()
         for entry, value in values:
             for slot, change in entry.change(value).items():
                 expected[slot] += change
         if found is None or found.shape != expected.shape:
             return False
-        sizes = np.maximum(np.abs(expected), np.abs(self.compiled.parameters))
+        sizes = np.maximum(np.abs(expected), np.abs(own))
         return bool((np.abs(found - expected) <= 4 * _ROUNDING * sizes).all())
 
     def is_independent(self, entry: Adjustable, kept: list[Adjustable]) -> bool:

@@ -14,7 +14,9 @@ from typing import Any, NamedTuple
 from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
+from linkwright.driveline.chain import Chain
 from linkwright.fmi.parameters import Adjustable
+from linkwright.fmi.program import Program
 from linkwright.kernel.description.place import split
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.quantities import shown as declared
@@ -121,9 +123,9 @@ _ONE = {"points": "point", "links": "link", "slides": "slide"}
 
 
 def variables_of(
-    compiled: CompiledMachine, start: tuple[float, float], entries: Iterable[Adjustable]
+    program: Program, start: tuple[float, float], entries: Iterable[Adjustable]
 ) -> list[Variable]:
-    """All variables of a rigid drive, in the order of the description.
+    """All variables of a drive, in the order of the description.
 
     `start`: crank angle [rad] and speed [rad/s] where nothing else is set.
     """
@@ -131,8 +133,9 @@ def variables_of(
         *INPUTS,
         *(_parameter(k, entry) for k, entry in enumerate(entries)),
         *_motion(start),
+        *([] if program.chain is None else _of_driveline(program.chain)),
         *_of_drive(),
-        *_of_mechanism(compiled),
+        *_of_mechanism(program.compiled),
     ]
 
 
@@ -168,6 +171,38 @@ def _motion(start: tuple[float, float]) -> Iterator[Variable]:
         f"der({ANGLE})", Group.DERIVATIVE, 0, "local", "rad/s", local, derivative_of=ANGLE, depends=(SPEED,)
     )
     yield _of_label("crank_acceleration", Group.DERIVATIVE, 1, acceleration, derivative_of=SPEED)
+
+
+def _of_driveline(chain: Chain) -> Iterator[Variable]:
+    """Twists and speeds of the masses against the crank: the other states, with their derivatives."""
+    others = len(chain.links["inertia"])
+    names = [_mass_name(chain, mass) for mass in range(others)]
+    kinds = (
+        ("twist", "rad", "Twist of {} against the crank."),
+        ("slip", "rad/s", "Speed of {} less that of the crank."),
+    )
+    for order, (word, unit, about) in enumerate(kinds):
+        for mass, name in enumerate(names):
+            number = 2 + order * others + mass
+            own = quoted(f"driveline.{name}.{word}")
+            sentence = about.format(name)
+            yield Variable(own, Group.STATE, number, "output", unit, sentence, 0.0, depends=(own,))
+            after = quoted(f"driveline.{name}.slip")
+            yield Variable(
+                f"der({own})",
+                Group.DERIVATIVE,
+                number,
+                "local",
+                f"{unit}/s" if order == 0 else "rad/s²",
+                f"Derivative: {sentence[0].lower()}{sentence[1:]}",
+                derivative_of=own,
+                depends=(after,) if order == 0 else None,
+            )
+
+
+def _mass_name(chain: Chain, mass: int) -> str:
+    """What turns with a mass, the first of them."""
+    return str(chain.stations[chain.mass.tolist().index(mass)])
 
 
 def _of_label(name: str, group: Group, number: int, label: Label, **more: Any) -> Variable:
