@@ -67,8 +67,9 @@ $(BUILT): $(VENV)/needs $(RUST)
 
 fmu: $(FMU)
 
+# With both packages named, the kernels are those that the module was built from.
 $(FMU): $(BUILT) $(VENV)/packages
-	@cargo build --release --locked -q -p linkwright-fmu
+	@cargo build --release --locked -q -p linkwright-py -p linkwright-fmu --features pyo3/extension-module
 	@PYTHONPATH=python $(BIN)/python -m linkwright.fmi.library target/release
 	@touch $@
 

@@ -45,6 +45,42 @@ def test_twists_are_states(unpacked: Unpacked) -> None:
     assert rows[:, 2] == pytest.approx(expected.speed[station] * ratio / expected.ratio[station], abs=1e-6)
 
 
+def test_stations_and_shafts_at_their_own_speed(unpacked: Unpacked) -> None:
+    """Speeds of stations, torques and twists of shafts are those of `elastic_transient`, at their speeds."""
+    for name in ("elastic_coupling_of_carts", "press_line_two_motors", "drive_line_torsion"):
+        machine = lw.read(name)
+        times = np.linspace(0.0, 0.4, 5)
+        expected = lw.elastic_transient(machine, duration=0.4, accuracy=1e-12, times=times)
+        with opened(unpacked(machine)) as unit:
+            stations = [each for each in expected.stations if f"driveline.{each}.speed" in unit.variables]
+            assert len(stations) == expected.twist.shape[0]
+            unit.start(tolerance=1e-12)
+            names = [f"driveline.{each}.speed" for each in stations]
+            names += [f"shafts.{each}.{of}" for of in ("torque", "twist") for each in expected.shafts]
+            rows = np.array(unit.run(list(times), *names)).T
+        speeds = expected.speed[[expected.stations.index(each) for each in stations]]
+        for found, curve in zip(rows, [*speeds, *expected.torque, *expected.twist], strict=True):
+            assert np.abs(found - curve).max() < 1e-7 * max(np.abs(curve).max(), 1e-3), name
+
+
+def test_the_brake_acts_on_the_motor_shaft(unpacked: Unpacked) -> None:
+    """A brake on the motor shaft of an elastic drive stops the motor, and the crank by the shaft."""
+    sets = ['drive.brake.torque="60 N m"', 'drive.brake.on="motor"']
+    machine = lw.read("elastic_coupling_of_carts", sets)
+    ratio = float(machine.drive.gearbox.ratio)
+    times = np.array([0.0, 0.15])
+    switches = (DriveSwitch(0.8, motor=False, brake=True),)
+    ends = np.array([0.0, 0.8, 0.95])
+    expected = lw.elastic_transient(machine, duration=0.95, accuracy=1e-12, times=ends, switches=switches)
+    with opened(unpacked(machine)) as unit:
+        unit.start(tolerance=1e-12)
+        unit.step(0.0, 0.8)
+        unit.set({"motor_on": False, "brake_torque": 60.0 * ratio})
+        unit.step(0.8, float(times[-1]))
+        assert unit.get("crank_angle")[0] == pytest.approx(float(expected.crank_angle[-1]), abs=1e-7)
+        assert unit.get("crank_speed")[0] == pytest.approx(float(expected.speed[-1, -1]), abs=1e-6)
+
+
 def test_supply_off_and_on_again(unpacked: Unpacked) -> None:
     """Switched off and on again, the driveline moves as by switches of `elastic_transient`."""
     machine = lw.read("elastic_coupling_of_carts")

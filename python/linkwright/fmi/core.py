@@ -41,10 +41,14 @@ def machine_data(
     token: str = "",
     numbers: Floats | None = None,
     driveline: Mapping[str, Any] | None = None,
+    brake: int | None = None,
+    scales: Sequence[tuple[int, float]] = (),
 ) -> MachineData:
     """Plan and numbers of a machine, with what may be changed in them.
 
-    `token`: of the instantiation; `numbers`: others than those of the machine.
+    `token`: of the instantiation; `numbers`: others than those of the machine; `driveline`: its masses and
+    links, where it is elastic; `brake`: mass on which the brake acts, else the crank; `scales`: value
+    references, and factors of what the library has of them.
     """
     require("fmu_machine")
     made = _core.fmu_machine(
@@ -56,5 +60,7 @@ def machine_data(
         parameters=parameters,
         token=token,
         driveline=driveline,
+        brake=brake,
+        scales=scales,
     )
     return MachineData(made.data, made.states, made.event_indicators)

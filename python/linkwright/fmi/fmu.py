@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from typing import Annotated, Any, Literal
 from uuid import UUID
@@ -143,15 +144,22 @@ def _assembled(
 ) -> Fmu:
     """Description, data and library in one archive; the token is a digest of the first two."""
     name = identifier(program.machine.name)
-    driveline = None if program.chain is None else program.chain.core
-    parameters = [(entry.value, entry.moves) for entry in entries]
-    data = machine_data(program.compiled, settings, parameters, driveline=driveline)
+    made = partial(
+        machine_data,
+        program.compiled,
+        settings,
+        [(entry.value, entry.moves) for entry in entries],
+        driveline=None if program.chain is None else program.chain.core,
+        brake=program.brake_mass,
+        scales=[(variable.reference, variable.factor) for variable in variables if variable.factor != 1.0],
+    )
+    data = made()
 
     def description(token: str) -> bytes:
         return model_description(_description(program, settings, variables, data, name, token), version)
 
     token = f"{{{UUID(bytes=sha256(data.data + description('')).digest()[:16])}}}"
-    data = machine_data(program.compiled, settings, parameters, token=token, driveline=driveline)
+    data = made(token=token)
     return Fmu(
         name=program.machine.name,
         identifier=name,

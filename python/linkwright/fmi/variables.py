@@ -15,9 +15,11 @@ from linkwright.drive.reduction import Reduction
 from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
 from linkwright.driveline.chain import Chain
+from linkwright.driveline.in_time import ElasticTransient
 from linkwright.fmi.parameters import Adjustable
 from linkwright.fmi.program import Program
 from linkwright.kernel.description.place import split
+from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.quantities import shown as declared
 from linkwright.linkages.kinematics import everything
@@ -40,6 +42,8 @@ class Group(IntEnum):
     POINT = 7
     LINK = 8
     SLIDE = 9
+    MASS = 10
+    SHAFT = 11
 
 
 class Variable(NamedTuple):
@@ -57,6 +61,7 @@ class Variable(NamedTuple):
     depends: tuple[str, ...] | None = None
     is_bool: bool = False
     bounds: tuple[float | None, float | None] = (None, None)
+    factor: float = 1.0  # of what the library has, such as the speed of a mass referred to the crank
 
     @property
     def reference(self) -> int:
@@ -76,7 +81,7 @@ class Variable(NamedTuple):
 ANGLE, SPEED = "crank_angle", "crank_speed"
 
 _EXTERNAL = "External torque on the crank; counter-clockwise is positive."
-_BRAKE = "Braking torque at the crank, 0 or more; it opposes the motion and holds at rest."
+_BRAKE = "Braking torque referred to the crank, 0 or more; it opposes the motion and holds at rest."
 _SUPPLY = "Supply of the motor; without it the motor gives no torque."
 _REST = "The machine stands, and nothing moves it."
 
@@ -133,7 +138,7 @@ def variables_of(
         *INPUTS,
         *(_parameter(k, entry) for k, entry in enumerate(entries)),
         *_motion(start),
-        *([] if program.chain is None else _of_driveline(program.chain)),
+        *([] if program.chain is None else [*_of_driveline(program.chain), *_of_stations(program.chain)]),
         *_of_drive(),
         *_of_mechanism(program.compiled),
     ]
@@ -198,6 +203,25 @@ def _of_driveline(chain: Chain) -> Iterator[Variable]:
                 derivative_of=own,
                 depends=(after,) if order == 0 else None,
             )
+
+
+def _of_stations(chain: Chain) -> Iterator[Variable]:
+    """Motion of the masses but the crank, at the own speed of what is named, and load of the shafts."""
+    for mass in range(len(chain.links["inertia"])):
+        name = _mass_name(chain, mass)
+        ratio = float(primal(chain.ratio[chain.stations.index(name)]))
+        for part, quantity in enumerate(("angle", "speed", "acceleration")):
+            yield _of_part(f"driveline.{name}", quantity, Group.MASS, 4 * mass + part, name, ratio)
+    for nth, (name, lead) in enumerate(zip(chain.shafts, primal(chain.lead), strict=True)):
+        yield _of_part(f"shafts.{name}", "twist", Group.SHAFT, 2 * nth, name, float(lead))
+        yield _of_part(f"shafts.{name}", "torque", Group.SHAFT, 2 * nth + 1, name, 1.0 / float(lead))
+
+
+def _of_part(head: str, quantity: str, group: Group, number: int, name: str, factor: float) -> Variable:
+    """An output of a station or a shaft."""
+    label = declared(ElasticTransient, quantity)
+    label = label._replace(word=re.sub("each (station|shaft)", lambda _: name, label.word))
+    return _of_label(quoted(f"{head}.{quantity}"), group, number, label, factor=factor)
 
 
 def _mass_name(chain: Chain, mass: int) -> str:
