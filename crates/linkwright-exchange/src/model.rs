@@ -170,9 +170,10 @@ impl Model {
         if let Some(known) = &self.state.modes {
             return known.clone();
         }
+        let speed = self.speed();
         let modes = self.in_system(|system, state| {
             let y = padded(system, &state.y);
-            Modes::of(system, state.time, &y)
+            Modes::of(system, (state.time, &y), speed)
         });
         self.state.modes = Some(modes.clone());
         modes

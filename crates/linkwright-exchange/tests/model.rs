@@ -258,6 +258,18 @@ fn another_solver_is_told_of_rest() {
     close(model.rates().expect("rates")[1], 10.0 / J, 1e-14);
 }
 
+/// A rotor that nothing drives is held, with an indicator above zero, so that a solver sees the first torque change its sign.
+#[test]
+fn what_nothing_drives_waits_for_the_first_torque() {
+    let mut model = Model::new(data(None), Purpose::Exchange);
+    model.set_truth(SUPPLY, false).expect("an input");
+    model.begin();
+    assert!(model.truth(AT_REST).expect("an output"));
+    assert!(model.indicators().expect("indicators").iter().all(|&z| z > 0.0));
+    model.set_number(TORQUE, 1e-3).expect("an input");
+    assert!(model.indicators().expect("indicators").iter().any(|&z| z < 0.0));
+}
+
 /// Data survive the way through bytes; a bit that was changed, another format, or a short file are refused.
 #[test]
 fn data_that_were_changed_are_refused() {

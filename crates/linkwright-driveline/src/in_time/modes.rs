@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const AT_ONCE: usize = 64;
 
 /// Shares by which a quantity is beyond zero when its event happens: angles \[rad\], speeds over the working speed. A quantity that
-/// starts at zero is not an event.
+/// starts at zero, as the torque on a mass that nothing drives yet, is above it: solvers look for changes of sign.
 const BEYOND: f64 = 1e-11;
 
 /// The first two events end the motion after some revolutions: not here.
@@ -26,15 +26,17 @@ pub struct Modes {
     senses: Vec<f64>,
     zones: Vec<Zone>,
     between: Vec<[f64; 2]>,
+    /// Speed about which the crank works \[rad/s\].
+    speed: f64,
 }
 
 impl Modes {
-    /// Those of a state.
-    pub fn of(system: &mut System<'_>, t: f64, y: &[f64]) -> Self {
+    /// Those of a state, for a crank that works about a speed.
+    pub fn of(system: &mut System<'_>, (t, y): (f64, &[f64]), speed: f64) -> Self {
         set_senses(system, t, y);
         let events = Events::new(system, t, y, f64::INFINITY);
         let between = system.mounted.iter().map(|one| one.between).collect();
-        Modes { events, senses: system.senses.clone(), zones: system.zones.clone(), between }
+        Modes { events, senses: system.senses.clone(), zones: system.zones.clone(), between, speed }
     }
 
     /// Directions of all masses: +1, −1, or 0 where one is held.
@@ -82,13 +84,16 @@ impl Modes {
         if side == 0.0 {
             return 1.0;
         }
+        let value = self.events.value(system, laws, at, event);
         let beyond = match event {
             Event::Kink(place, _) => BEYOND * (1.0 + system.angle(place, at.1).abs()),
             Event::Speed(..) | Event::Rest(_) => system.slow,
             Event::Bound(..) | Event::Last(_) => BEYOND * BEYOND,
-            Event::Slip(..) | Event::Limit(..) | Event::Law(_) => 0.0,
+            // A torque over an angle of one radian against the kinetic energy at work.
+            Event::Slip(mass, _) => BEYOND * system.inertia[mass] * self.speed.powi(2),
+            Event::Limit(..) | Event::Law(_) => 0.0,
         };
-        self.events.value(system, laws, at, event) * side.signum() + beyond
+        value * side.signum() + beyond
     }
 
     /// Takes into account what has happened at a state, which may change: a mass that comes to rest has no speed. Whether it did,
@@ -96,6 +101,13 @@ impl Modes {
     pub fn update(&mut self, system: &mut System<'_>, t: f64, y: &mut [f64]) -> Option<bool> {
         let before = y.to_vec();
         self.enter(system);
+        let laws = system.at_law_kinks(t, y);
+        for nth in OWN..self.events.list.len() {
+            if self.events.side(system, nth) == 0.0 {
+                let value = self.events.value(system, &laws, (t, y), self.events.list[nth]);
+                self.events.start_on(nth, value);
+            }
+        }
         for _ in 0..AT_ONCE {
             let laws = system.at_law_kinks(t, y);
             let happened =
