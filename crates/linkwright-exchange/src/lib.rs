@@ -8,6 +8,7 @@
 //! | [`instant`] | torques, accelerations and outputs at one instant, in plain numbers or duals |
 //! | [`numbers`] | the numbers of the machine for values of its parameters |
 //! | [`model`] | the machine with its state, and its values by reference |
+//! | [`slopes`] | derivatives of values by states, inputs and parameters |
 //! | [`stepping`] | the motion over an interval, and what the solver of another program asks for |
 //!
 //! Rigid and elastic drives have one equation, that of [`linkwright_driveline::in_time`]: a rigid drive is a driveline of the crank alone.
@@ -18,6 +19,7 @@ pub mod instant;
 pub mod model;
 pub mod numbers;
 pub mod quantity;
+pub mod slopes;
 pub mod stepping;
 
 pub use self::data::{Data, Parameter};

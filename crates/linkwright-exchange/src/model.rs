@@ -3,7 +3,7 @@
 use crate::data::Data;
 use crate::fault::Fault;
 use crate::instant::{Around, Instant};
-use crate::numbers::{along, plain};
+use crate::numbers::plain;
 use crate::quantity::Quantity;
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
@@ -11,7 +11,6 @@ use linkwright_driveline::in_time::modes::Modes;
 use linkwright_driveline::in_time::start::Start;
 use linkwright_driveline::in_time::system::System;
 use linkwright_driveline::in_time::{Continuation, Pace};
-use linkwright_kernel::dual::Dual;
 use serde::{Deserialize, Serialize};
 
 /// Share of the working speed at which laws are taken at rest: that of [`linkwright_driveline::in_time`].
@@ -193,7 +192,7 @@ impl Model {
         self.instant.insert(instant)
     }
 
-    fn around<'a, N>(&self, modes: &'a Modes, torque: N, brake: N) -> Around<'a, N> {
+    pub(crate) fn around<'a, N>(&self, modes: &'a Modes, torque: N, brake: N) -> Around<'a, N> {
         Around {
             time: self.state.time,
             motor: self.data.motor,
@@ -228,7 +227,7 @@ impl Model {
     }
 
     /// What a number is read times.
-    fn scale(&self, reference: u32) -> f64 {
+    pub(crate) fn scale(&self, reference: u32) -> f64 {
         self.data.scales.iter().find(|(of, _)| *of == reference).map_or(1.0, |&(_, factor)| factor)
     }
 
@@ -298,45 +297,6 @@ impl Model {
     fn renumber(&mut self) {
         (self.q, self.chain) = plain(&self.data, &self.state.parameters);
         self.continuation = None;
-    }
-
-    /// Derivatives of unknowns along a direction of knowns.
-    ///
-    /// # Errors
-    /// Something has no derivative, or lists differ in length.
-    pub fn derivative(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        direction: &[f64],
-    ) -> Result<Vec<f64>, Fault> {
-        if knowns.len() != direction.len() {
-            return Err(Fault::Length { found: direction.len(), expected: knowns.len() });
-        }
-        let modes = self.modes();
-        let mut y: Vec<_> = self.state.y.iter().copied().map(Dual::constant).collect();
-        let [mut torque, mut brake] = self.state.outside.map(Dual::constant);
-        let mut ways = vec![0.0; self.state.parameters.len()];
-        for (&reference, &d) in knowns.iter().zip(direction) {
-            let none = Fault::Derivative(reference);
-            match Quantity::of(reference)? {
-                Quantity::Torque => torque.d += d,
-                Quantity::Brake => brake.d += d,
-                Quantity::Parameter(n) => *ways.get_mut(n).ok_or(none)? += d,
-                Quantity::State(n) if n < y.len() => {
-                    y[Instant::<f64>::place(n, self.chain.masses() - 1)].d += d;
-                }
-                _ => return Err(none),
-            }
-        }
-        let (q, chain) = along(&self.data, &self.state.parameters, &ways);
-        let around = self.around(&modes, torque, brake);
-        let instant = Instant::of(&self.data.plan, &q, &chain, y, &around);
-        let of = |&reference: &u32| {
-            let found = Quantity::of(reference)?.at(&instant).ok_or(Fault::Derivative(reference))?;
-            Ok(found.d * self.scale(reference))
-        };
-        unknowns.iter().map(of).collect()
     }
 
     /// The state, to be restored.

@@ -1,10 +1,8 @@
 //! The functions of FMI 3.0.
 
-use crate::instance::{
-    ERROR, INSTANCES, Instance, Outcome, Phase, Trouble, call, deserialize, free, instantiate, serialize,
-    size_of_saved,
-};
+use crate::instance::{ERROR, INSTANCES, Instance, Outcome, Phase, Trouble, call, instantiate};
 use crate::memory::{answer, list, room, text};
+use crate::saved::{deserialize, free, serialize, size_of_saved};
 use linkwright_exchange::{Fault, Purpose};
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 

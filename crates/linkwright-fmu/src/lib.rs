@@ -3,6 +3,7 @@
 //! | module | answers |
 //! | --- | --- |
 //! | `instance` | an instance, its phases, and how every call is guarded |
+//! | `saved` | what an importer saves of an instance |
 //! | `memory` | what crosses the border of C: lists, texts, handles |
 //! | `location` | where the importer has put the resources |
 //! | `fmi2`, `fmi3` | the functions of each version |
@@ -20,3 +21,4 @@ pub mod fmi3;
 mod instance;
 mod location;
 mod memory;
+mod saved;
