@@ -13,7 +13,7 @@ from sizes import cases
 import linkwright as lw
 
 # Memory that a library and an interpreter may take until all is loaded and arenas are full [kB].
-_WARM = 20
+_WARM = 8
 _GROWTH = 15_000
 
 
@@ -22,7 +22,7 @@ def test_memory_and_handles_stay(tmp_path: Path) -> None:
     """Dozens of machines, a thousand in `make test-deep`: no memory and no handle is lost."""
     machine = lw.read("roller_two_carts")
     before: tuple[int, int] | None = None
-    count = max(cases(40, 1000), 2 * _WARM)
+    count = cases(3 * _WARM, 1000)
     for nth in range(count):
         changed = lw.replace(machine, {"bodies.cart1.mass": 500.0 + nth})
         path = tmp_path / "machine.fmu"
