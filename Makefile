@@ -8,6 +8,7 @@
 #   make lint    formatting, clippy, ruff, types
 #   make bench   the product against what a user would use instead
 #   make docs    the documentation as pages in site/
+#   make fmu     the library of FMUs, beside the core: part of `make build`
 
 SHELL := /bin/bash
 VENV := .venv
@@ -23,6 +24,8 @@ INSTALLED := $(VENV)/installed
 # Modules are compiled when they are first imported: most of them never are.
 PIP := $(BIN)/python -m pip install -q --no-compile --disable-pip-version-check -c constraints.txt
 TOOLS := $(VENV)/tools
+# The library of FMUs lies in the package under its platform's name in FMI 3.0.
+FMU := $(VENV)/fmu
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 
 # Some environments forbid compiled files of Python: every process of the tests would compile all modules anew.
@@ -32,7 +35,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 PRINTED := tests/cli/test_printed_commands.py
 
-.PHONY: demo build test test-deep lint rust-test python-test studio-test wheel-test bench docs clean
+.PHONY: demo build fmu test test-deep lint rust-test python-test studio-test wheel-test bench docs clean
 
 # What README's commands need besides the package.
 EXTRAS := studio studies report
@@ -62,6 +65,14 @@ $(BUILT): $(VENV)/needs $(RUST)
 	@PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin develop --release --locked --skip-install
 	@touch $@
 
+fmu: $(FMU)
+
+# With both packages named, the kernels are those that the module was built from.
+$(FMU): $(BUILT) $(VENV)/packages
+	@cargo build --release --locked -q -p linkwright-py -p linkwright-fmu --features pyo3/extension-module
+	@PYTHONPATH=python $(BIN)/python -m linkwright.fmi.library target/release
+	@touch $@
+
 # What the package and the extras need.
 $(VENV)/packages: constraints.txt pyproject.toml | $(VENV)/needs
 	@echo "Installing what the package needs, with its extras $(EXTRAS)."
@@ -69,7 +80,7 @@ $(VENV)/packages: constraints.txt pyproject.toml | $(VENV)/needs
 	@$(PIP) -r $@.txt
 	@touch $@
 
-$(INSTALLED): $(BUILT) $(VENV)/packages
+$(INSTALLED): $(BUILT) $(FMU) $(VENV)/packages
 	@$(PIP) --no-deps --no-build-isolation -e .
 	@touch $@
 
@@ -142,4 +153,4 @@ docs: $(TOOLS)
 	cargo doc --no-deps --workspace --exclude linkwright-py --exclude linkwright-border --locked
 
 clean:
-	rm -rf $(VENV) target out site python/linkwright/*.so python/linkwright/*.pyd
+	rm -rf $(VENV) target out site python/linkwright/*.so python/linkwright/*.pyd python/linkwright/_fmu.*

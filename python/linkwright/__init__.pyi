@@ -55,6 +55,7 @@ from linkwright.driveline.in_time import DriveSwitch as DriveSwitch
 from linkwright.driveline.in_time import elastic_transient as elastic_transient
 from linkwright.driveline.run_up import elastic_run_up as elastic_run_up
 from linkwright.finite_elements.loads import link_loads as link_loads
+from linkwright.fmi.fmu import fmu as fmu
 from linkwright.kernel.errors import AssemblyError as AssemblyError
 from linkwright.kernel.errors import CamError as CamError
 from linkwright.kernel.errors import ConvergenceError as ConvergenceError

@@ -43,6 +43,7 @@ __all__ = [
     "DrivelineTorque",
     "Element",
     "Extremes",
+    "FmuMachine",
     "Formula",
     "GroundPoint",
     "GroupPath",
@@ -95,6 +96,7 @@ __all__ = [
     "driveline_in_time",
     "driveline_motion",
     "driveline_rows",
+    "fmu_machine",
     "follow_group",
     "gaps",
     "in_line",
@@ -1331,6 +1333,35 @@ class NoDrivelineMotion:
     speed: Final[float]
     accuracy: Final[float]
     parting: Final[float]
+
+@final
+class FmuMachine:
+    """A machine as data for the library of an FMU."""
+
+    data: Final[bytes]
+    states: Final[int]
+    event_indicators: Final[int]
+
+def fmu_machine(
+    plan: Plan,
+    q: _Floats,
+    *,
+    motor: int,
+    start: tuple[float, float],
+    accuracy: float,
+    parameters: Sequence[tuple[float, Sequence[tuple[int, float, float]]]],
+    token: str,
+    driveline: Mapping[str, Any] | None = None,
+    brake: int | None = None,
+    scales: Sequence[tuple[int, float]] = ...,
+) -> FmuMachine:
+    """A machine with its motor as data.
+
+    `motor`: direction in which the motor drives, +1 or −1; `start`: crank angle [rad] and speed [rad/s].
+    `parameters`: values v₀ and what each changes, slots with factors k and powers p: a slot changes by
+    k (vᵖ − v₀ᵖ); behind those of the plan are the numbers of the driveline. `brake`: mass on which the brake
+    acts, else the crank; `scales`: value references, and what their numbers are read times.
+    """
 
 def driveline_in_time(
     plan: Plan,

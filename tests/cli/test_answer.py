@@ -223,6 +223,11 @@ CASES = {
     "synthesise line": Case(
         "--kind hoeken", "--kind hoeken --proportion arm=0.1", "--kind hoeken --proportion arm"
     ),
+    "fmu": Case(
+        "{roller_two_carts}",
+        "{roller_two_carts} --set mechanism.sliders.cart1.rod=0.1 --from-angle=90deg",
+        "{roller_two_carts} --accuracy 1",
+    ),
     "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),
     "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
     "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),

@@ -48,7 +48,7 @@ _FORMULA = re.compile(r"[*^]|\w\(|\w = ")
 _POINT = re.compile(r"(?<![\w.])\d+\.\d+(?![\w.])")
 # Symbols, rules, methods and authors; a part of a table that its task names.
 _NAMES = re.compile(
-    r"\b(API|RP|PPRL|MPRL|CBE|IACS|IIA|phi|IEC|DNV|DXF|SVG|CSV|STEP|JSON|PDF|CLF|DOP|TF|cos|sin|tan|arctan|min|max|Hz|rpm|Linkwright|linkwright|"
+    r"\b(API|RP|PPRL|MPRL|CBE|IACS|IIA|FMU|FMI|phi|IEC|DNV|DXF|SVG|CSV|STEP|JSON|PDF|CLF|DOP|TF|cos|sin|tan|arctan|min|max|Hz|rpm|Linkwright|linkwright|"
     r"pole|ground|torsiograph|true|false)\b"
 )
 

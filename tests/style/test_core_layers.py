@@ -31,10 +31,12 @@ STANDS_ON: dict[str, set[str]] = {
     "plan": {"kernel", "linkage", "drive"},
     "driveline": {"kernel", "linkage", "drive"},
     "derivatives": {"kernel", "linkage", "drive", "driveline"},
+    # A machine for other simulation tools: what moves in time, and nothing of FMI.
+    "exchange": {"kernel", "linkage", "drive", "plan", "driveline"},
 }
 
-# The border has no kernels: it converts what crosses it.
-BORDER = {"border", "py"}
+# The borders have no kernels: they convert what crosses them.
+BORDER = {"border", "py", "fmu"}
 
 
 def source(room: str) -> Path:

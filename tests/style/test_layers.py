@@ -68,7 +68,7 @@ SUBJECTS = (
     "axes",
     "synthesis",
     "sizing",
-    "axes",
+    "fmi",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -179,6 +179,14 @@ EDGES = {
     ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
     ("sizing.commands", "drive.model"),
+    # An FMU is a drive with its mechanism.
+    ("fmi", "drive"),
+    ("fmi", "drive.model"),
+    ("fmi", "driveline"),
+    ("fmi", "linkages"),
+    ("fmi", "torsion.model"),
+    ("fmi.commands", "drive.commands"),
+    ("fmi.commands", "driveline.commands"),
     # A law that goes to a controller is a motion law.
     ("axes.export", "cam.laws"),
 }
@@ -203,7 +211,7 @@ TRAINS = (
 )
 
 # The modules that may import the compiled core.
-CORE = ("machine.program", "cam.core", "torsion.core", "topping.core", "rods.core")
+CORE = ("machine.program", "cam.core", "torsion.core", "topping.core", "rods.core", "fmi.core")
 
 
 @cache

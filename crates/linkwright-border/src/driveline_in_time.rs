@@ -164,7 +164,8 @@ pub(crate) fn driveline_in_time(
     if state.len() != layout.phi + 1 || brakes.len() != chain.masses() {
         return Err(PyValueError::new_err("driveline: state or brakes have another number of masses"));
     }
-    let start = Start { state, brakes, time, motor, speed, until, turns, accuracy };
+    let torques = vec![0.0; brakes.len()];
+    let start = Start { state, brakes, torques, supply: 1.0, time, motor, speed, until, turns, accuracy };
     let (trajectory, measures) = guarded(py, ANALYSIS, || {
         let equation = Equation { plan: &known.get().0, q: &q, chain: &chain };
         let trajectory = follow(equation, &start);

@@ -14,6 +14,7 @@ mod driveline_in_time;
 mod driveline_rows;
 mod equations;
 mod errors;
+mod exchange;
 mod guard;
 mod linkage;
 mod rods;
@@ -93,6 +94,8 @@ pub mod _core {
     use super::driveline_rows::{DrivelineExtremes, DrivelineRows, driveline_rows, least_inertias};
     #[pymodule_export]
     use super::equations::solve_systems;
+    #[pymodule_export]
+    use super::exchange::{FmuMachine, fmu_machine};
     #[pymodule_export]
     use super::linkage::{
         Channel, GroupPath, InLine, ThirdDerivatives, follow_group, gaps, in_line, motions, motions_along,

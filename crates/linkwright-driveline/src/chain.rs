@@ -3,10 +3,11 @@
 use crate::law::{Law, Transmitted};
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::real::Real;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A spring with a damper between two masses: T by the twist Δ of the first against the second, and its rate.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Link<N = f64> {
     /// Mass that T holds back.
     pub first: usize,
@@ -17,7 +18,7 @@ pub struct Link<N = f64> {
 }
 
 /// The structure of a machine with its numbers: a further motor, or a further mechanism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Part<N = f64> {
     /// Its structure.
     pub plan: Arc<Plan>,
@@ -26,7 +27,7 @@ pub struct Part<N = f64> {
 }
 
 /// Where a torque on a mass comes from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Source<N = f64> {
     /// The motor of the machine at the crank, by its characteristic.
     Own,
@@ -46,7 +47,7 @@ pub enum Source<N = f64> {
 }
 
 /// A torque on a mass from outside.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Torque<N = f64> {
     /// Mass on which it acts.
     pub mass: usize,
@@ -55,7 +56,7 @@ pub struct Torque<N = f64> {
 }
 
 /// A further mechanism on a mass. Its crank stands at `ratio` times the angle of the mass plus `phase`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Station<N = f64> {
     /// Mass that its crank turns with.
     pub mass: usize,
@@ -68,7 +69,7 @@ pub struct Station<N = f64> {
 }
 
 /// Damping from outside against the rotation of all masses together, as its share of each has it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Swing<N = f64> {
     /// Damping of every mass \[N m s/rad\].
     pub damping: Vec<N>,
@@ -77,7 +78,7 @@ pub struct Swing<N = f64> {
 }
 
 /// Masses with links between them. The last mass is the crank, with the mechanism.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Chain<N = f64> {
     /// Inertias of the masses but the crank \[kg m²\].
     pub inertia: Vec<N>,

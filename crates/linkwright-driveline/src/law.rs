@@ -12,9 +12,10 @@
 //! *SIAM J. Sci. Stat. Comput.* 5 (1984) 300–304.
 
 use linkwright_kernel::real::Real;
+use serde::{Deserialize, Serialize};
 
 /// An odd curve from zero: cubics between points, straight beyond the last.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve<N = f64> {
     /// Twist, torque and slope of each point, the first at zero.
     points: Vec<[N; 3]>,
@@ -62,7 +63,7 @@ impl<N: Real> Curve<N> {
 }
 
 /// What a link does with its twist and its rate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Law<N = f64> {
     /// k of a straight spring; of a curve the steepest slope \[N m/rad\].
     pub stiffness: N,
@@ -75,7 +76,7 @@ pub struct Law<N = f64> {
 }
 
 /// In which of its forms a law is. Between forms the torque is continuous and its slopes are not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Zone {
     /// Piece of the spring, from 1 on, with the sign of the twist; 0 between the flanks.
     piece: i32,

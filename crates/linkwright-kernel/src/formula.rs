@@ -12,9 +12,10 @@
 use crate::out_of_line;
 use crate::real::{Lift, Real};
 use crate::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// What a formula may ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Variable {
     /// Crank angle within the revolution \[rad\].
@@ -40,7 +41,7 @@ pub enum Variable {
 }
 
 /// One instruction. What it takes is on top of the stack, the last argument uppermost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Op {
     /// Puts a parameter there.
     Number(Slot),
@@ -96,7 +97,7 @@ pub struct Inputs<N> {
 }
 
 /// How a quantity grows with the speed of the crank when the speeds of all points grow with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Degree {
     /// Zero, whatever the speed.
     Any,
@@ -145,7 +146,7 @@ impl Degree {
 }
 
 /// An argument whose zero is a kink or a jump, in front of the instruction at this place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Switch {
     pub at: usize,
     /// How it grows with speed: where it is of one degree, its zeros are angles that no speed moves.
@@ -164,7 +165,7 @@ impl Switch {
 }
 
 /// An instruction whose result may change within a small part of the range of the variables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Steep {
     pub at: usize,
     /// Whether it does so at other angles at other speeds, or times.
@@ -174,7 +175,7 @@ pub struct Steep {
 }
 
 /// A formula, checked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Formula {
     ops: Vec<Op>,
     /// How it grows with speed.

@@ -9,11 +9,12 @@
 
 use crate::out_of_line;
 use crate::real::Real;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Range};
 
 /// One piece.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
     pub start: f64,
     pub length: f64,
@@ -24,7 +25,7 @@ pub struct Piece {
 }
 
 /// A law over one revolution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionLaw {
     pieces: Vec<Piece>,
     /// First of the parameters that the numbers of each piece are as well; none where they are no parameters.

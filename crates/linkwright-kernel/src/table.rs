@@ -2,9 +2,10 @@
 
 use crate::out_of_line;
 use crate::real::{Lift, Real};
+use serde::{Deserialize, Serialize};
 
 /// A table of `y` over increasing `x`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Table {
     x: Vec<f64>,
     y: Vec<f64>,

@@ -64,6 +64,7 @@ COMMANDS = {
     "sensitivity": Place(
         "Derivatives of the results by the entries of the file.", "sensitivity.commands:sensitivity"
     ),
+    "fmu": Place("Export a drive as an FMU for other simulation tools.", "fmi.commands:fmu"),
     "law": Place("Export the law of a cam or axis to a motion controller.", "axes.export.command:law"),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),

@@ -2,16 +2,17 @@
 //! it is ([`What`]).
 
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// A body: a mass at a point, or a link with its centre of mass `along`, `across` from the link's start.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub enum Body {
     Point { point: usize, mass: Slot },
     Link { link: usize, origin: usize, along: Slot, across: Slot, mass: Slot, inertia: Slot },
 }
 
 /// Where a load acts. Each but `Bodies` has a transfer function, positive in the direction of a positive force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum At {
     /// All bodies, in proportion to their mass, in the direction (`cos`, `sin`).
     Bodies { cos: Slot, sin: Slot },
@@ -35,7 +36,7 @@ pub enum At {
 }
 
 /// What a load is: a force, or a torque where what it acts on turns.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub enum What {
     /// Of one size; on all bodies an acceleration.
     Constant { size: Slot },
@@ -60,7 +61,7 @@ pub enum What {
 }
 
 /// A load.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Load {
     pub at: At,
     pub what: What,

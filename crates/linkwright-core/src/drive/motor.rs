@@ -13,9 +13,10 @@
 use crate::kernel::real::{Lift, Real};
 use crate::kernel::slot::Slot;
 use crate::kernel::table::Table;
+use serde::{Deserialize, Serialize};
 
 /// Torque against speed at the motor shaft.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Motor {
     /// Switched off, or none.
     Off,
@@ -31,7 +32,7 @@ pub enum Motor {
 
 /// A cubic from (`x0`, `y0`) to (`x1`, `y1`), level at its right end; `is_level` at its left end too,
 /// otherwise the parabola with twice the chord's slope there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Span {
     pub x0: Slot,
     pub y0: Slot,
@@ -43,7 +44,7 @@ pub struct Span {
 }
 
 /// The driveline: motor, gearbox, and the inertia that turns with the crank.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Drive {
     pub motor: Motor,
     /// Motor speed / crank speed.

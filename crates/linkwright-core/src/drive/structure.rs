@@ -8,6 +8,7 @@ use crate::kernel::error::PlanError;
 use crate::kernel::formula::Formula;
 use crate::kernel::table::Table;
 use crate::linkage::mechanism::Mechanism;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Most turns of a cycle: its steps are kept in memory.
@@ -28,7 +29,7 @@ pub fn together(first: u32, second: u32) -> Result<u32, PlanError> {
 }
 
 /// What a machine consists of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Plan {
     pub mechanism: Mechanism,
     pub bodies: Vec<Body>,

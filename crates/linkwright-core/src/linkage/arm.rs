@@ -20,6 +20,7 @@
 use crate::kernel::plane::Vec2;
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Coefficients kept of each coordinate.
@@ -48,7 +49,7 @@ const ROUNDING: f64 = 2e-14;
 const ON_THE_WAY: f64 = 0.1;
 
 /// One arm; it serves where |sin(φ − φ_c)| is below `reach`, which is negative where the arm is not smooth.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Arm {
     pub inverse_width: Slot,
     pub reach: Slot,

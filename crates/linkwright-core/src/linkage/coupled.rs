@@ -12,9 +12,10 @@ use crate::kernel::motion_law::MotionLaw;
 use crate::kernel::plane::{Angle, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// What a term of a sum is proportional to.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub enum Source {
     /// The crank angle φ.
     Drive,
@@ -23,7 +24,7 @@ pub enum Source {
 }
 
 /// start + Σ factor · source.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Sum {
     pub start: Slot,
     pub terms: Vec<(Source, Slot)>,
@@ -54,7 +55,7 @@ impl Sum {
 }
 
 /// A link whose angle is a sum: a gear or a pulley. Its continuous angle is kept as a slide.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Turn {
     pub link: usize,
     pub slide: usize,
@@ -62,7 +63,7 @@ pub struct Turn {
 }
 
 /// A point on a guide whose coordinate is a sum: a rack, the end of a cable, a linear driver.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Runner {
     pub point: usize,
     pub slide: usize,
@@ -72,7 +73,7 @@ pub struct Runner {
 
 /// The continuous angle of a link, kept as a slide: `winding` revolutions per revolution of the crank, and about that never
 /// farther than half a revolution from `centre`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct AngleOf {
     pub link: usize,
     pub slide: usize,
@@ -81,14 +82,14 @@ pub struct AngleOf {
 }
 
 /// A coordinate that is a formula of the crank angle: the law of a driver.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Law {
     pub slide: usize,
     pub formula: Formula,
 }
 
 /// A coordinate that follows a motion law, which begins at crank angle `phase`: the lift of a cam's follower.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Programme {
     pub slide: usize,
     pub phase: Slot,

@@ -5,10 +5,11 @@ use super::motion::Motion;
 use crate::kernel::plane::{Heading, Place, Slide, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// Fields of the dyad RRP. The guide has direction (`cos`, `sin`) and passes `offset` to the left of point
 /// `through`; `sign` is +1 or −1 for the slider on the positive or negative side of the pin's foot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct SliderRod {
     pub point: usize,
     pub link: usize,
@@ -26,7 +27,7 @@ pub struct SliderRod {
 }
 
 /// Fields of the dyad RRR; `sign` is +1 or −1 for the joint to the left or right of the line pin → pivot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Rocker {
     pub joint: usize,
     pub coupler_link: usize,

@@ -26,6 +26,7 @@ use super::motion::Motion;
 use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// Coefficients kept of the series of S/δ.
 pub const TERMS: usize = 12;
@@ -33,7 +34,7 @@ pub const TERMS: usize = 12;
 /// A change point: cos φ_c, sin φ_c, cos ½φ_c, sin ½φ_c, the distance \[rad\] within which the
 /// series is used, negative where a machine of a batch does not have it, and the coefficients of √h, which is
 /// positive.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ChangePoint {
     pub cos: Slot,
     pub sin: Slot,
@@ -76,14 +77,14 @@ impl ChangePoint {
 
 /// A dyad RRR with its change points; the rocker's `sign` holds where the product of half-angle sines is
 /// positive.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Folding {
     pub rocker: Rocker,
     pub change_points: Vec<ChangePoint>,
 }
 
 /// A rod on a guide with its change points; its `sign` likewise.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FoldingRod {
     pub rod: GuidedRod,
     pub change_points: Vec<ChangePoint>,

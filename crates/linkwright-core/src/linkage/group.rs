@@ -27,10 +27,11 @@ use crate::kernel::plane::{Angle, Place, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
 use crate::kernel::table::Table;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// A point fixed to a bar of the group: `along`, `across` in lengths of the bar.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct BarPoint {
     pub point: usize,
     pub from: usize,
@@ -40,7 +41,7 @@ pub struct BarPoint {
 }
 
 /// A link between two points of the group.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Bar {
     pub link: usize,
     pub from: usize,
@@ -50,7 +51,7 @@ pub struct Bar {
 }
 
 /// One equation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub enum Condition {
     /// Two points at a distance.
     Distance { from: usize, to: usize, length: Slot },
@@ -63,7 +64,7 @@ pub enum Condition {
 }
 
 /// The group.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Group {
     pub unknowns: Vec<usize>,
     pub bar_points: Vec<BarPoint>,

@@ -5,10 +5,11 @@ use super::motion::Motion;
 use crate::kernel::plane::{Place, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// A straight guide fixed to a link (or the frame): it passes `offset` to the left of point `through` and is
 /// turned from the link's direction by the angle with (`cos`, `sin`).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Line {
     pub through: usize,
     pub link: usize,
@@ -19,7 +20,7 @@ pub struct Line {
 
 /// A rod from `pin` to a slider on a guide: the dyad RRP. `sign` is +1 or −1 for the slider on the positive
 /// or negative side of the pin's foot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct GuidedRod {
     pub point: usize,
     pub link: usize,
@@ -35,7 +36,7 @@ pub struct GuidedRod {
 
 /// A lever about `pivot` whose slot, `offset` to the left of the pivot, is moved by `pin`: the dyad RPR.
 /// `sign` is +1 or −1 for the pin ahead of or behind the pivot's foot.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct SlottedLever {
     pub link: usize,
     pub slide: usize,
@@ -47,7 +48,7 @@ pub struct SlottedLever {
 }
 
 /// The point where two guides cross, with its coordinate along each: the dyads PRP and RPP.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Crossing {
     pub point: usize,
     pub slides: [usize; 2],

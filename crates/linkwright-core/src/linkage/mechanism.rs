@@ -13,9 +13,10 @@ use crate::kernel::out_of_line;
 use crate::kernel::plane::{Angle, Heading, Place, Slide, Vec2};
 use crate::kernel::real::Real;
 use crate::kernel::slot::Slot;
+use serde::{Deserialize, Serialize};
 
 /// A point of the ground.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct GroundPoint {
     pub point: usize,
     pub x: Slot,
@@ -24,7 +25,7 @@ pub struct GroundPoint {
 
 /// One element of a mechanism. Point, link and slide fields are indices into [`Motion`]; where a guide may be
 /// fixed to the frame, the frame is the link after the last.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Element {
     /// A crank turning with φ + phase about the point `pivot` of the ground; `cos`, `sin` are those of the phase.
     Crank { pin: usize, link: usize, pivot: usize, radius: Slot, cos: Slot, sin: Slot },
@@ -61,7 +62,7 @@ pub enum Element {
 }
 
 /// Points of the ground, the elements in build order, and how many points, links, slides and dyads they make.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Mechanism {
     pub ground: Vec<GroundPoint>,
     pub elements: Vec<Element>,

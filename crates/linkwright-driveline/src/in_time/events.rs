@@ -1,9 +1,10 @@
 //! What ends a step: kinks over the angle and over speeds, rest, and the end of rest.
 
 use super::system::System;
+use serde::{Deserialize, Serialize};
 
 /// Something that happens where a quantity passes zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     /// The crank of a mechanism comes to the end of the interval between two kinks, in this direction.
     Kink(usize, f64),
@@ -24,6 +25,7 @@ pub enum Event {
 }
 
 /// All that may happen, and on which side of each the motion is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Events {
     /// What may happen.
     pub list: Vec<Event>,

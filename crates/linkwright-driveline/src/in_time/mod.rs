@@ -13,6 +13,7 @@
 //! | [`mounted`] | a mechanism on a mass |
 //! | [`system`] | torques and rates at one instant |
 //! | [`events`] | what ends a step |
+//! | [`modes`] | the forms that laws have between two events, for the solver of another program |
 //! | `attempt` | steps of any length from one instant, by either method |
 //! | `path` | accepted steps and their events |
 //! | [`start`] | what is to be followed |
@@ -21,6 +22,7 @@
 
 mod attempt;
 pub mod events;
+pub mod modes;
 pub mod mounted;
 mod path;
 pub mod reading;
@@ -28,4 +30,4 @@ pub mod start;
 pub mod system;
 pub mod trajectory;
 
-pub use self::path::follow;
+pub use self::path::{Continuation, Pace, follow};

@@ -24,6 +24,30 @@ pub struct Felt {
     pub load: f64,
 }
 
+/// What is known of a mechanism wherever it is: it serves one motion after another.
+pub struct Tables {
+    /// Angles of its crank between two kinks over its cycle, from 0 to its end.
+    kinks: Vec<f64>,
+    /// The mechanism over the angle, for both directions.
+    curves: [Option<ReducedCurves>; 2],
+}
+
+impl Tables {
+    /// Of a machine with its numbers, as exact as a motion asks.
+    fn new(plan: &Plan, q: &[f64], accuracy: f64) -> Self {
+        let kinks = landings(plan, q, kinks(plan, q));
+        let curves = [-1.0, 1.0].map(|sense| ReducedCurves::new(plan, &kinks, sense, accuracy));
+        Tables { kinks, curves }
+    }
+
+    /// Of all mechanisms of a driveline, that at the crank first.
+    pub fn all(equation: Equation<'_>, accuracy: f64) -> Vec<Self> {
+        let Equation { plan, q, chain } = equation;
+        let parts = chain.stations.iter().map(|station| (&*station.part.plan, &station.part.q[..]));
+        std::iter::once((plan, q)).chain(parts).map(|(plan, q)| Tables::new(plan, q, accuracy)).collect()
+    }
+}
+
 /// A mechanism on a mass.
 pub struct Mounted<'a> {
     plan: &'a Plan,
@@ -46,19 +70,18 @@ pub struct Mounted<'a> {
 }
 
 impl<'a> Mounted<'a> {
-    /// All mechanisms of a driveline, that at the crank first.
-    pub fn all(equation: Equation<'a>, accuracy: f64) -> Vec<Self> {
+    /// All mechanisms of a driveline, that at the crank first, with what is known of them.
+    pub fn all(equation: Equation<'a>, tables: Vec<Tables>) -> Vec<Self> {
         let Equation { plan, q, chain } = equation;
-        let first = Mounted::new(plan, q, (chain.masses() - 1, 1.0, 0.0), accuracy);
         let further = chain.stations.iter().map(|station| {
             let at = (station.mass, station.ratio, station.phase);
-            Mounted::new(&station.part.plan, &station.part.q, at, accuracy)
+            (&*station.part.plan, &station.part.q[..], at)
         });
-        std::iter::once(first).chain(further).collect()
+        let places = std::iter::once((plan, q, (chain.masses() - 1, 1.0, 0.0))).chain(further);
+        places.zip(tables).map(|((plan, q, at), tables)| Mounted::new(plan, q, at, tables)).collect()
     }
 
-    fn new(plan: &'a Plan, q: &'a [f64], (mass, ratio, phase): (usize, f64, f64), accuracy: f64) -> Self {
-        let kinks = landings(plan, q, kinks(plan, q));
+    fn new(plan: &'a Plan, q: &'a [f64], (mass, ratio, phase): (usize, f64, f64), tables: Tables) -> Self {
         Mounted {
             plan,
             q,
@@ -67,11 +90,21 @@ impl<'a> Mounted<'a> {
             phase,
             between: [f64::NEG_INFINITY, f64::INFINITY],
             law_kinks: plan.speed_kinks(),
-            curves: [-1.0, 1.0].map(|sense| ReducedCurves::new(plan, &kinks, sense, accuracy)),
+            curves: tables.curves,
             motion: Motion::new(&plan.mechanism, q),
             geometry: Vec::new(),
-            kinks,
+            kinks: tables.kinks,
         }
+    }
+
+    /// What is known of it, for another motion.
+    pub fn into_tables(self) -> Tables {
+        Tables { kinks: self.kinks, curves: self.curves }
+    }
+
+    /// Whether a load knows the time, so that it may move what is at rest.
+    pub fn knows_time(&self) -> bool {
+        self.plan.knows_time()
     }
 
     /// Angle of its crank \[rad\].

@@ -2,6 +2,7 @@
 
 use super::attempt::Attempt;
 use super::events::{Event, Events};
+use super::mounted::{Mounted, Tables};
 use super::start::Start;
 use super::system::System;
 use super::trajectory::{End, Trajectory};
@@ -9,6 +10,7 @@ use crate::equation::Equation;
 use linkwright_core::drive::mesh::crossing;
 use linkwright_kernel::call::poll;
 use linkwright_kernel::rk::next_factor_of;
+use serde::{Deserialize, Serialize};
 
 /// Steps after which a motion is given up.
 const STEPS_MAX: usize = 400_000;
@@ -54,18 +56,72 @@ const ROUNDING_OF_TIME: f64 = 4.0 * f64::EPSILON;
 
 /// Follows the motion until the time, the revolutions or rest end it.
 pub fn follow(equation: Equation<'_>, start: &Start) -> Trajectory {
-    let mut system = System::new(equation, start);
+    Continuation::new(equation, start.accuracy).follow(equation, start)
+}
+
+/// What the solver knows of a motion at the end of an interval: with it the next one goes on as if there were no end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pace {
+    /// Length of the next step \[s\].
+    h: f64,
+    is_stiff: bool,
+    /// Largest twist against the crank so far, of every mass.
+    twists: Vec<f64>,
+    /// Largest torque so far \[N m\].
+    torque: f64,
+    /// Largest work so far \[J\].
+    work: f64,
+}
+
+/// What is kept from one interval of a motion to the next, as another program asks for them one by one.
+pub struct Continuation {
+    tables: Vec<Tables>,
+    /// None before the first interval.
+    pub pace: Option<Pace>,
+}
+
+impl Continuation {
+    /// Of a machine with its numbers, before its motion.
+    pub fn new(equation: Equation<'_>, accuracy: f64) -> Self {
+        Continuation { tables: Tables::all(equation, accuracy), pace: None }
+    }
+
+    /// Something done with the machine as it starts, of which the tables are known.
+    pub fn at<'a, T>(
+        &mut self,
+        equation: Equation<'a>,
+        start: &Start,
+        work: impl FnOnce(&mut System<'a>) -> T,
+    ) -> T {
+        let tables = std::mem::take(&mut self.tables);
+        let mut system = System::with(equation, start, tables);
+        let found = work(&mut system);
+        self.tables = system.mounted.into_iter().map(Mounted::into_tables).collect();
+        found
+    }
+
+    /// Follows the motion of an interval until the time, the revolutions or rest end it.
+    pub fn follow(&mut self, equation: Equation<'_>, start: &Start) -> Trajectory {
+        let pace = self.pace.take();
+        let (trajectory, pace) = self.at(equation, start, |system| follow_on(system, start, pace));
+        self.pace = Some(pace);
+        trajectory
+    }
+}
+
+fn follow_on(system: &mut System<'_>, start: &Start, pace: Option<Pace>) -> (Trajectory, Pace) {
     let mut y = vec![0.0; system.layout.size];
     y[..start.state.len()].copy_from_slice(&start.state);
-    set_senses(&mut system, start.time, &y);
-    let events = Events::new(&mut system, start.time, &y, start.turns);
-    let mut path = Path::new(start, &system, y, events);
-    path.trajectory.end = path.run(&mut system);
-    path.finish(&mut system)
+    set_senses(system, start.time, &y);
+    let events = Events::new(system, start.time, &y, start.turns);
+    let mut path = Path::new(start, system, y, events, pace);
+    path.trajectory.end = path.run(system);
+    let pace = path.pace.clone();
+    (path.finish(system), pace)
 }
 
 /// Directions of a state: those of speeds, and at rest what the torques do.
-fn set_senses(system: &mut System<'_>, t: f64, y: &[f64]) {
+pub(super) fn set_senses(system: &mut System<'_>, t: f64, y: &[f64]) {
     for mass in system.holding() {
         let speed = system.speed(mass, y);
         let is_moving = speed.abs() > system.slow;
@@ -81,12 +137,7 @@ struct Path<'s> {
     events: Events,
     y: Vec<f64>,
     t: f64,
-    /// Largest twist against the crank so far, of every mass.
-    twists: Vec<f64>,
-    /// Largest torque so far \[N m\].
-    torque: f64,
-    /// Largest work so far \[J\].
-    work: f64,
+    pace: Pace,
 }
 
 /// A step that was tried.
@@ -101,7 +152,7 @@ enum Tried {
 
 impl<'s> Path<'s> {
     /// At its start.
-    fn new(start: &'s Start, system: &System<'_>, y: Vec<f64>, events: Events) -> Self {
+    fn new(start: &'s Start, system: &System<'_>, y: Vec<f64>, events: Events, pace: Option<Pace>) -> Self {
         let trajectory = Trajectory {
             t: vec![start.time],
             states: y.clone(),
@@ -116,14 +167,15 @@ impl<'s> Path<'s> {
             evaluations: 0,
         };
         let twists = y[..system.layout.others].iter().map(|twist| twist.abs().max(NO_TWIST)).collect();
-        Path { start, trajectory, events, y, t: start.time, twists, torque: 0.0, work: 0.0 }
+        let first = Pace { h: 0.01 / start.speed, is_stiff: false, twists, torque: 0.0, work: 0.0 };
+        Path { start, trajectory, events, y, t: start.time, pace: pace.unwrap_or(first) }
     }
 
     /// Follows the motion to its end.
     fn run(&mut self, system: &mut System<'_>) -> End {
-        let mut h = 0.01 / self.start.speed;
         let mut at_once = 0;
         let mut attempt = Attempt::new(system, &self.y);
+        attempt.is_stiff = self.pace.is_stiff;
         for count in 0..STEPS_MAX {
             poll();
             if self.t >= self.start.until {
@@ -137,9 +189,10 @@ impl<'s> Path<'s> {
                 return End::Rest;
             }
             if count % LOOK == 0 {
-                attempt.choose(system, self.t, &self.y, h);
+                attempt.choose(system, self.t, &self.y, self.pace.h);
+                self.pace.is_stiff = attempt.is_stiff;
             }
-            match self.step(system, &mut attempt, h) {
+            match self.step(system, &mut attempt, self.pace.h) {
                 Tried::Failed(end) => return end,
                 Tried::AtOnce(nth) => {
                     at_once += 1;
@@ -151,7 +204,7 @@ impl<'s> Path<'s> {
                     }
                 }
                 Tried::Accepted { h: length, end, next, event } => {
-                    (h, at_once) = (next, 0);
+                    (self.pace.h, at_once) = (next, 0);
                     self.keep(system, &attempt, length, end);
                     if event.is_some_and(|nth| self.happens(system, nth)) {
                         return End::Turns;
@@ -191,31 +244,32 @@ impl<'s> Path<'s> {
 
     /// Remembers how large twists, torques and works have been, of the state whose rates were computed last.
     fn note_sizes(&mut self, system: &System<'_>) {
-        for (largest, y) in self.twists.iter_mut().zip(&self.y) {
+        for (largest, y) in self.pace.twists.iter_mut().zip(&self.y) {
             *largest = largest.max(y.abs());
         }
         let chain = system.equation.chain;
         let torques = chain.links.iter().map(|link| chain.torque(link, &self.y).value.abs());
-        let drives = system.drives.iter().fold(self.torque, |most, drive| most.max(drive.abs()));
-        self.torque = torques.fold(drives, f64::max);
-        self.work = self.y[system.layout.shaft..].iter().fold(self.work, |most, work| most.max(work.abs()));
+        let drives = system.drives.iter().fold(self.pace.torque, |most, drive| most.max(drive.abs()));
+        self.pace.torque = torques.fold(drives, f64::max);
+        self.pace.work =
+            self.y[system.layout.shaft..].iter().fold(self.pace.work, |most, work| most.max(work.abs()));
     }
 
     /// Whether nothing moves, and nothing will.
     fn is_at_rest(&self, system: &System<'_>) -> bool {
         let rests = |mass: usize| {
             let is_slow = system.speed(mass, &self.y).abs() <= AT_REST * self.start.speed;
-            system.senses[mass] == 0.0 || (is_slow && system.net[mass].abs() <= AT_REST * self.torque)
+            system.senses[mass] == 0.0 || (is_slow && system.net[mass].abs() <= AT_REST * self.pace.torque)
         };
-        (0..=system.crank()).all(rests)
+        !system.mounted.iter().any(Mounted::knows_time) && (0..=system.crank()).all(rests)
     }
 
     /// Error that each number of the state may have: one part for all its sizes, and one in proportion to its size.
     fn tolerances(&self, system: &System<'_>) -> Vec<[f64; 2]> {
         let (layout, speed) = (system.layout, self.start.speed);
-        let work = self.work.max(system.inertia[system.crank()] * (SMALL * speed).powi(2));
+        let work = self.pace.work.max(system.inertia[system.crank()] * (SMALL * speed).powi(2));
         let of = |n: usize| match n {
-            n if n < layout.others => [SMALL * self.twists[n], 1.0],
+            n if n < layout.others => [SMALL * self.pace.twists[n], 1.0],
             n if n <= layout.omega => [SMALL * speed, 1.0],
             n if n == layout.phi => [1.0, 0.0],
             _ => [work, 0.0],
@@ -393,7 +447,7 @@ impl<'s> Path<'s> {
             Event::Last(_) => THERE * (1.0 + self.y[system.layout.phi].abs()),
             Event::Bound(link, way) => THERE * system.bounds(link)[usize::from(way > 0.0)].abs(),
             Event::Speed(..) | Event::Rest(_) => THERE * self.start.speed,
-            Event::Slip(..) | Event::Limit(..) => THERE * self.torque,
+            Event::Slip(..) | Event::Limit(..) => THERE * self.pace.torque,
             Event::Law(_) => 0.0,
         }
     }

@@ -11,6 +11,10 @@ pub struct Start {
     pub motor: f64,
     /// Torque of the brake on every mass, at the speed of the crank \[N m\].
     pub brakes: Vec<f64>,
+    /// Share of the torque of the motors that is there: 1, or 0 with the supply off.
+    pub supply: f64,
+    /// Torque from outside on every mass, counter-clockwise, at the speed of the crank \[N m\].
+    pub torques: Vec<f64>,
     /// Speed of the crank about which the machine works \[rad/s\].
     pub speed: f64,
     /// Time at which the motion ends at the latest \[s\].

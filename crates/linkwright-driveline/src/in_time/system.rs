@@ -8,7 +8,7 @@
 //! its motor, by a brake. A step takes the torque of one direction, or holds the mass at rest. A step also takes the laws of links
 //! in one form: behind a flank or a point of a curve they go on as before it, and the end of the step is there.
 
-use super::mounted::{Felt, Mounted};
+use super::mounted::{Felt, Mounted, Tables};
 use super::start::Start;
 use crate::chain::{Chain, Source, Torque};
 use crate::equation::Equation;
@@ -78,6 +78,10 @@ pub struct System<'a> {
     pub mounted: Vec<Mounted<'a>>,
     /// Direction in which the drivers drive, +1 or −1.
     pub motor: f64,
+    /// Share of the torque of the motors that is there.
+    pub supply: f64,
+    /// Torque from outside on every mass \[N m\].
+    pub torques: Vec<f64>,
     /// Torque of the brake on every mass \[N m\].
     pub brakes: Vec<f64>,
     /// Direction of every mass whose torque jumps at rest: +1, −1, or 0 where it is held.
@@ -109,8 +113,13 @@ fn direction(sense: f64) -> f64 {
 impl<'a> System<'a> {
     /// Of a machine at its start.
     pub fn new(equation: Equation<'a>, start: &Start) -> Self {
+        System::with(equation, start, Tables::all(equation, start.accuracy))
+    }
+
+    /// The same with what is known of its mechanisms.
+    pub fn with(equation: Equation<'a>, start: &Start, tables: Vec<Tables>) -> Self {
         let (chain, drivers) = (equation.chain, equation.chain.drivers.len());
-        let Start { speed, motor, accuracy, .. } = *start;
+        let Start { speed, motor, supply, .. } = *start;
         let of_link = |link| {
             let [twist, rate] = chain.twist(link, &start.state);
             link.law.zone(twist, rate)
@@ -118,8 +127,10 @@ impl<'a> System<'a> {
         System {
             equation,
             layout: Layout::of(chain),
-            mounted: Mounted::all(equation, accuracy),
+            mounted: Mounted::all(equation, tables),
             motor,
+            supply,
+            torques: start.torques.clone(),
             brakes: start.brakes.clone(),
             senses: vec![1.0; chain.masses()],
             zones: chain.links.iter().map(of_link).collect(),
@@ -189,8 +200,9 @@ impl<'a> System<'a> {
     fn driven(&self, driver: &Torque, speed: f64) -> (f64, Dual<f64>) {
         let along = Dual::constant(direction(self.senses[driver.mass]));
         let (motor, speed) = (Dual::constant(self.motor), Dual::variable(speed));
+        let supplied = motor * self.supply;
         if let Some((plan, q)) = self.program(driver) {
-            let torque = motor * plan.drive.motor_torque::<f64, _>(&plan.tables, q, motor * speed);
+            let torque = supplied * plan.drive.motor_torque::<f64, _>(&plan.tables, q, motor * speed);
             let behind = along * plan.drive.geared_torque::<f64, _>(q, along * torque);
             return (torque.value * q[plan.drive.ratio], behind);
         }
@@ -199,7 +211,7 @@ impl<'a> System<'a> {
         };
         // It drives in one direction, whichever way its mass turns.
         let share = speed.value.abs() / at;
-        let value = self.motor * torque * share.powf(exponent);
+        let value = supplied.value * torque * share.powf(exponent);
         let d = if exponent == 0.0 || share == 0.0 { 0.0 } else { exponent * value / speed.value };
         (value, Dual { value, d })
     }
@@ -219,7 +231,7 @@ impl<'a> System<'a> {
     pub fn act(&mut self, t: f64, y: &[f64]) {
         let Equation { chain, .. } = self.equation;
         self.evaluations += 1;
-        self.net.fill(0.0);
+        self.net.copy_from_slice(&self.torques);
         self.inertia[..chain.inertia.len()].copy_from_slice(&chain.inertia);
         self.inertia[chain.inertia.len()] = -chain.apart;
         for (k, link) in chain.links.iter().enumerate() {

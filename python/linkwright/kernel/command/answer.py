@@ -70,7 +70,8 @@ class Answer:
     head: str | Callable[[], str] = ""
     tables: Shown = ()
     tail: str | Callable[[], str] = ""
-    machine_file: Callable[[], str] | None = None  # text of the machine file that `--out FILE` asks for
+    # Content of the file that `--out FILE` asks for: a machine file, an export.
+    machine_file: Callable[[], str | bytes] | None = None
     results_file: str = "results.json"  # name of the file with the JSON object; empty if none is written
     # Further files by name; figures by name without ending, or with their captions; each, or all, may be made
     # by a function.

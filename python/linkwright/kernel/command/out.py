@@ -94,7 +94,7 @@ def say_written(paths: Sequence[Path], *, quiet: bool, remarks: Mapping[str, str
     click.echo("Written:\n" + "\n".join(rows), err=quiet)
 
 
-def put(text: str, out: Path | None, *, force: bool = False) -> None:
+def put(text: str | bytes, out: Path | None, *, force: bool = False) -> None:
     """Print a text, or write it to a file; an `InputError` if it exists, not forced, or cannot be written."""
     if out is None:
         click.echo(text, nl=False)
