@@ -23,6 +23,9 @@ const DAMPED_MOST: f64 = 0.125;
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
 
+/// Corrections at which a step that is followed is solved: what they leave goes with their square.
+const FOLLOWED: f64 = 1e-5;
+
 /// Corrections that rounding leaves.
 const ROUNDING: f64 = 1e-12;
 
@@ -149,11 +152,11 @@ impl<'a> Cycle<'a> {
     }
 
     /// Newton's method for the periodic solution, from a guess. Gives the monodromy matrix, row by row, or nothing where it does
-    /// not converge.
-    pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
+    /// not converge within some sweeps.
+    pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64], sweeps: usize) -> Option<Vec<f64>> {
         let m = solution.states();
         let (mut last, mut damped) = (f64::INFINITY, 1.0);
-        for sweep in 0..SWEEPS_MAX {
+        for sweep in 0..sweeps {
             poll();
             let (solved, end) = self.linear(solution, &[]);
             let mut table = closure(&end, solution, 0);
@@ -193,7 +196,7 @@ impl<'a> Cycle<'a> {
         let m = y.len();
         let at = |i: usize| low + (high - low) * (i as f64 / PARTS as f64);
         let parts = Mesh::new(&self.equation, (0..=PARTS).map(at).collect());
-        let mut followed = Solution::constant(&parts, y);
+        let mut followed = Solution::constant(PARTS, y);
         let mut cycle = Cycle::new(self.equation, &parts);
         for k in 0..PARTS {
             let start = followed.start_of(k).to_vec();
@@ -207,8 +210,7 @@ impl<'a> Cycle<'a> {
             }
             followed.stages[k * S * m..][..S * m].copy_from_slice(&stages);
         }
-        let one = Mesh::new(&self.equation, vec![low, high]);
-        Some(followed.on(&parts, &one).stages)
+        Some(followed.on(&parts.edges, &[low, high]).stages)
     }
 
     fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
@@ -231,7 +233,7 @@ impl<'a> Cycle<'a> {
             for (x, row) in stages.iter_mut().zip(self.table.chunks_exact(n + 1)) {
                 *x += share * row[n];
             }
-            if size <= SMALL {
+            if size <= FOLLOWED {
                 return true;
             }
         }

@@ -6,7 +6,7 @@
 
 use crate::chain::{Chain, Source};
 use crate::crossings::crossings;
-use crate::cycle::{Cycle, Stop, monodromy};
+use crate::cycle::{Cycle, SWEEPS_MAX, Stop, monodromy};
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::finer::{STEPS_MAX, finer_edges};
@@ -18,7 +18,7 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 /// Steps of a revolution at first, and where Newton's method does not converge on them.
-const STEPS: f64 = 16.0;
+pub(crate) const STEPS: f64 = 16.0;
 /// See [`STEPS`].
 const FINE_STEPS: f64 = 48.0;
 
@@ -61,6 +61,9 @@ const DAMPED: f64 = 1.0;
 /// See [`DAMPED`].
 const LEAST_STEP: f64 = 1e-3;
 
+/// Sweeps at most from a motion that is near where nothing but a law of a link may make them alternate.
+const SWEEPS_NEAR: usize = 12;
+
 /// A periodic solution on its first mesh.
 pub struct Rough {
     /// Steps.
@@ -87,7 +90,7 @@ pub(crate) fn rough(equation: Equation<'_>, kinks: &[f64], request: &Request) ->
 }
 
 /// Even steps from kink to kink.
-fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
+pub(crate) fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
     for pair in kinks.windows(2) {
         let length = pair[1] - pair[0];
@@ -107,7 +110,7 @@ fn repeated(edges: &[f64], multiple: usize) -> Vec<f64> {
 
 /// Where the search begins: a given state, or the crank at one speed with nothing twisted; and what twists and speeds are measured
 /// with before anything is known, a radian and the speed.
-fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
     let held = chain.drivers.iter().find_map(|driver| match driver.source {
         Source::Held(speed) => Some(speed),
         _ => None,
@@ -126,8 +129,8 @@ type Found = (Mesh, Solution, Vec<f64>);
 fn at_once(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Option<Found> {
     let mesh = Mesh::new(&equation, first_edges(kinks, STEPS));
     let (start, scale) = beginning(equation.chain, request);
-    let mut solution = Solution::constant(&mesh, &start);
-    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale)?;
+    let mut solution = Solution::constant(mesh.steps(), &start);
+    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, SWEEPS_MAX)?;
     Some((mesh, solution, monodromy))
 }
 
@@ -137,6 +140,7 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
     let mesh = Mesh::new(&equation, first_edges(kinks, FINE_STEPS));
     let (start, scale) = beginning(equation.chain, request);
     let omega = scale[scale.len() - 1];
+    let sweeps = if equation.chain.is_linear() { SWEEPS_NEAR } else { SWEEPS_MAX };
     let solved = |guess: &Solution, alpha: f64| {
         let mut chain = equation.chain.clone();
         for link in &mut chain.links {
@@ -144,12 +148,15 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
             link.law.gap *= 1.0 - alpha;
         }
         let mut solution = guess.clone();
-        let monodromy =
-            Cycle::new(Equation { chain: &chain, ..equation }, &mesh).periodic(&mut solution, &scale)?;
+        let monodromy = Cycle::new(Equation { chain: &chain, ..equation }, &mesh).periodic(
+            &mut solution,
+            &scale,
+            sweeps,
+        )?;
         Some((solution, monodromy))
     };
     let (mut alpha, mut step) = (DAMPED, 0.5 * DAMPED);
-    let mut known = solved(&Solution::constant(&mesh, &start), alpha)?.0;
+    let mut known = solved(&Solution::constant(mesh.steps(), &start), alpha)?.0;
     while step > LEAST_STEP {
         // Below the last step nothing is left to take away.
         let next = if alpha - step < LEAST_STEP { 0.0 } else { alpha - step };
@@ -181,7 +188,7 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
     let mesh = Mesh::new(&equation, edges.clone());
     let mut cycle = Cycle::new(equation, &mesh);
     let mut last: VecDeque<Solution> = VecDeque::new();
-    let (mut next, mut cycles, mut passed) = (Solution::constant(&mesh, &start), 0, None);
+    let (mut next, mut cycles, mut passed) = (Solution::constant(mesh.steps(), &start), 0, None);
     let mut attempts = 0;
     loop {
         for _ in 0..CYCLES_AT_ONCE {
@@ -254,7 +261,7 @@ fn periodic_behind(
     let mut placed = Vec::new();
     for _ in 0..ROUNDS_BEHIND {
         let mut tried = solution.clone();
-        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale) {
+        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale, SWEEPS_MAX) {
             return Some((mesh, tried, monodromy));
         }
         if equation.chain.is_linear() || !repeats {
@@ -267,7 +274,7 @@ fn periodic_behind(
             return None;
         }
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
-        solution = solution.on(&mesh, &finer);
+        solution = solution.on(&mesh.edges, &finer.edges);
         mesh = finer;
         let mut cycle = Cycle::new(equation, &mesh);
         for _ in 0..CYCLES_BEHIND {

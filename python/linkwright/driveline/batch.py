@@ -16,6 +16,7 @@ import numpy as np
 from linkwright.drive.batch import columns_of
 from linkwright.drive.load_checks import require_same_turns
 from linkwright.driveline.chain import Chain, chain_of, fastest_of, has_hysteresis, listed
+from linkwright.driveline.coexisting import MULTIPLES
 from linkwright.driveline.elastic_motion import ElasticMotion, measures
 from linkwright.driveline.solving import ANGLES, CYCLES
 from linkwright.driveline.train_chain import driveline_chain
@@ -97,10 +98,6 @@ def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMoti
         own = chain._replace(**of_members)
         for name, column in _solved(part, own, numbers[members], first.turns).items():
             found[name][..., members] = column
-    # An unstable motion is not the one that the machine comes to.
-    lost = ~(found["multiplier_max"] < 1)
-    for column in found.values():
-        column[..., lost] = np.nan
     return ElasticMotions(chain, first.turns, found)
 
 
@@ -127,6 +124,7 @@ def _solved(compiled: CompiledMachine, chain: Chain, numbers: Floats, turns: int
         speed=speed,
         fastest=fastest_of(chain, numbers, inertia, period),
         cycles_max=CYCLES,
+        multiples=MULTIPLES,
     )
     made = measures(rows, chain, turns)
     whole = SimpleNamespace(**made, turns=turns, ratio=chain.ratio)
