@@ -14,7 +14,7 @@ use crate::reading::{Measures, Reading};
 use crate::request::Request;
 use crate::scale::scales;
 use crate::speed_kinks::speed_kinks;
-use crate::starts::{Rough, STEPS, beginning, first_edges, largest_multiplier};
+use crate::starts::{PATIENCE, Rough, STEPS, beginning, first_edges, largest_multiplier};
 use crate::steady::{Steady, add_vibration, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
@@ -48,9 +48,7 @@ const ROUGHLY: f64 = 1e-2;
 /// Cycles that a machine is followed where the motion found at once is unstable: another may be stable.
 const AWAY: usize = 100;
 
-/// Sweeps behind which corrections fall from the motion of a machine that is near, and from one speed.
-const PATIENCE: usize = 3;
-/// See [`PATIENCE`].
+/// Sweeps behind which corrections from one speed fall.
 const PATIENCE_AT_ONCE: usize = 7;
 
 /// Times that steps are divided in lanes.

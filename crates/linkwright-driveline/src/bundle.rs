@@ -4,6 +4,7 @@
 //! or shows its error, and is left to the solver of one machine.
 
 use crate::chain::Chain;
+use crate::cycle::FALLS;
 use crate::equation::{Equation, Rates, Row};
 use crate::error::{ERROR_OF_DEFECT, GAMMA, WATCHED};
 use crate::mesh::Solution;
@@ -21,9 +22,6 @@ use linkwright_kernel::real::{LANES_MAX, Real};
 
 /// Sweeps at most.
 const SWEEPS_MAX: usize = 12;
-
-/// Share to which corrections of a lane that converges fall at least in each sweep.
-const FALLS: f64 = 0.5;
 
 /// A sweep lowers the speed of the crank to no less than this share.
 const SPEED_LEFT: f64 = 0.3;

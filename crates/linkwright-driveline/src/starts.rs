@@ -6,7 +6,7 @@
 
 use crate::chain::{Chain, Source};
 use crate::crossings::crossings;
-use crate::cycle::{Cycle, SWEEPS_MAX, Stop, monodromy};
+use crate::cycle::{Cycle, Stop, monodromy};
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::finer::{STEPS_MAX, finer_edges};
@@ -61,8 +61,8 @@ const DAMPED: f64 = 1.0;
 /// See [`DAMPED`].
 const LEAST_STEP: f64 = 1e-3;
 
-/// Sweeps at most from a motion that is near where nothing but a law of a link may make them alternate.
-const SWEEPS_NEAR: usize = 12;
+/// Sweeps behind which corrections from a motion that is near fall; those between two forms of a law may alternate.
+pub(crate) const PATIENCE: usize = 3;
 
 /// A periodic solution on its first mesh.
 pub struct Rough {
@@ -130,7 +130,7 @@ fn at_once(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Option<F
     let mesh = Mesh::new(&equation, first_edges(kinks, STEPS));
     let (start, scale) = beginning(equation.chain, request);
     let mut solution = Solution::constant(mesh.steps(), &start);
-    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, SWEEPS_MAX)?;
+    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, usize::MAX)?;
     Some((mesh, solution, monodromy))
 }
 
@@ -140,7 +140,7 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
     let mesh = Mesh::new(&equation, first_edges(kinks, FINE_STEPS));
     let (start, scale) = beginning(equation.chain, request);
     let omega = scale[scale.len() - 1];
-    let sweeps = if equation.chain.is_linear() { SWEEPS_NEAR } else { SWEEPS_MAX };
+    let patience = if equation.chain.is_linear() { PATIENCE } else { usize::MAX };
     let solved = |guess: &Solution, alpha: f64| {
         let mut chain = equation.chain.clone();
         for link in &mut chain.links {
@@ -151,7 +151,7 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
         let monodromy = Cycle::new(Equation { chain: &chain, ..equation }, &mesh).periodic(
             &mut solution,
             &scale,
-            sweeps,
+            patience,
         )?;
         Some((solution, monodromy))
     };
@@ -172,12 +172,18 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
     None
 }
 
+/// Whether one motion is known, and another is looked for: why there is none is not asked then, and where a machine stalls neither.
+fn seeks_another(chain: &Chain, request: &Request) -> bool {
+    chain.is_linear() && request.cycles_first > 0
+}
+
 /// Steps of a revolution where a motion is followed: with kinks of links it must be followed as it is, vibrations included.
 fn followed_steps(chain: &Chain, request: &Request, omega: f64) -> f64 {
-    if chain.is_linear() {
-        return FINE_STEPS;
+    let vibrations = request.fastest * TAU / (omega * FOLLOWED_ANGLE);
+    if !chain.is_linear() {
+        return vibrations.clamp(FINE_STEPS, FOLLOWED_STEPS_MAX);
     }
-    (request.fastest * TAU / (omega * FOLLOWED_ANGLE)).clamp(FINE_STEPS, FOLLOWED_STEPS_MAX)
+    if seeks_another(chain, request) { vibrations.clamp(STEPS, FINE_STEPS) } else { FINE_STEPS }
 }
 
 /// The periodic solution behind cycles that are followed.
@@ -238,7 +244,11 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
             }
             let repeats = repetition(&last, &next.start, &scale, request.multiples);
             let off = repeats.map_or(f64::NAN, |(_, off)| off);
-            let parting = parting(&mut cycle, next, &scale).map_err(Failure::Stops)?;
+            let parting = if seeks_another(equation.chain, request) {
+                f64::NAN
+            } else {
+                parting(&mut cycle, next, &scale).map_err(Failure::Stops)?
+            };
             return Err(Failure::NotFound { off, parting });
         }
     }
@@ -261,7 +271,7 @@ fn periodic_behind(
     let mut placed = Vec::new();
     for _ in 0..ROUNDS_BEHIND {
         let mut tried = solution.clone();
-        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale, SWEEPS_MAX) {
+        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale, usize::MAX) {
             return Some((mesh, tried, monodromy));
         }
         if equation.chain.is_linear() || !repeats {

@@ -4,7 +4,7 @@
 
 use crate::chain::Chain;
 use crate::crossings::{Crossing, crossings};
-use crate::cycle::{Cycle, SWEEPS_MAX};
+use crate::cycle::Cycle;
 use crate::equation::Equation;
 use crate::error::errors;
 use crate::finer::{POWER, STEPS_MAX, finer_edges};
@@ -86,7 +86,7 @@ fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<S
 fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
     let mut cycle = Cycle::new(equation, mesh);
     let mut tried = solution.clone();
-    if let Some(monodromy) = cycle.periodic(&mut tried, scale, SWEEPS_MAX) {
+    if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
         *solution = tried;
         return Some(monodromy);
     }
@@ -94,7 +94,7 @@ fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale:
         cycle.follow(solution, scale).ok()?;
         if n == 1 || n == FOLLOWED_ON_FINER {
             let mut tried = solution.clone();
-            if let Some(monodromy) = cycle.periodic(&mut tried, scale, SWEEPS_MAX) {
+            if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
                 *solution = tried;
                 return Some(monodromy);
             }
