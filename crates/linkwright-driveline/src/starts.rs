@@ -25,6 +25,9 @@ const FINE_STEPS: f64 = 48.0;
 /// Steps of a revolution at most where a motion is followed.
 const FOLLOWED_STEPS_MAX: f64 = 600.0;
 
+/// Factor by which steps are shorter where a motion does not repeat on longer ones.
+const SHORTER: f64 = 6.0;
+
 /// Phase \[rad\] of a vibration in a step where a motion is followed.
 const FOLLOWED_ANGLE: f64 = 1.5;
 
@@ -86,7 +89,13 @@ pub(crate) fn rough(equation: Equation<'_>, kinks: &[f64], request: &Request) ->
             return Ok(Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 });
         }
     }
-    followed(equation, kinks, request)
+    match followed(equation, kinks, request, 1.0) {
+        // A step in which a law changes its form is solved roughly: a motion that repeats may wander on such steps.
+        Err(Failure::NotFound { .. }) if !equation.chain.is_linear() => {
+            followed(equation, kinks, request, SHORTER)
+        }
+        found => found,
+    }
 }
 
 /// Even steps from kink to kink.
@@ -187,9 +196,14 @@ fn followed_steps(chain: &Chain, request: &Request, omega: f64) -> f64 {
 }
 
 /// The periodic solution behind cycles that are followed.
-fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Rough, Failure> {
+fn followed(
+    equation: Equation<'_>,
+    kinks: &[f64],
+    request: &Request,
+    shorter: f64,
+) -> Result<Rough, Failure> {
     let (start, mut scale) = beginning(equation.chain, request);
-    let steps = followed_steps(equation.chain, request, scale[scale.len() - 1]);
+    let steps = shorter * followed_steps(equation.chain, request, scale[scale.len() - 1]);
     let edges = first_edges(kinks, steps);
     let mesh = Mesh::new(&equation, edges.clone());
     let mut cycle = Cycle::new(equation, &mesh);

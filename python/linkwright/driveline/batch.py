@@ -1,7 +1,7 @@
 """Steady motion of thousands of elastic drivelines that differ in some entries.
 
-The core solves them in lanes and threads, each from the solution of another that is near, and measures the
-error of each as for one machine alone (its module `driveline::batch`).
+The core solves them in lanes and threads, each from where a machine alone begins, so that it comes to the
+same one of several steady motions, and measures the error of each (its module `driveline::batch`).
 """
 
 from __future__ import annotations
@@ -70,6 +70,8 @@ class ElasticMotions:
 
 def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMotions:
     """Steady motion of machines that differ from one in some entries, arrays of one length [SI].
+
+    A motion whose `multiplier_max` is not below 1 is unstable, as it is of the machine alone.
 
     Raises MachineError for values that are not possible, InputError where the machine has no elastic
     driveline with a motor, and what `chain_of` raises of the machine itself.
