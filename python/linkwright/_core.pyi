@@ -1468,6 +1468,7 @@ def driveline_rows(
     speed: _Floats,
     fastest: _Floats,
     cycles_max: int,
+    multiples: int,
 ) -> DrivelineRows:
     """Steady motion of n machines with the driveline of one, whose numbers vary.
 

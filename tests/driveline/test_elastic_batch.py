@@ -8,6 +8,7 @@ from elastic_drives import random_drive
 from sizes import random_cases
 
 import linkwright as lw
+from linkwright.driveline.batch import elastic_motions
 
 QUANTITIES = (
     "period",
@@ -66,3 +67,58 @@ def test_a_variant_that_stalls_says_so_beside_others_that_run() -> None:
         lw.elastic_motion(lw.replace(machine, {"loads.rolling1.force": 300e3}))
     assert rows.why(1) == " ".join(str(error.value).split())
     assert rows.columns["peak"][0] > 0
+
+
+def test_variants_with_two_steady_motions_come_to_the_one_of_the_machine_alone() -> None:
+    """Below a fold near 21.3 kN m/rad two motions are stable, above it one: each row is the machine alone."""
+    machine = lw.replace(
+        lw.read("elastic_coupling_of_carts"),
+        {
+            "drive.motor.torque_start": None,
+            "drive.crankshaft.damping": 53.8,
+            "mechanism.cranks.A2.phase": np.radians(88.4),
+        },
+    )
+    entry = "drive.crankshaft.stiffness"
+    stiffness = np.linspace(19e3, 23e3, 33)
+    branches = lw.elastic_branches(machine, entry, stiffness[0], stiffness[-1]).branches
+    known = [
+        np.interp(20.5e3, branch.parameter[order], branch.torque_peak[-1, order])
+        for branch in branches
+        for stable in [np.flatnonzero(branch.is_stable)]
+        for order in [stable[np.argsort(branch.parameter[stable])]]
+    ]
+    low, high = sorted(known)
+    assert high > 1.25 * low
+    # In any order, beside each other in lanes.
+    order = np.random.default_rng(48).permutation(len(stiffness))
+    found = elastic_motions(machine, {entry: stiffness[order]})
+    peaks, multipliers = found.number("torque_peak", "crankshaft"), found.number("multiplier_max")
+    for value, peak, multiplier in zip(stiffness[order], peaks, multipliers, strict=True):
+        alone = lw.elastic_motion(lw.replace(machine, {entry: float(value)}), n=4)
+        assert peak == pytest.approx(float(alone.torque_peak[-1]), rel=1e-6), value
+        assert multiplier == pytest.approx(alone.multiplier_max, abs=1e-3), value
+    assert (peaks[stiffness[order] < 21e3] < 1.1 * low).all()
+    assert (peaks[stiffness[order] > 22e3] > 0.9 * high).all()
+
+
+def test_an_unstable_motion_of_a_variant_is_that_of_the_machine_alone() -> None:
+    """Where a pair of complex multipliers is beyond 1, a row has the numbers of the machine, and says so."""
+    machine = lw.replace(
+        lw.read("elastic_coupling_of_carts"),
+        {
+            "drive.motor.torque_start": None,
+            "drive.crankshaft.damping": 45.9,
+            "mechanism.cranks.A2.phase": 1.622,
+        },
+    )
+    entry, values = "drive.crankshaft.stiffness", np.linspace(21.5e3, 22.5e3, 9)
+    found = elastic_motions(machine, {entry: values})
+    multipliers = found.number("multiplier_max")
+    assert (multipliers > 1).any()
+    for k in np.flatnonzero(multipliers > 1)[::3]:
+        alone = lw.elastic_motion(lw.replace(machine, {entry: float(values[k])}), n=4)
+        assert abs(alone.multipliers[0].imag) > 0
+        assert multipliers[k] == pytest.approx(alone.multiplier_max, abs=1e-3)
+        peak = found.number("torque_peak", "crankshaft")[k]
+        assert peak == pytest.approx(float(alone.torque_peak[-1]), rel=1e-6)

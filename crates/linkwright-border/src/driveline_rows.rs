@@ -3,7 +3,7 @@
 use linkwright_core::drive::batch::Rows;
 use linkwright_driveline::batch::{Batch, Motion};
 use linkwright_driveline::reading::{Extremes, Measures};
-use linkwright_driveline::request::{Failure, Request};
+use linkwright_driveline::request::Request;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -48,17 +48,16 @@ pub(crate) struct DrivelineRows {
 }
 
 /// Results of every machine as columns.
-struct Found(Vec<Result<Motion, Failure>>);
+struct Found(Vec<Option<Motion>>);
 
 impl Found {
     fn one(&self, py: Python<'_>, of: impl Fn(&Motion) -> f64) -> Array {
-        let number = |motion: &Result<Motion, Failure>| motion.as_ref().map_or(f64::NAN, &of);
+        let number = |motion: &Option<Motion>| motion.as_ref().map_or(f64::NAN, &of);
         column(py, self.0.iter().map(number).collect()).unbind()
     }
 
     fn parts(&self, py: Python<'_>, parts: usize, of: impl Fn(&Motion, usize) -> f64) -> PyResult<Table> {
-        let number =
-            |part: usize, motion: &Result<Motion, Failure>| motion.as_ref().map_or(f64::NAN, |m| of(m, part));
+        let number = |part: usize, motion: &Option<Motion>| motion.as_ref().map_or(f64::NAN, |m| of(m, part));
         let all = (0..parts).flat_map(|part| self.0.iter().map(move |motion| (part, motion)));
         rows(py, all.map(|(part, motion)| number(part, motion)).collect(), parts)
     }
@@ -76,7 +75,7 @@ impl Found {
 }
 
 #[pyfunction]
-#[pyo3(signature = (plan, q, slots, values, chain, *, numbers, accuracy, speed, fastest, cycles_max))]
+#[pyo3(signature = (plan, q, slots, values, chain, *, numbers, accuracy, speed, fastest, cycles_max, multiples))]
 pub(crate) fn driveline_rows(
     py: Python<'_>,
     plan: &Plan,
@@ -89,6 +88,7 @@ pub(crate) fn driveline_rows(
     speed: Floats<'_>,
     fastest: Floats<'_>,
     cycles_max: usize,
+    multiples: usize,
 ) -> PyResult<DrivelineRows> {
     let n = values.as_array().ncols();
     let slots = as_indices(slots.as_slice()?, plan.0.n_parameters)?;
@@ -109,7 +109,7 @@ pub(crate) fn driveline_rows(
         fastest,
         cycles_first: 0,
         cycles_max,
-        multiples: 1,
+        multiples,
         start: None,
     };
     let requests: Vec<Request> = speed.iter().zip(fastest).map(request).collect();

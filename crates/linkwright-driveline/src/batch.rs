@@ -1,19 +1,20 @@
-//! Steady motion of many machines that have one structure, some at once in lanes, each from the solution of another that is near.
+//! Steady motion of many machines that have one structure, some at once in lanes.
 //!
-//! Steps of the other are moved with the kinks of the machine, and its stages are where Newton's method begins. What comes out is
-//! measured as for one machine alone, and refined where it is not accurate; where the method does not converge from there, the
-//! machine is solved alone.
+//! Newton's method begins as for one machine alone, with the crank at one speed on few steps, so that it comes to the same one of
+//! several steady motions. It ends on the steps of another machine that is near, moved with the kinks. What comes out is measured as for
+//! one machine alone, and refined where it is not accurate. Where the method does not converge from one speed it begins with
+//! the motion of the other. The next machine for which no stable motion is found so is solved alone, and the rest begin with its motion.
 
 use crate::bundle::{Begun, Bundle, Found};
 use crate::chain::Chain;
 use crate::equation::Equation;
-use crate::finer::parts_of_step;
+use crate::finer::{divided, parts_of_step};
 use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
-use crate::request::{Failure, Request};
+use crate::request::Request;
 use crate::scale::scales;
 use crate::speed_kinks::speed_kinks;
-use crate::starts::{Rough, largest_multiplier};
+use crate::starts::{PATIENCE, Rough, STEPS, beginning, first_edges, largest_multiplier};
 use crate::steady::{Steady, add_vibration, refined, steady};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
@@ -21,20 +22,22 @@ use linkwright_core::drive::reduce::reductions;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::call::in_threads;
 use linkwright_kernel::lanes::in_single_lanes;
-use linkwright_kernel::radau::C;
 use rayon::prelude::*;
 
 /// Machines that are solved at once; registers have as many lanes, or half of them.
 const TOGETHER: usize = 8;
 
 /// Machines that a thread takes at once, at most: solutions of these are begun with.
-const CHUNK: usize = 16 * TOGETHER;
+const CHUNK: usize = 64 * TOGETHER;
 
 /// Chunks for each thread, so that none waits long for another.
 const CHUNKS: usize = 4;
 
-/// The first machine is solved to this share of the accuracy, so that its steps suffice for others too.
+/// A machine alone is solved to this share of the accuracy, so that its steps suffice for others too.
 const FINER: f64 = 0.15;
+
+/// Machines alone that all others of a chunk are begun with.
+const BEGINNINGS: usize = 8;
 
 /// A mesh that has grown by this factor from machine to machine is begun with no more.
 const GROWN: f64 = 2.0;
@@ -42,8 +45,11 @@ const GROWN: f64 = 2.0;
 /// Corrections at which it is known where speeds are passed, for a beginning.
 const ROUGHLY: f64 = 1e-2;
 
-/// Cycles that a machine is followed where the motion found at once is unstable.
+/// Cycles that a machine is followed where the motion found at once is unstable: another may be stable.
 const AWAY: usize = 100;
+
+/// Sweeps behind which corrections from one speed fall.
+const PATIENCE_AT_ONCE: usize = 7;
 
 /// Times that steps are divided in lanes.
 const ROUNDS: usize = 3;
@@ -97,11 +103,11 @@ struct Known {
 }
 
 /// Motions by row.
-type Motions = Vec<(usize, Result<Motion, Failure>)>;
+type Motions = Vec<(usize, Option<Motion>)>;
 
 impl Batch<'_> {
-    /// The motions, in the order of the rows.
-    pub fn motions(&self) -> Vec<Result<Motion, Failure>> {
+    /// The motions, in the order of the rows; nothing of a machine that is to be solved alone.
+    pub fn motions(&self) -> Vec<Option<Motion>> {
         let n = self.rows.n;
         let size = n.div_ceil(CHUNKS * rayon::current_num_threads()).clamp(1, CHUNK);
         let places: Vec<Vec<f64>> = (0..n).map(|row| self.place(row)).collect();
@@ -116,51 +122,59 @@ impl Batch<'_> {
     }
 
     fn chunk(&self, rows: &[usize], places: &[Vec<f64>]) -> Motions {
-        if !(self.chain.stations.is_empty() && self.chain.is_linear()) {
-            return rows.iter().map(|&row| self.one(row)).collect();
-        }
-        let (mut known, mut found) = (Vec::new(), Vec::new());
-        for rows in rows.chunks(TOGETHER) {
-            let machines: Vec<Machine> = rows.iter().map(|&row| self.machine(row)).collect();
-            if known.is_empty() {
-                // Others are begun with it, and would take an unstable motion from it.
-                let at_once = machines.iter().find_map(|one| self.first(one, places, 0));
-                known.extend(at_once.or_else(|| self.first(&machines[0], places, AWAY)));
-            }
-            let far = |known: &&Known| distance(&known.place, &places[rows[0]]);
-            let near = known.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-            let (alike, others): (Vec<Machine>, Vec<Machine>) = machines
-                .into_iter()
-                .partition(|one| near.is_some_and(|near| near.kinks.len() == one.kinks.len()));
-            let mut solved = near.map_or_else(Vec::new, |near| self.begun(&alike, near));
-            solved.extend(others.iter().map(|machine| (machine.row, self.alone(machine))));
-            let most = known.first().map_or(0.0, |first| GROWN * first.steady.mesh.steps() as f64);
-            let kinks_of = |row: usize| alike.iter().chain(&others).find(|one| one.row == row);
-            for (row, steady) in solved {
-                let Some(machine) = kinks_of(row) else { continue };
-                let steady = match steady {
-                    Ok(steady) => steady,
-                    Err(failure) => {
-                        found.push((row, Err(failure)));
-                        continue;
-                    }
-                };
-                found.push((row, Ok(self.read(machine, &steady))));
-                if row == rows[rows.len() - 1]
-                    && is_stable(&steady.monodromy)
-                    && steady.mesh.steps() as f64 <= most
-                {
-                    known.push(self.known(machine, places[row].clone(), steady));
-                }
+        let machines: Vec<Machine> = rows.iter().map(|&row| self.machine(row)).collect();
+        let mut beginnings =
+            if self.chain.stations.is_empty() && self.chain.is_linear() { 0 } else { BEGINNINGS };
+        let (mut left, mut found): (Vec<&Machine>, _) = (machines.iter().collect(), Vec::new());
+        while !left.is_empty() {
+            let machine = left.remove(0);
+            let alone = self.alone(machine);
+            found.push((machine.row, alone.as_ref().map(|steady| self.read(machine, steady))));
+            // Others would take an unstable motion from it.
+            if let Some(steady) = alone
+                && is_stable(&steady.monodromy)
+                && beginnings < BEGINNINGS
+            {
+                let known = self.known(machine, places, steady);
+                left = self.solved_from(known, &left, places, beginnings == 0, &mut found);
+                beginnings += 1;
             }
         }
         found
     }
 
-    /// A machine that is solved alone.
-    fn one(&self, row: usize) -> (usize, Result<Motion, Failure>) {
-        let machine = self.machine(row);
-        (row, self.alone(&machine).map(|steady| self.read(&machine, &steady)))
+    /// Solves machines in lanes on the steps of a known one and of those that are solved so; gives those that are left.
+    fn solved_from<'a>(
+        &self,
+        first: Known,
+        machines: &[&'a Machine],
+        places: &[Vec<f64>],
+        at_once: bool,
+        found: &mut Motions,
+    ) -> Vec<&'a Machine> {
+        let most = GROWN * first.steady.mesh.steps() as f64;
+        let kinks = first.kinks.len();
+        let (alike, mut left): (Vec<&'a Machine>, Vec<&'a Machine>) =
+            machines.iter().partition(|one| one.kinks.len() == kinks);
+        let mut known = vec![first];
+        for machines in alike.chunks(TOGETHER) {
+            let far = |known: &Known| distance(&known.place, &places[machines[0].row]);
+            let near =
+                known.iter().fold(&known[0], |near, one| if far(one) < far(near) { one } else { near });
+            let mut last = None;
+            for (&machine, steady) in machines.iter().zip(self.begun(machines, near, at_once)) {
+                let Some(steady) = steady else {
+                    left.push(machine);
+                    continue;
+                };
+                found.push((machine.row, Some(self.read(machine, &steady))));
+                last = Some((machine, steady));
+            }
+            if let Some((machine, steady)) = last.filter(|(_, steady)| steady.mesh.steps() as f64 <= most) {
+                known.push(self.known(machine, places, steady));
+            }
+        }
+        left
     }
 
     fn machine(&self, row: usize) -> Machine {
@@ -174,29 +188,25 @@ impl Batch<'_> {
         }
     }
 
-    /// The stable motion of a first machine, more exactly than it is asked for, behind cycles that are followed.
-    fn first(&self, machine: &Machine, places: &[Vec<f64>], cycles_first: usize) -> Option<Known> {
-        let request = &self.requests[machine.row];
-        let request = Request { accuracy: FINER * request.accuracy, cycles_first, ..request.clone() };
-        let steady = steady(self.plan, &machine.q, &self.chain.with(&machine.numbers), &request).ok()?;
-        is_stable(&steady.monodromy).then(|| self.known(machine, places[machine.row].clone(), steady))
-    }
-
-    /// Its motion alone; where that is unstable the one to which the machine comes in time, if that is stable.
-    fn alone(&self, machine: &Machine) -> Result<Steady, Failure> {
+    /// Its motion alone; where that is unstable the one to which the machine comes in time. Nothing where it repeats after several
+    /// cycles.
+    fn alone(&self, machine: &Machine) -> Option<Steady> {
         let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
-        let found = steady(self.plan, &machine.q, &chain, request)?;
-        if is_stable(&found.monodromy) {
-            return Ok(found);
+        let solved = |cycles_first: usize, multiples: usize| {
+            let accuracy = FINER * request.accuracy;
+            let request = Request { accuracy, cycles_first, multiples, ..request.clone() };
+            steady(self.plan, &machine.q, &chain, &request).ok()
+        };
+        let mut found = solved(0, if chain.is_linear() { 1 } else { request.multiples })?;
+        if !is_stable(&found.monodromy) && found.cycles == 0 {
+            found = solved(AWAY, request.multiples).unwrap_or(found);
         }
-        let away = Request { cycles_first: AWAY, ..request.clone() };
-        let other = steady(self.plan, &machine.q, &chain, &away).ok();
-        Ok(other.filter(|other| is_stable(&other.monodromy)).unwrap_or(found))
+        Some(found).filter(|found| found.multiple == 1)
     }
 
-    fn known(&self, machine: &Machine, place: Vec<f64>, steady: Steady) -> Known {
+    fn known(&self, machine: &Machine, places: &[Vec<f64>], steady: Steady) -> Known {
         let marks = self.marks(machine, &steady.mesh.edges, &steady.solution);
-        Known { place, kinks: machine.kinks.clone(), marks, steady }
+        Known { place: places[machine.row].clone(), kinks: machine.kinks.clone(), marks, steady }
     }
 
     /// Kinks of a machine, and where its motion passes speeds that are kinks.
@@ -210,33 +220,42 @@ impl Batch<'_> {
         marks
     }
 
-    /// Motions of some machines from that of another.
-    fn begun(&self, machines: &[Machine], near: &Known) -> Vec<(usize, Result<Steady, Failure>)> {
+    /// Stable motions of some machines on the steps of another, from one speed if they may be `at_once`, else from its motion.
+    fn begun(&self, machines: &[&Machine], near: &Known, at_once: bool) -> Vec<Option<Steady>> {
         let mut all = Vec::with_capacity(machines.len());
         let (edges, solution) = (&near.steady.mesh.edges, &near.steady.solution);
-        let with_edges = |machine: &Machine| Begun {
-            q: machine.q.clone(),
-            numbers: machine.numbers.clone(),
-            edges: moved(edges, &near.kinks, &machine.kinks),
-            start: solution.clone(),
+        let coarse = first_edges(&near.kinks, STEPS);
+        let with_edges = |machine: &&Machine| {
+            let edges = moved(if at_once { &coarse } else { edges }, &near.kinks, &machine.kinks);
+            let start = if at_once {
+                let chain = self.chain.with(&machine.numbers);
+                Solution::constant(edges.len() - 1, &beginning(&chain, &self.requests[machine.row]).0)
+            } else {
+                solution.clone()
+            };
+            Begun { q: machine.q.clone(), numbers: machine.numbers.clone(), edges, start }
         };
         let mut rest = machines;
         while !rest.is_empty() {
             let mut begun: Vec<Begun> = rest.iter().map(with_edges).collect();
-            let passes = near.marks.len() > near.kinks.len();
             let last = ends(&self.requests[rest[0].row]);
-            let mut found = self.in_lanes(&begun, near, if passes { ROUGHLY } else { last });
-            if passes {
+            if at_once || near.marks.len() > near.kinks.len() {
                 // Ends of steps go along with the angles at which speeds are passed, as far as these are the same ones.
+                let found =
+                    self.in_lanes(&begun, near, ROUGHLY, if at_once { PATIENCE_AT_ONCE } else { PATIENCE });
                 for ((machine, begun), found) in rest.iter().zip(&mut begun).zip(found) {
-                    let marks = self.marks(machine, &begun.edges, &found.solution);
-                    if marks.len() == near.marks.len() {
-                        begun.edges = moved(edges, &near.marks, &marks);
-                    }
-                    begun.start = found.solution;
+                    let rough = is_sound(&found, ROUGHLY).then_some(found.solution);
+                    let marks = rough.as_ref().map(|rough| self.marks(machine, &begun.edges, rough));
+                    let own = match marks.filter(|marks| marks.len() == near.marks.len()) {
+                        Some(marks) => moved(edges, &near.marks, &marks),
+                        None => moved(edges, &near.kinks, &machine.kinks),
+                    };
+                    begun.start =
+                        rough.map_or_else(|| solution.clone(), |rough| rough.on(&begun.edges, &own));
+                    begun.edges = own;
                 }
-                found = self.in_lanes(&begun, near, last);
             }
+            let mut found = self.in_lanes(&begun, near, last, PATIENCE);
             let (now, later) = rest.split_at(found.len());
             begun.truncate(now.len());
             for _ in 0..ROUNDS {
@@ -245,13 +264,14 @@ impl Batch<'_> {
                     break;
                 }
                 for (begun, found) in begun.iter_mut().zip(found) {
-                    begun.start = found.solution;
-                    divide(begun, &parts);
+                    let finer = divided(&begun.edges, |k| parts[k]);
+                    begun.start = found.solution.on(&begun.edges, &finer);
+                    begun.edges = finer;
                 }
-                found = self.in_lanes(&begun, near, last);
+                found = self.in_lanes(&begun, near, last, PATIENCE);
             }
             for ((machine, begun), found) in now.iter().zip(begun).zip(found) {
-                all.push((machine.row, self.measured(machine, begun.edges, found)));
+                all.push(self.measured(machine, begun.edges, found));
             }
             rest = later;
         }
@@ -259,11 +279,11 @@ impl Batch<'_> {
     }
 
     /// Parts of every step by the largest error of all machines that Newton's method came to.
-    fn parts(&self, machines: &[Machine], found: &[Found]) -> Vec<usize> {
+    fn parts(&self, machines: &[&Machine], found: &[Found]) -> Vec<usize> {
         let mut parts = vec![1; found[0].errors.len()];
         for (machine, found) in machines.iter().zip(found) {
             let request = &self.requests[machine.row];
-            if is_sound(found, request) {
+            if is_sound(found, ends(request)) {
                 for (parts, &error) in parts.iter_mut().zip(&found.errors) {
                     *parts = (*parts).max(parts_of_step(error, request.accuracy));
                 }
@@ -272,28 +292,28 @@ impl Batch<'_> {
         parts
     }
 
-    fn in_lanes(&self, machines: &[Begun], near: &Known, ends: f64) -> Vec<Found> {
+    fn in_lanes(&self, machines: &[Begun], near: &Known, ends: f64, patience: usize) -> Vec<Found> {
         let scale = scales(&near.steady.solution, self.chain);
         let (plan, chain) = (self.plan, self.chain);
-        in_single_lanes(Bundle { plan, chain, machines, scale: &scale, ends })
+        in_single_lanes(Bundle { plan, chain, machines, scale: &scale, ends, patience })
     }
 
-    /// What lanes found of a machine, refined where it is not accurate; solved alone where it is none.
-    fn measured(&self, machine: &Machine, edges: Vec<f64>, found: Found) -> Result<Steady, Failure> {
+    /// What lanes found of a machine, refined where it is not accurate; nothing where it is no stable motion.
+    fn measured(&self, machine: &Machine, edges: Vec<f64>, found: Found) -> Option<Steady> {
         let (chain, request) = (self.chain.with(&machine.numbers), &self.requests[machine.row]);
         let equation = Equation { plan: self.plan, q: &machine.q, chain: &chain };
-        if !is_sound(&found, request) || !is_stable(&found.monodromy) {
-            return self.alone(machine);
+        if !is_sound(&found, ends(request)) || !is_stable(&found.monodromy) {
+            return None;
         }
         let Found { solution, monodromy, mut errors, .. } = found;
         let mesh = Mesh::new(&equation, edges);
         add_vibration(&mut errors, &mesh, &solution, request);
         let reached = errors.iter().copied().fold(0.0, f64::max);
         if reached <= request.accuracy {
-            return Ok(Steady { mesh, solution, monodromy, reached, cycles: 0, multiple: 1 });
+            return Some(Steady { mesh, solution, monodromy, reached, cycles: 0, multiple: 1 });
         }
         let rough = Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 };
-        refined(equation, rough, request).or_else(|_| self.alone(machine))
+        refined(equation, rough, request).ok().filter(|one| is_stable(&one.monodromy))
     }
 
     fn read(&self, machine: &Machine, steady: &Steady) -> Motion {
@@ -332,30 +352,10 @@ fn is_stable(monodromy: &[f64]) -> bool {
 }
 
 /// Whether Newton's method came to a motion that turns forward.
-fn is_sound(found: &Found, request: &Request) -> bool {
+fn is_sound(found: &Found, ends: f64) -> bool {
     let last = found.solution.states() - 1;
     let turns = found.solution.stages.chunks_exact(last + 1).all(|y| y[last] > 0.0);
-    turns && found.left <= ends(request) && found.errors.iter().all(|error| error.is_finite())
-}
-
-/// Divides steps, and reads what is begun with on the stages of their parts.
-fn divide(begun: &mut Begun, parts: &[usize]) {
-    let (m, mut edges) = (begun.start.states(), vec![begun.edges[0]]);
-    let mut stages = Vec::new();
-    let mut y = vec![0.0; m];
-    for (k, &parts) in parts.iter().enumerate() {
-        let (low, h) = (begun.edges[k], begun.edges[k + 1] - begun.edges[k]);
-        for part in 0..parts {
-            for c in C {
-                begun.start.state(k, (part as f64 + c) / parts as f64, &mut y);
-                stages.extend_from_slice(&y);
-            }
-            let share = (part + 1) as f64 / parts as f64;
-            edges.push(if part + 1 == parts { begun.edges[k + 1] } else { share.mul_add(h, low) });
-        }
-    }
-    begun.edges = edges;
-    begun.start.stages = stages;
+    turns && found.left <= ends && found.errors.iter().all(|error| error.is_finite())
 }
 
 /// Square of the distance of two places.

@@ -231,7 +231,7 @@ impl Follower<'_> {
         let mut guess = last.solution.clone();
         if let Some(before) = before {
             let scale = scales(&last.solution, &self.family.machines[0].1);
-            let past = before.solution.on(&before.mesh, &last.mesh);
+            let past = before.solution.on(&before.mesh.edges, &last.mesh.edges);
             let apart = distance(
                 &last.solution.start,
                 &past.start,
@@ -314,7 +314,7 @@ impl Follower<'_> {
                 return None;
             }
             let finer = Mesh::new(&equation, next);
-            solution = solution.on(&mesh, &finer);
+            solution = solution.on(&mesh.edges, &finer.edges);
             edges = finer.edges;
         }
         None

@@ -4,6 +4,7 @@
 //! or shows its error, and is left to the solver of one machine.
 
 use crate::chain::Chain;
+use crate::cycle::FALLS;
 use crate::equation::{Equation, Rates, Row};
 use crate::error::{ERROR_OF_DEFECT, GAMMA, WATCHED};
 use crate::mesh::Solution;
@@ -21,11 +22,6 @@ use linkwright_kernel::real::{LANES_MAX, Real};
 
 /// Sweeps at most.
 const SWEEPS_MAX: usize = 12;
-
-/// Sweeps after which corrections of a lane that converges fall, and to which share at least.
-const PATIENCE: usize = 3;
-/// See [`PATIENCE`].
-const FALLS: f64 = 0.5;
 
 /// A sweep lowers the speed of the crank to no less than this share.
 const SPEED_LEFT: f64 = 0.3;
@@ -51,6 +47,8 @@ pub(crate) struct Bundle<'a> {
     pub(crate) scale: &'a [f64],
     /// Corrections at which sweeps end.
     pub(crate) ends: f64,
+    /// Sweeps behind which corrections fall.
+    pub(crate) patience: usize,
 }
 
 /// What was found of one machine.
@@ -86,7 +84,7 @@ impl Job for Bundle<'_> {
         let equation = Equation { plan: self.plan, q: &q, chain: &chain };
         let mut steps = Steps::new(equation, edges, &C);
         let mut states = States { start: lanes(|m| &m.start.start), stages: lanes(|m| &m.start.stages) };
-        let (monodromy, left) = out_of_line!(R, steps.periodic(&mut states, self.scale, self.ends));
+        let (monodromy, left) = out_of_line!(R, steps.periodic(&mut states, &self));
         let [start, stages, monodromy, left] =
             [&states.start, &states.stages, &monodromy, &vec![left]].map(|list| unbundle(list));
         let lane = |list: &[f64], at: usize| list.iter().skip(at).step_by(R::LANES).copied().collect();
@@ -171,7 +169,7 @@ impl<'a, R: Real> Steps<'a, R> {
 
     /// Sweeps of Newton's method; the monodromy matrix of the last, and its largest correction.
     #[inline(always)]
-    fn periodic(&mut self, states: &mut States<R>, scale: &[f64], ends: f64) -> (Vec<R>, R) {
+    fn periodic(&mut self, states: &mut States<R>, asked: &Bundle<'_>) -> (Vec<R>, R) {
         let m = states.start.len();
         let (n, wide, steps) = (S * m, 1 + m, self.edges.len() - 1);
         let zero = R::splat(0.0);
@@ -201,10 +199,11 @@ impl<'a, R: Real> Steps<'a, R> {
                 closing.push(end[r * wide] + close - states.start[r]);
             }
             solve(&mut closing, m, 1);
-            let last = std::mem::replace(&mut left, correct(states, &solved, &closing, scale));
+            let last = std::mem::replace(&mut left, correct(states, &solved, &closing, asked.scale));
             // A lane that does not come nearer is not waited for.
-            let waited = if sweep < PATIENCE { left } else { (last * FALLS).select_lt(left, zero, left) };
-            if waited.max_lane() <= ends {
+            let waited =
+                if sweep < asked.patience { left } else { (last * FALLS).select_lt(left, zero, left) };
+            if waited.max_lane() <= asked.ends {
                 break;
             }
         }

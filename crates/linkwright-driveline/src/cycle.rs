@@ -10,10 +10,13 @@ use crate::elimination::solve;
 use crate::equation::{Equation, Rates};
 use crate::mesh::{Mesh, Solution};
 use linkwright_kernel::call::poll;
-use linkwright_kernel::radau::{A, S};
+use linkwright_kernel::radau::{A, C, S};
 
 /// Sweeps of Newton's method at most.
 pub(crate) const SWEEPS_MAX: usize = 40;
+
+/// Share to which corrections of a motion that is near fall at least in each sweep.
+pub(crate) const FALLS: f64 = 0.5;
 
 /// Sweeps without damping, and the smallest share of a correction that is taken.
 const UNDAMPED: usize = 5;
@@ -22,6 +25,9 @@ const DAMPED_MOST: f64 = 0.125;
 
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
+
+/// Corrections at which a step that is followed is solved: what they leave goes with their square.
+const FOLLOWED: f64 = 1e-5;
 
 /// Corrections that rounding leaves.
 const ROUNDING: f64 = 1e-12;
@@ -149,8 +155,8 @@ impl<'a> Cycle<'a> {
     }
 
     /// Newton's method for the periodic solution, from a guess. Gives the monodromy matrix, row by row, or nothing where it does
-    /// not converge.
-    pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
+    /// not converge, or where its corrections do not fall to a half behind some sweeps.
+    pub fn periodic(&mut self, solution: &mut Solution, scale: &[f64], patience: usize) -> Option<Vec<f64>> {
         let m = solution.states();
         let (mut last, mut damped) = (f64::INFINITY, 1.0);
         for sweep in 0..SWEEPS_MAX {
@@ -162,6 +168,9 @@ impl<'a> Cycle<'a> {
             let [size, _] = correct(solution, &solved, &start, scale, damped)?;
             if is_last(size, last) {
                 return Some(monodromy(&end, m));
+            }
+            if sweep >= patience && size > FALLS * last {
+                return None;
             }
             damped = damping(damped, sweep, size / last);
             last = size;
@@ -178,7 +187,7 @@ impl<'a> Cycle<'a> {
         let n = S * m;
         for k in 0..self.mesh.steps() {
             let y = solution.start_of(k).to_vec();
-            let mut stages = y.repeat(S);
+            let mut stages = self.begun(k, &y, solution);
             if !self.solved_step(k, &y, &mut stages, scale) {
                 let pair = [self.mesh.edges[k], self.mesh.edges[k + 1]];
                 stages = self.in_parts(pair, &y, scale).ok_or(Stop { phi: pair[0], omega: y[m - 1] })?;
@@ -188,12 +197,24 @@ impl<'a> Cycle<'a> {
         Ok(())
     }
 
+    /// Stages with which Newton's method begins in a step: those of the step before, taken on where no law has kinks.
+    fn begun(&self, k: usize, y: &[f64], solution: &Solution) -> Vec<f64> {
+        let mut stages = y.repeat(S);
+        if k > 0 && self.equation.chain.is_linear() {
+            let longer = self.mesh.length(k) / self.mesh.length(k - 1);
+            for (c, to) in C.iter().zip(stages.chunks_exact_mut(y.len())) {
+                solution.state(k - 1, 1.0 + c * longer, to);
+            }
+        }
+        stages
+    }
+
     /// Stages of a step that Newton's method does not solve at once, such as one with kinks inside: by parts.
     fn in_parts(&self, [low, high]: [f64; 2], y: &[f64], scale: &[f64]) -> Option<Vec<f64>> {
         let m = y.len();
         let at = |i: usize| low + (high - low) * (i as f64 / PARTS as f64);
         let parts = Mesh::new(&self.equation, (0..=PARTS).map(at).collect());
-        let mut followed = Solution::constant(&parts, y);
+        let mut followed = Solution::constant(PARTS, y);
         let mut cycle = Cycle::new(self.equation, &parts);
         for k in 0..PARTS {
             let start = followed.start_of(k).to_vec();
@@ -207,8 +228,7 @@ impl<'a> Cycle<'a> {
             }
             followed.stages[k * S * m..][..S * m].copy_from_slice(&stages);
         }
-        let one = Mesh::new(&self.equation, vec![low, high]);
-        Some(followed.on(&parts, &one).stages)
+        Some(followed.on(&parts.edges, &[low, high]).stages)
     }
 
     fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
@@ -231,7 +251,7 @@ impl<'a> Cycle<'a> {
             for (x, row) in stages.iter_mut().zip(self.table.chunks_exact(n + 1)) {
                 *x += share * row[n];
             }
-            if size <= SMALL {
+            if size <= FOLLOWED {
                 return true;
             }
         }

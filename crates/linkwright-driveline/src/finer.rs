@@ -23,7 +23,7 @@ pub(crate) fn finer_edges(
     accuracy: f64,
     placed: &mut Vec<f64>,
 ) -> Vec<f64> {
-    let mut edges = divided(&mesh.edges, errors, accuracy);
+    let mut edges = divided(&mesh.edges, |k| parts_of_step(errors[k], accuracy));
     edges.retain(|edge| !placed.iter().any(|old: &f64| (old - edge).abs() < 0.5 * SAME_ANGLE));
     *placed = with_ends(&mut edges, crossings);
     edges
@@ -35,12 +35,11 @@ pub(crate) fn parts_of_step(error: f64, accuracy: f64) -> usize {
     if excess <= 2.0 { 1 } else { excess.powf(1.0 / POWER).ceil().clamp(2.0, PARTS_MAX) as usize }
 }
 
-/// Ends of steps after those with too large an error are divided.
-fn divided(edges: &[f64], errors: &[f64], accuracy: f64) -> Vec<f64> {
+/// Ends of steps after each is divided into a number of parts.
+pub(crate) fn divided(edges: &[f64], parts: impl Fn(usize) -> usize) -> Vec<f64> {
     let mut finer = vec![edges[0]];
-    for (pair, error) in edges.windows(2).zip(errors) {
-        let parts = parts_of_step(*error, accuracy);
-        let length = pair[1] - pair[0];
+    for (k, pair) in edges.windows(2).enumerate() {
+        let (parts, length) = (parts(k), pair[1] - pair[0]);
         finer.extend((1..=parts).map(|i| pair[0] + length * (i as f64 / parts as f64)));
     }
     finer

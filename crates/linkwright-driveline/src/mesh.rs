@@ -100,8 +100,8 @@ impl Solution {
     }
 
     /// The same state everywhere.
-    pub fn constant(mesh: &Mesh, y: &[f64]) -> Self {
-        Solution { start: y.to_vec(), stages: y.repeat(mesh.steps() * S) }
+    pub fn constant(steps: usize, y: &[f64]) -> Self {
+        Solution { start: y.to_vec(), stages: y.repeat(steps * S) }
     }
 
     /// State at a stage of a step.
@@ -131,23 +131,24 @@ impl Solution {
         }
     }
 
-    /// The same solution, read on the stages of another mesh.
-    pub fn on(&self, own: &Mesh, other: &Mesh) -> Solution {
+    /// The same solution on steps with certain ends, read on the stages of others.
+    pub fn on(&self, own: &[f64], other: &[f64]) -> Solution {
         let m = self.states();
-        let mut stages = vec![0.0; other.steps() * S * m];
-        let mut k = 0;
-        for (step, stages) in stages.chunks_exact_mut(S * m).enumerate() {
-            let (low, h) = (other.edges[step], other.length(step));
-            while k + 1 < own.steps() && own.edges[k + 1] <= low + 1e-12 * h {
+        let mut stages = Vec::with_capacity((other.len() - 1) * S * m);
+        let (mut k, mut y) = (0, vec![0.0; m]);
+        for pair in other.windows(2) {
+            let h = pair[1] - pair[0];
+            while k + 2 < own.len() && own[k + 1] <= pair[0] + 1e-12 * h {
                 k += 1;
             }
             let mut at = k;
-            for (c, to) in C.iter().zip(stages.chunks_exact_mut(m)) {
-                let phi = low + c * h;
-                while at + 1 < own.steps() && own.edges[at + 1] < phi {
+            for c in C {
+                let phi = pair[0] + c * h;
+                while at + 2 < own.len() && own[at + 1] < phi {
                     at += 1;
                 }
-                self.state(at, (phi - own.edges[at]) / own.length(at), to);
+                self.state(at, (phi - own[at]) / (own[at + 1] - own[at]), &mut y);
+                stages.extend_from_slice(&y);
             }
         }
         Solution { start: self.start.clone(), stages }

@@ -9,11 +9,14 @@ use linkwright_core::linkage::motion::Motion;
 use linkwright_kernel::plane::Angle;
 use linkwright_kernel::radau::{AT, B, N, S, value};
 
-/// Golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Shorter part of the golden section.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// Narrowings of the place of an extreme: its value is known to rounding at half as many digits of its place.
-const NARROWINGS: usize = 36;
+/// Share of a step to which the place of an extreme is known: its value is then known to rounding.
+const PLACE: f64 = 1e-8;
+
+/// Values at most that are read for an extreme.
+const READINGS: usize = 60;
 
 /// Share of the range of a quantity by which a peak of its samples may lie below the highest and still be the highest.
 pub(crate) const LOWER: f64 = 0.05;
@@ -268,29 +271,48 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Place and value of a peak between two shares, by golden section; the ends count too.
+/// Place and value of a peak between two shares, by parabolas through the three highest values, and by the golden section where these
+/// do not narrow it; the ends count too.
+///
+/// Source: Brent, *Algorithms for Minimization without Derivatives*, ch. 5.
 pub(crate) fn peak([mut low, mut high]: [f64; 2], at: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
-    let mut best = [low, high].map(|share| (share, at(share)));
-    let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-    let mut values = inner.map(&mut *at);
-    for _ in 0..NARROWINGS {
-        if values[0] >= values[1] {
-            high = inner[1];
-            (inner[1], values[1]) = (inner[0], values[0]);
-            inner[0] = high - GOLDEN * (high - low);
-            values[0] = at(inner[0]);
+    let [first, last] = [low, high].map(|share| (share, at(share)));
+    let middle = low + GOLDEN * (high - low);
+    let mut top = [(middle, at(middle)); 3];
+    let (mut stride, mut before) = (0.0_f64, 0.0_f64);
+    for _ in 0..READINGS {
+        let [(x, value), (second, lower), (third, lowest)] = top;
+        let middle = 0.5 * (low + high);
+        if (x - middle).abs() + 0.5 * (high - low) <= 2.0 * PLACE {
+            break;
+        }
+        let (r, q) = ((x - second) * (value - lowest), (x - third) * (value - lower));
+        let parabola = 0.5 * ((x - third) * q - (x - second) * r) / (r - q);
+        let fits = parabola.abs() < 0.5 * before.abs() && low < x + parabola && x + parabola < high;
+        before = if fits {
+            stride
+        } else if x < middle {
+            high - x
         } else {
-            low = inner[0];
-            (inner[0], values[0]) = (inner[1], values[1]);
-            inner[1] = low + GOLDEN * (high - low);
-            values[1] = at(inner[1]);
+            low - x
+        };
+        stride = if fits { parabola } else { GOLDEN * before };
+        let is_near = fits && (x + stride - low).min(high - x - stride) < 2.0 * PLACE;
+        if is_near || stride.abs() < PLACE {
+            stride = PLACE.copysign(if is_near { middle - x } else { stride });
+        }
+        let next = (x + stride, at(x + stride));
+        if next.1 >= value {
+            *(if next.0 >= x { &mut low } else { &mut high }) = x;
+            top = [next, top[0], top[1]];
+        } else {
+            *(if next.0 < x { &mut low } else { &mut high }) = next.0;
+            if next.1 >= lower || second == x {
+                top = [top[0], next, top[1]];
+            } else if next.1 >= lowest || third == x || third == second {
+                top[2] = next;
+            }
         }
     }
-    let middle = if values[0] >= values[1] { (inner[0], values[0]) } else { (inner[1], values[1]) };
-    for end in [middle, best[1]] {
-        if end.1 > best[0].1 {
-            best[0] = end;
-        }
-    }
-    best[0]
+    [last, top[0]].into_iter().fold(first, |best, one| if one.1 > best.1 { one } else { best })
 }

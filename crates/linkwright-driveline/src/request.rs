@@ -11,7 +11,7 @@ pub enum Failure {
     NotFound {
         /// Smallest difference of its last cycles, over the largest of each number of the state.
         off: f64,
-        /// Factor by which motions that are close part in a cycle, on average; NaN where the motion was not followed.
+        /// Factor by which motions that are close part in a cycle, on average; NaN where it was not measured.
         parting: f64,
     },
     /// Steps cannot be divided further.

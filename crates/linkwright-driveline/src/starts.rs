@@ -18,12 +18,15 @@ use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 /// Steps of a revolution at first, and where Newton's method does not converge on them.
-const STEPS: f64 = 16.0;
+pub(crate) const STEPS: f64 = 16.0;
 /// See [`STEPS`].
 const FINE_STEPS: f64 = 48.0;
 
 /// Steps of a revolution at most where a motion is followed.
 const FOLLOWED_STEPS_MAX: f64 = 600.0;
+
+/// Factor by which steps are shorter where a motion does not repeat on longer ones.
+const SHORTER: f64 = 6.0;
 
 /// Phase \[rad\] of a vibration in a step where a motion is followed.
 const FOLLOWED_ANGLE: f64 = 1.5;
@@ -61,6 +64,9 @@ const DAMPED: f64 = 1.0;
 /// See [`DAMPED`].
 const LEAST_STEP: f64 = 1e-3;
 
+/// Sweeps behind which corrections from a motion that is near fall; those between two forms of a law may alternate.
+pub(crate) const PATIENCE: usize = 3;
+
 /// A periodic solution on its first mesh.
 pub struct Rough {
     /// Steps.
@@ -83,11 +89,17 @@ pub(crate) fn rough(equation: Equation<'_>, kinks: &[f64], request: &Request) ->
             return Ok(Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 });
         }
     }
-    followed(equation, kinks, request)
+    match followed(equation, kinks, request, 1.0) {
+        // A step in which a law changes its form is solved roughly: a motion that repeats may wander on such steps.
+        Err(Failure::NotFound { .. }) if !equation.chain.is_linear() => {
+            followed(equation, kinks, request, SHORTER)
+        }
+        found => found,
+    }
 }
 
 /// Even steps from kink to kink.
-fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
+pub(crate) fn first_edges(kinks: &[f64], steps: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
     for pair in kinks.windows(2) {
         let length = pair[1] - pair[0];
@@ -107,7 +119,7 @@ fn repeated(edges: &[f64], multiple: usize) -> Vec<f64> {
 
 /// Where the search begins: a given state, or the crank at one speed with nothing twisted; and what twists and speeds are measured
 /// with before anything is known, a radian and the speed.
-fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn beginning(chain: &Chain, request: &Request) -> (Vec<f64>, Vec<f64>) {
     let held = chain.drivers.iter().find_map(|driver| match driver.source {
         Source::Held(speed) => Some(speed),
         _ => None,
@@ -126,8 +138,8 @@ type Found = (Mesh, Solution, Vec<f64>);
 fn at_once(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Option<Found> {
     let mesh = Mesh::new(&equation, first_edges(kinks, STEPS));
     let (start, scale) = beginning(equation.chain, request);
-    let mut solution = Solution::constant(&mesh, &start);
-    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale)?;
+    let mut solution = Solution::constant(mesh.steps(), &start);
+    let monodromy = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, usize::MAX)?;
     Some((mesh, solution, monodromy))
 }
 
@@ -137,6 +149,7 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
     let mesh = Mesh::new(&equation, first_edges(kinks, FINE_STEPS));
     let (start, scale) = beginning(equation.chain, request);
     let omega = scale[scale.len() - 1];
+    let patience = if equation.chain.is_linear() { PATIENCE } else { usize::MAX };
     let solved = |guess: &Solution, alpha: f64| {
         let mut chain = equation.chain.clone();
         for link in &mut chain.links {
@@ -144,12 +157,15 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
             link.law.gap *= 1.0 - alpha;
         }
         let mut solution = guess.clone();
-        let monodromy =
-            Cycle::new(Equation { chain: &chain, ..equation }, &mesh).periodic(&mut solution, &scale)?;
+        let monodromy = Cycle::new(Equation { chain: &chain, ..equation }, &mesh).periodic(
+            &mut solution,
+            &scale,
+            patience,
+        )?;
         Some((solution, monodromy))
     };
     let (mut alpha, mut step) = (DAMPED, 0.5 * DAMPED);
-    let mut known = solved(&Solution::constant(&mesh, &start), alpha)?.0;
+    let mut known = solved(&Solution::constant(mesh.steps(), &start), alpha)?.0;
     while step > LEAST_STEP {
         // Below the last step nothing is left to take away.
         let next = if alpha - step < LEAST_STEP { 0.0 } else { alpha - step };
@@ -165,23 +181,34 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
     None
 }
 
+/// Whether one motion is known, and another is looked for: why there is none is not asked then, and where a machine stalls neither.
+fn seeks_another(chain: &Chain, request: &Request) -> bool {
+    chain.is_linear() && request.cycles_first > 0
+}
+
 /// Steps of a revolution where a motion is followed: with kinks of links it must be followed as it is, vibrations included.
 fn followed_steps(chain: &Chain, request: &Request, omega: f64) -> f64 {
-    if chain.is_linear() {
-        return FINE_STEPS;
+    let vibrations = request.fastest * TAU / (omega * FOLLOWED_ANGLE);
+    if !chain.is_linear() {
+        return vibrations.clamp(FINE_STEPS, FOLLOWED_STEPS_MAX);
     }
-    (request.fastest * TAU / (omega * FOLLOWED_ANGLE)).clamp(FINE_STEPS, FOLLOWED_STEPS_MAX)
+    if seeks_another(chain, request) { vibrations.clamp(STEPS, FINE_STEPS) } else { FINE_STEPS }
 }
 
 /// The periodic solution behind cycles that are followed.
-fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Rough, Failure> {
+fn followed(
+    equation: Equation<'_>,
+    kinks: &[f64],
+    request: &Request,
+    shorter: f64,
+) -> Result<Rough, Failure> {
     let (start, mut scale) = beginning(equation.chain, request);
-    let steps = followed_steps(equation.chain, request, scale[scale.len() - 1]);
+    let steps = shorter * followed_steps(equation.chain, request, scale[scale.len() - 1]);
     let edges = first_edges(kinks, steps);
     let mesh = Mesh::new(&equation, edges.clone());
     let mut cycle = Cycle::new(equation, &mesh);
     let mut last: VecDeque<Solution> = VecDeque::new();
-    let (mut next, mut cycles, mut passed) = (Solution::constant(&mesh, &start), 0, None);
+    let (mut next, mut cycles, mut passed) = (Solution::constant(mesh.steps(), &start), 0, None);
     let mut attempts = 0;
     loop {
         for _ in 0..CYCLES_AT_ONCE {
@@ -231,7 +258,11 @@ fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<
             }
             let repeats = repetition(&last, &next.start, &scale, request.multiples);
             let off = repeats.map_or(f64::NAN, |(_, off)| off);
-            let parting = parting(&mut cycle, next, &scale).map_err(Failure::Stops)?;
+            let parting = if seeks_another(equation.chain, request) {
+                f64::NAN
+            } else {
+                parting(&mut cycle, next, &scale).map_err(Failure::Stops)?
+            };
             return Err(Failure::NotFound { off, parting });
         }
     }
@@ -254,7 +285,7 @@ fn periodic_behind(
     let mut placed = Vec::new();
     for _ in 0..ROUNDS_BEHIND {
         let mut tried = solution.clone();
-        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale) {
+        if let Some(monodromy) = Cycle::new(equation, &mesh).periodic(&mut tried, scale, usize::MAX) {
             return Some((mesh, tried, monodromy));
         }
         if equation.chain.is_linear() || !repeats {
@@ -267,7 +298,7 @@ fn periodic_behind(
             return None;
         }
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
-        solution = solution.on(&mesh, &finer);
+        solution = solution.on(&mesh.edges, &finer.edges);
         mesh = finer;
         let mut cycle = Cycle::new(equation, &mesh);
         for _ in 0..CYCLES_BEHIND {

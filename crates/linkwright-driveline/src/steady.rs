@@ -86,7 +86,7 @@ fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<S
 fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
     let mut cycle = Cycle::new(equation, mesh);
     let mut tried = solution.clone();
-    if let Some(monodromy) = cycle.periodic(&mut tried, scale) {
+    if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
         *solution = tried;
         return Some(monodromy);
     }
@@ -94,7 +94,7 @@ fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale:
         cycle.follow(solution, scale).ok()?;
         if n == 1 || n == FOLLOWED_ON_FINER {
             let mut tried = solution.clone();
-            if let Some(monodromy) = cycle.periodic(&mut tried, scale) {
+            if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
                 *solution = tried;
                 return Some(monodromy);
             }
@@ -122,7 +122,7 @@ pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -
             break;
         }
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
-        solution = solution.on(&mesh, &finer);
+        solution = solution.on(&mesh.edges, &finer.edges);
         mesh = finer;
         monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(NOT_FOLLOWED)?;
     }

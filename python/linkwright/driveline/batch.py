@@ -1,7 +1,7 @@
 """Steady motion of thousands of elastic drivelines that differ in some entries.
 
-The core solves them in lanes and threads, each from the solution of another that is near, and measures the
-error of each as for one machine alone (its module `driveline::batch`).
+The core solves them in lanes and threads, each from where a machine alone begins, so that it comes to the
+same one of several steady motions, and measures the error of each (its module `driveline::batch`).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 from linkwright.drive.batch import columns_of
 from linkwright.drive.load_checks import require_same_turns
 from linkwright.driveline.chain import Chain, chain_of, fastest_of, has_hysteresis, listed
+from linkwright.driveline.coexisting import MULTIPLES
 from linkwright.driveline.elastic_motion import ElasticMotion, measures
 from linkwright.driveline.solving import ANGLES, CYCLES
 from linkwright.driveline.train_chain import driveline_chain
@@ -70,6 +71,8 @@ class ElasticMotions:
 def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMotions:
     """Steady motion of machines that differ from one in some entries, arrays of one length [SI].
 
+    A motion whose `multiplier_max` is not below 1 is unstable, as it is of the machine alone.
+
     Raises MachineError for values that are not possible, InputError where the machine has no elastic
     driveline with a motor, and what `chain_of` raises of the machine itself.
     """
@@ -97,10 +100,6 @@ def elastic_motions(machine: Machine, entries: Mapping[str, Any]) -> ElasticMoti
         own = chain._replace(**of_members)
         for name, column in _solved(part, own, numbers[members], first.turns).items():
             found[name][..., members] = column
-    # An unstable motion is not the one that the machine comes to.
-    lost = ~(found["multiplier_max"] < 1)
-    for column in found.values():
-        column[..., lost] = np.nan
     return ElasticMotions(chain, first.turns, found)
 
 
@@ -127,6 +126,7 @@ def _solved(compiled: CompiledMachine, chain: Chain, numbers: Floats, turns: int
         speed=speed,
         fastest=fastest_of(chain, numbers, inertia, period),
         cycles_max=CYCLES,
+        multiples=MULTIPLES,
     )
     made = measures(rows, chain, turns)
     whole = SimpleNamespace(**made, turns=turns, ratio=chain.ratio)
