@@ -233,7 +233,8 @@ class TrainTransient(CheckedDescription):
         description="Balance the mean torques at the start, as in steady running, with the loads as "
         "given: a motor starts at the speed of balance near the given one; the combustion of an engine is "
         "scaled; without engine or motor, disc 1 supplies the load torque. A start from rest is never "
-        "balanced.",
+        "balanced. With clutches, brakes or freewheels only balanced = true does so, and needs engaged "
+        "clutches.",
     )
     loads_follow: bool = Field(
         False,
