@@ -113,7 +113,7 @@ def moving_train(
             *_events(manoeuvre, place, ice or {}),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
-        frictions=friction_elements(train, manoeuvre, place) if slips else (),
+        frictions=friction_elements(expanded, manoeuvre, place) if slips else (),
         notes=notes,
         manners=[link_manner(expanded, referred, name) for name in referred.shafts],
     )
