@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.kernel.arrays import Floats
+from linkwright.kernel.arrays import Floats, Integers
 from linkwright.kernel.core.curve import Curve, smooth
 from linkwright.kernel.errors import MachineError, Problem
 from linkwright.torsion.core.torque import OverSpeed, TrainTorque
@@ -48,7 +48,7 @@ class EngagedStart(NamedTuple):
         """Angles of the masses by those of the rigid train, with the twists of mean torques [rad]."""
         if loaded:
             rigid = loaded_angles(self.rigid, rigid, self.speed * self.rigid.turning)
-        first: Floats = np.unique(self.moving.mass, return_index=True)[1]
+        first = np.unique(self.moving.mass, return_index=True)[1]
         angles: Floats = rigid[self.rigid.mass[first]]
         return angles
 
@@ -77,7 +77,7 @@ def engaged_start(
     return EngagedStart(started, speed, words, balanced)
 
 
-def slipping_notes(moving: MovingTrain, states: Floats) -> Iterator[str]:
+def slipping_notes(moving: MovingTrain, states: Integers) -> Iterator[str]:
     """Parts that slip as the motion begins, although steady running has them engaged; (frictions, n)."""
     names = [
         one.name

@@ -167,6 +167,7 @@ def _sprung(
     for name, wheel in elastic.items():
         driving, driven = wheel.between
         ring, spring = wheel.parts(name)
+        assert wheel.ring_inertia is not None
         rings[ring] = Disc.model_construct(inertia=wheel.ring_inertia)
         wheels[name] = wheel.model_copy(update={"between": (driving, ring), "stiffness": None})
         springs[spring] = Shaft.model_construct(
