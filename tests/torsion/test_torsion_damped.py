@@ -16,7 +16,8 @@ from sizes import cases
 import linkwright as lw
 from linkwright import InputError
 from linkwright.kernel.result import finite
-from linkwright.torsion.modes.damped import DampedVibration
+from linkwright.torsion.core.train import refer
+from linkwright.torsion.modes.damped import DampedVibration, damped_modes
 
 # Rounding of closed forms over a few operations.
 ROUNDING = 1e-12
@@ -75,6 +76,26 @@ def test_one_disc(c: float) -> None:
         assert found.eigenvalues == pytest.approx(s, rel=ROUNDING)
         assert (found.damping_ratios == 1).all()
         assert np.isinf(found.logarithmic_decrements).all()
+
+
+def test_trains_of_several_kinds_together_have_each_its_closed_form() -> None:
+    """Underdamped, overdamped, free without damping and with hysteresis, solved by one call."""
+    J, k, eta = 2.0, 18.0, 0.3
+    free = np.sqrt(2 * k / J)
+    wanted = {
+        (1.2, 0.0): [-0.3 + 1j * np.sqrt(9 - 0.09)],
+        (40.0, 0.0): [-10 + np.sqrt(91), -10 - np.sqrt(91)],
+        (0.0, 0.0): [0, 1j * free],
+        (0.0, eta): [0, 1j * free * np.sqrt(1 + 1j * eta)],
+    }
+    described = [
+        machine({"a": (J, 0.0)} | ({} if c else {"b": (J, 0.0)}), [("a", "ground" if c else "b", k, c, loss)])
+        for c, loss in wanted
+    ]
+    trains = [refer(one.train) for one in described if one.train is not None]
+    for (s, shapes), expected in zip(damped_modes(trains), wanted.values(), strict=True):
+        assert s == pytest.approx(expected, rel=ROUNDING, abs=ROUNDING)
+        assert len(shapes) == len(expected)
 
 
 @pytest.mark.parametrize("eta", [0.01, 0.3, 2.0])

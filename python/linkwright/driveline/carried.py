@@ -44,10 +44,27 @@ def _problems(train: Train) -> Iterator[Problem]:
             expected = "none beside [train.mechanisms]"
             yield Problem(f"train.loads.{name}.harmonics", f"{len(load.harmonics)} of them", expected, _MODES)
     yield from _links(train)
+    yield from _frictions(train)
     held = [name for name, motor in train.motors.items() if isinstance(motor.motor, ConstantSpeedMotor)]
     if len(held) > 1:
         remedy = "give the others a characteristic over their speed"
         yield Problem(f"train.motors.{held[1]}.motor.kind", "constant_speed", "one such motor", remedy)
+
+
+def _frictions(train: Train) -> Iterator[Problem]:
+    """Parts with dry friction that are not engaged all the time, or of which nothing shows it."""
+    for name, clutch in train.clutches.items():
+        if not clutch.closed:
+            expected, remedy = "true beside [train.mechanisms]", "leave out what it disconnects"
+            yield Problem(f"train.clutches.{name}.closed", "false", expected, remedy)
+    for name in train.brakes:
+        remedy = "give its torque as a load, [train.loads.NAME] with exponent = 0"
+        yield Problem(f"train.brakes.{name}", "a brake", "none beside [train.mechanisms]", remedy)
+    for name, wheel in train.freewheels.items():
+        if wheel.stiffness is None:
+            found, expected = "a rigid freewheel", "an elastic one beside [train.mechanisms]"
+            remedy = "give stiffness and ring_inertia: the torque of its spring shows whether it stays locked"
+            yield Problem(f"train.freewheels.{name}", found, expected, remedy)
 
 
 def _links(train: Train) -> Iterator[Problem]:

@@ -27,6 +27,7 @@ from linkwright.torsion.in_time.moving_train import shaft_damping
 from linkwright.torsion.model.coupling import Coupling
 from linkwright.torsion.model.drive_train import CRANK, CRANKSHAFT, GEARS, MOTOR, MOTOR_SHAFT, drive_train
 from linkwright.torsion.model.train import Train
+from linkwright.torsion.model.whole_train import whole_train
 
 # Share of a disturbance below which it is gone.
 _GONE = 1e-8
@@ -196,9 +197,8 @@ def links_of(
 
 def _laws(train: Train, names: list[str], stiffness: Any, lead: Any) -> dict[str, Any]:
     """Stiffness of each link, half of its backlash, and its curve, with the steepest slope as stiffness."""
-    parts: list[Any] = [
-        train.gears.get(name) or train.couplings.get(name) or train.shafts[name] for name in names
-    ]
+    shafts = whole_train(train).shafts
+    parts: list[Any] = [train.gears.get(name) or train.couplings.get(name) or shafts[name] for name in names]
     gaps = [getattr(part, "backlash", 0.0) / 2 for part in parts]
     slopes, curves = list(stiffness), list[Any]()
     for k, (part, n) in enumerate(zip(parts, lead, strict=True)):

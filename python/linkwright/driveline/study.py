@@ -122,7 +122,7 @@ def elastic_warnings(known: Results) -> Iterator[str]:
     yield from _resonance(known.machine, motion)
     yield from _parametric(known.machine, motion)
     yield from _others(motion)
-    yield from _reversals(motion)
+    yield from _reversals(known.machine, motion)
     yield from _fluctuation(known, motion)
 
 
@@ -177,10 +177,18 @@ def _others(motion: ElasticMotion) -> Iterator[str]:
     yield from (text for text in motion.not_periodic)
 
 
-def _reversals(motion: ElasticMotion) -> Iterator[str]:
+def _reversals(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
+    wheels = {} if machine.train is None else machine.train.freewheels
+    springs = {wheel.parts(name)[1]: name for name, wheel in wheels.items()}
     extremes = zip(motion.shafts, motion.torque_min, motion.torque_max, motion.backlash, strict=True)
     for name, low, high, gap in extremes:
-        if min(-low, high) > _REVERSED * max(-low, high):
+        if name in springs:
+            if low < 0:
+                yield (
+                    f"Freewheel {springs[name]} would be overrun: its torque falls to "
+                    f"{quantity(low, 'N m')}, while the steady motion takes it as locked"
+                )
+        elif min(-low, high) > _REVERSED * max(-low, high):
             backlash = (
                 "its backlash is crossed, and the flanks rattle"
                 if gap

@@ -190,10 +190,14 @@ def _about_friction(train: Train | None) -> Iterator[str]:
         return
     engaged = [name for name, clutch in train.clutches.items() if clutch.closed]
     opened = [name for name in train.clutches if name not in engaged]
-    locked = [name for name, wheel in train.freewheels.items() if GROUND not in wheel.between]
-    rubbing = [*train.brakes, *(name for name in train.freewheels if name not in locked)]
+    backstops = [name for name, wheel in train.freewheels.items() if GROUND in wheel.between]
+    elastic = [name for name, wheel in train.freewheels.items() if wheel.stiffness is not None]
+    locked = [name for name in train.freewheels if name not in (*backstops, *elastic)]
+    rubbing = [*train.brakes, *backstops]
     if engaged or locked:
         yield f"In modes and forced vibration {', '.join([*engaged, *locked])} is engaged and rigid."
+    if elastic:
+        yield f"In modes and forced vibration {', '.join(elastic)} is locked, and its spring twists."
     if opened:
         yield f"In modes and forced vibration {', '.join(opened)} is open and carries nothing."
     if rubbing:

@@ -2,6 +2,7 @@
 
 | module | |
 | --- | --- |
+| `engaged_start` | Steady start of a train with engaged clutches: what holds turns as one |
 | `friction_parts` | Clutches, brakes and freewheels as elements with dry friction |
 | `ice_impacts` | Ice at a propeller: pulses over its angle |
 | `moving_drive` | A driveline that moves in time |

@@ -75,10 +75,15 @@ _COUNTS = 0.05
 _TURNS_MAX = 8
 
 
-def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None) -> MovingTrain:
-    """A train with all torques of a manoeuvre, and notes on assumptions; `ice`: where known ice begins."""
+def moving_train(
+    train: Train, manoeuvre: TrainTransient, ice: IceStarts | None = None, *, slips: bool = True
+) -> MovingTrain:
+    """A train with all torques of a manoeuvre, and notes on assumptions.
+
+    `ice`: where known ice begins; `slips`: with its parts with friction, instead of engaged discs as one.
+    """
     _require_motors_of_torque(manoeuvre)
-    expanded, referred = whole_train(train), refer(train, slips=True)
+    expanded, referred = whole_train(train), refer(train, slips=slips)
     _require_fit(train, manoeuvre, tuple(expanded.discs))
     if train.mechanisms:
         found, expected = f"the mechanism {next(iter(train.mechanisms))}", "none in a motion in time"
@@ -108,7 +113,7 @@ def moving_train(train: Train, manoeuvre: TrainTransient, ice: IceStarts | None 
             *_events(manoeuvre, place, ice or {}),
         ],
         modal_damping=replace(referred, ratios=ratios).modal_damping if ratios.any() else None,
-        frictions=friction_elements(train, manoeuvre, place),
+        frictions=friction_elements(expanded, manoeuvre, place) if slips else (),
         notes=notes,
         manners=[link_manner(expanded, referred, name) for name in referred.shafts],
     )

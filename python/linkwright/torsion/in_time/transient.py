@@ -16,7 +16,7 @@ angle.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result, finite
 from linkwright.machine.machine import Machine
 from linkwright.torsion.core.transient import MovingTrain, TrainMotion
+from linkwright.torsion.in_time.engaged_start import EngagedStart, engaged_start, is_asked, slipping_notes
 from linkwright.torsion.in_time.friction_parts import start_speeds
 from linkwright.torsion.in_time.ice_impacts import (
     IceMilling,
@@ -300,7 +301,7 @@ def torsion_transient(machine: Machine, manoeuvre: TrainTransient | None = None)
         raise InputError(f"{machine.name} has no manoeuvre: {remedy}")
     if machine.train is None:
         train, manoeuvre = moving_drive(machine, manoeuvre)
-        moved = _followed(train, manoeuvre, manoeuvre.speed)
+        moved = _followed(_Start(train, manoeuvre.speed), manoeuvre)
     else:
         motors = {**machine.train.motors, **manoeuvre.motors}
         moved = _train_moved(machine.train, manoeuvre.model_copy(update={"motors": motors}))
@@ -341,8 +342,9 @@ def _train_moved(train: Train, manoeuvre: TrainTransient) -> TorsionTransient:
 
 
 def _moved_with(train: Train, manoeuvre: TrainTransient, ice: IceStarts, duration: float) -> TorsionTransient:
-    moving, speed, balance = _started(moving_train(train, manoeuvre, ice), train, manoeuvre)
-    moved = _followed(moving, manoeuvre.model_copy(update={"duration": duration}), speed)
+    begun = _started(moving_train(train, manoeuvre, ice), train, manoeuvre, ice)
+    moving, balance = begun.moving, begun.words
+    moved = _followed(begun, manoeuvre.model_copy(update={"duration": duration}))
     if duration < manoeuvre.duration or not train.gears:
         return replace(moved, balance=balance)
     gears, first = whole_train(train).gears, np.unique(moving.mass, return_index=True)[1]
@@ -359,32 +361,52 @@ def _moved_with(train: Train, manoeuvre: TrainTransient, ice: IceStarts, duratio
     return replace(moved, balance=balance, stages=tuple(gears), stage_torque=torque)
 
 
-def _started(
-    moving: MovingTrain, train: Train, manoeuvre: TrainTransient
-) -> tuple[MovingTrain, ArrayLike, str]:
-    """A train, its speeds at the start [rad/s], and what balances it; friction leaves open what would."""
+class _Start(NamedTuple):
+    """A train as its motion begins."""
+
+    moving: MovingTrain
+    speed: ArrayLike  # () or (masses,) [rad/s]
+    words: str = ""  # what balances it
+    engaged: EngagedStart | None = None  # a train with friction in steady running
+
+
+def _started(moving: MovingTrain, train: Train, manoeuvre: TrainTransient, ice: IceStarts) -> _Start:
+    """A train, its speeds at the start, and what balances it; open clutches leave open what would."""
     if not moving.frictions:
-        return balanced_start(moving, train, manoeuvre)
-    return moving, start_speeds(moving, manoeuvre), ""
+        return _Start(*balanced_start(moving, train, manoeuvre))
+    if not is_asked(manoeuvre):
+        return _Start(moving, start_speeds(moving, manoeuvre))
+    engaged = engaged_start(moving, train, manoeuvre, ice)
+    return _Start(engaged.moving, engaged.speed, engaged.words, engaged)
 
 
-def _followed(train: MovingTrain, manoeuvre: TrainTransient, speed: ArrayLike) -> TorsionTransient:
-    """The motion as the manoeuvre asks for it. `speed`: at the start [rad/s]."""
-    if train.frictions:
-        # Torques that set in at the start are part of a motion with friction.
-        manoeuvre = manoeuvre.model_copy(update={"loaded": False, "settle": manoeuvre.settle or 0.0})
-    return follow_train(
+def _followed(start: _Start, manoeuvre: TrainTransient) -> TorsionTransient:
+    """The motion as the manoeuvre asks for it."""
+    train, engaged = start.moving, start.engaged
+    loaded = manoeuvre.loaded and manoeuvre.speed > 0 and not manoeuvre.twists
+    settle = _settling_time(manoeuvre)
+    if engaged is not None:
+        angle, loaded = engaged.angles(_start_angles(engaged.rigid, manoeuvre), loaded=loaded), False
+    else:
+        angle = _start_angles(train, manoeuvre)
+        if train.frictions:
+            # Torques that set in at the start are part of a motion with friction.
+            loaded, settle = False, manoeuvre.settle or 0.0
+    moved = follow_train(
         train,
         duration=manoeuvre.duration,
-        speed=speed,
-        angle=_start_angles(train, manoeuvre),
-        loaded=manoeuvre.loaded and manoeuvre.speed > 0 and not manoeuvre.twists,
-        settle=_settling_time(manoeuvre),
+        speed=start.speed,
+        angle=angle,
+        loaded=loaded,
+        settle=settle,
         sample_time=manoeuvre.sample_time,
         accuracy=manoeuvre.accuracy,
         method=manoeuvre.method,
         steps_max=manoeuvre.steps_max,
     )
+    if engaged is None:
+        return moved
+    return replace(moved, notes=(*moved.notes, *slipping_notes(train, moved.friction_state)))
 
 
 def _start_angles(train: MovingTrain, manoeuvre: TrainTransient) -> Floats:

@@ -118,7 +118,7 @@ def _moved(at: ExcitedTrain, place: int, undamped: Floats) -> Floats:
     train = train.on_springs(at.operating.disc_stiffness)
     if train.rods:
         train = replace(in_pieces(train, len(undamped)), rods=())
-    eigenvalues, _ = damped_modes(train)
+    ((eigenvalues, _),) = damped_modes([train])
     s = eigenvalues[eigenvalues.imag > 0]
     nearest = np.abs(np.subtract.outer(s.imag, undamped)).min(axis=1, initial=np.inf)
     # Half the width of a peak is σ.

@@ -26,11 +26,17 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import InitErrorDetails
 
-from linkwright.kernel.description.base import CheckedDescription, Description, Whole, fault
+from linkwright.kernel.description.base import CheckedDescription, Whole, fault
 from linkwright.kernel.description.curve import curve_faults
-from linkwright.kernel.units.kinds import ENERGY, FORCE, LENGTH, RATIO, TIME, TORQUE
+from linkwright.kernel.units.kinds import ENERGY, FORCE, INERTIA, LENGTH, RATIO, TIME, TORQUE
 from linkwright.kernel.units.marks import QuantityList, Speeds, not_negative, positive
-from linkwright.torsion.model.train_base import PositiveSpeed, PositiveTorque
+from linkwright.torsion.model.train_base import (
+    GROUND,
+    Damping,
+    PositiveSpeed,
+    PositiveStiffness,
+    PositiveTorque,
+)
 
 _Share = Annotated[float, positive(RATIO)]
 _Shares = Annotated[tuple[float, ...], QuantityList(RATIO)]
@@ -203,12 +209,41 @@ class Brake(EngagedPart):
     on: str = Field(description="Disc that it brakes.")
 
 
-class Freewheel(Description):
-    """A one-way clutch: it locks where its first disc would overtake the second, which may overrun it."""
+class Freewheel(CheckedDescription):
+    """A one-way clutch: it locks where its first disc would overtake the second, which may overrun it.
+
+    With a stiffness it is in series with a spring, as in overrunning decouplers: the locked ring drives the
+    second disc through the spring, and overruns with it.
+    """
 
     between: tuple[str, str] = Field(
         description='The driving disc and the driven one; "ground" as the first makes a backstop, which lets '
         "the disc turn only forwards."
     )
     drag: _Torque = Field(0.0, description="Friction torque while it is overrun.")
+    stiffness: PositiveStiffness | None = Field(
+        None, description="Stiffness of a spring between its ring and the driven disc. Default: rigid."
+    )
+    damping: Damping = Field(0.0, description="Viscous damping of the spring.")
+    ring_inertia: Annotated[float, positive(INERTIA)] | None = Field(
+        None, description="Moment of inertia of the ring between freewheel and spring."
+    )
     torque_permitted: PositiveTorque | None = Field(None, description="Permitted torque while it locks.")
+
+    def _faults(self) -> Iterator[InitErrorDetails]:
+        if self.stiffness is None:
+            for name in ("ring_inertia", "damping"):
+                if getattr(self, name):
+                    expected = f"a stiffness beside {name}"
+                    yield fault("stiffness", expected=expected, remedy='such as "500 N m/rad"')
+            return
+        if self.ring_inertia is None:
+            yield fault("ring_inertia", expected="the inertia of the ring, which the spring turns")
+        if GROUND in self.between:
+            remedy = "leave it out; an elastic backstop is a disc with a backstop, on a shaft"
+            yield fault("stiffness", found=self.stiffness, expected="none of a backstop", remedy=remedy)
+
+    @staticmethod
+    def parts(name: str) -> tuple[str, str]:
+        """Names of the ring and of the spring of an elastic one."""
+        return f"{name}_ring", f"{name}_spring"

@@ -70,7 +70,8 @@ def train_faults(train: object) -> Iterator[InitErrorDetails]:
         yield from _speed_faults(train, expanded)
         yield from _motor_faults(train)
         yield from _friction_faults(train, expanded)
-        yield from transient_faults(train, (*discs, *train.dampers, *train.pendulums))
+        rings = (*train.dampers, *train.pendulums, *_of_wheels(train)[0])
+        yield from transient_faults(train, (*discs, *rings))
 
 
 def _same_names(train: object) -> Iterator[InitErrorDetails]:
@@ -81,11 +82,14 @@ def _same_names(train: object) -> Iterator[InitErrorDetails]:
                 *("shafts", "couplings", "dampers", "pendulums", "gears"),
                 *("clutches", "brakes", "freewheels"),
             ),
-            [*cranks, *_mesh_names(train)],
+            [*cranks, *_mesh_names(train), *_of_wheels(train)[1]],
         ),
-        (("discs", "dampers", "pendulums"), (*_throw_names(train), *_planet_names(train))),
+        (
+            ("discs", "dampers", "pendulums"),
+            (*_throw_names(train), *_planet_names(train), *_of_wheels(train)[0]),
+        ),
     ):
-        seen = {name: "engine" if "throw" in name or "crank" in name else "planetaries" for name in taken}
+        seen = {name: _table_of(name) for name in taken}
         for table in tables:
             for name in keys(look(train, table)):
                 if name in seen:
@@ -120,6 +124,20 @@ def _planet_names(train: object) -> tuple[str, ...]:
 def _mesh_names(train: object) -> tuple[str, ...]:
     stages = train.planetaries if isinstance(train, Train) else {}
     return tuple(mesh for name, stage in stages.items() for mesh in stage.meshes(name))
+
+
+def _of_wheels(train: object) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Rings and springs of elastic freewheels."""
+    wheels = train.freewheels.items() if isinstance(train, Train) else ()
+    parts = [wheel.parts(name) for name, wheel in wheels if wheel.stiffness is not None]
+    return tuple(ring for ring, _ in parts), tuple(spring for _, spring in parts)
+
+
+def _table_of(name: str) -> str:
+    """Table of the part that a name is made for."""
+    if name.endswith(("_ring", "_spring")):
+        return "freewheels"
+    return "engine" if "throw" in name or "crank" in name else "planetaries"
 
 
 def _engine_faults(train: object) -> Iterator[InitErrorDetails]:

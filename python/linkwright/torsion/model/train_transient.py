@@ -233,7 +233,8 @@ class TrainTransient(CheckedDescription):
         description="Balance the mean torques at the start, as in steady running, with the loads as "
         "given: a motor starts at the speed of balance near the given one; the combustion of an engine is "
         "scaled; without engine or motor, disc 1 supplies the load torque. A start from rest is never "
-        "balanced.",
+        "balanced. With clutches, brakes or freewheels only where this key is given, with engaged "
+        "clutches.",
     )
     loads_follow: bool = Field(
         False,
@@ -315,6 +316,7 @@ def transient_faults(train: Train, discs: tuple[str, ...]) -> Iterator[InitError
     twisting += [name for name, gear in train.gears.items() if gear.stiffness is not None]
     twisting += [mesh for name, stage in train.planetaries.items() for mesh in stage.meshes(name)]
     twisting += [crank for engine in train.installed for crank in engine.cranks]
+    twisting += [wheel.parts(name)[1] for name, wheel in train.freewheels.items() if wheel.stiffness]
     for name in manoeuvre.twists:
         yield from _unknown(name, twisting, "shaft, coupling or elastic mesh", "twists", name)
     for name in manoeuvre.speeds:

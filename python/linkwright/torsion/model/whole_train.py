@@ -2,8 +2,9 @@
 
 An engine is a disc a throw, with the mean of its inertia over the revolution, and shafts between them. A
 coupling is a shaft with the slope of its curve without torque; a damper is a disc, its ring, on a shaft
-without stiffness or with that of its spring. A shaft with an inertia of its own gives it to the discs at its
-ends; where it is distributed, the shaft keeps its pieces, from which exact vibration follows.
+without stiffness or with that of its spring; an elastic freewheel locks a ring on a shaft. A shaft with an
+inertia of its own gives it to the discs at its ends; where it is distributed, the shaft keeps its pieces,
+from which exact vibration follows.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from pydantic import Field
 
 from linkwright.kernel.numerics.tangent import plain, primal
+from linkwright.torsion.model.clutch import Freewheel
 from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.engine.engine_motion import mean_throw_inertia, throw_stiffness
 from linkwright.torsion.model.shaft_row import RodPiece, end_inertias, rod_pieces
@@ -29,7 +31,8 @@ def whole_train(train: Train) -> Train:
     Pendulums are rings, too, with the stiffness that they have at the speed of service.
     """
     heavy = any(shaft.is_heavy for shaft in train.shafts.values())
-    parts = (train.couplings, train.dampers, train.pendulums, train.installed, train.planetaries)
+    elastic = {name: wheel for name, wheel in train.freewheels.items() if wheel.stiffness is not None}
+    parts = (train.couplings, train.dampers, train.pendulums, train.installed, train.planetaries, elastic)
     if not (any(parts) or heavy):
         return train
     throws: dict[str, Disc] = {}
@@ -42,12 +45,14 @@ def whole_train(train: Train) -> Train:
     ringed: dict[str, Damper | Pendulum] = {**train.dampers, **train.pendulums}
     rings = {name: Disc.model_construct(inertia=ring.ring_inertia) for name, ring in ringed.items()}
     planets, meshes = _planets(train)
+    locked, wheels, springs = _sprung(elastic)
     couplings = {name: _coupling(coupling) for name, coupling in train.couplings.items()}
     held = {name: _spring(name, ring) for name, ring in ringed.items()}
     expanded = train.model_copy(
         update={
-            "discs": _loaded({**throws, **train.discs, **planets, **rings}, train.shafts),
-            "shafts": {**cranks, **_light(train), **couplings, **held},
+            "discs": _loaded({**throws, **train.discs, **planets, **rings, **locked}, train.shafts),
+            "shafts": {**cranks, **_light(train), **couplings, **held, **springs},
+            "freewheels": {**train.freewheels, **wheels},
             "gears": {**train.gears, **meshes},
             "planetaries": {},
             # The first disc may be a throw now.
@@ -152,6 +157,23 @@ def _spring(name: str, ring: Damper | Pendulum) -> Shaft:
     return Shaft.model_construct(
         between=(ring.on, name), stiffness=stiffness, damping=ring.damping, loss_factor=loss
     )
+
+
+def _sprung(
+    elastic: Mapping[str, Freewheel],
+) -> tuple[dict[str, Disc], dict[str, Freewheel], dict[str, Shaft]]:
+    """Rings of elastic freewheels, the freewheels that lock them, and their springs to the driven discs."""
+    rings, wheels, springs = dict[str, Disc](), dict[str, Freewheel](), dict[str, Shaft]()
+    for name, wheel in elastic.items():
+        driving, driven = wheel.between
+        ring, spring = wheel.parts(name)
+        assert wheel.ring_inertia is not None
+        rings[ring] = Disc.model_construct(inertia=wheel.ring_inertia)
+        wheels[name] = wheel.model_copy(update={"between": (driving, ring), "stiffness": None})
+        springs[spring] = Shaft.model_construct(
+            between=(ring, driven), stiffness=wheel.stiffness, damping=wheel.damping
+        )
+    return rings, wheels, springs
 
 
 Node = TypeVar("Node", bound=Hashable)

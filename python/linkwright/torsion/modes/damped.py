@@ -36,8 +36,9 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -195,21 +196,39 @@ def damped_train(
     """
     referred = in_pieces(train, count) if train.rods else train
     controlled = referred.on_springs(control)
-    eigenvalues, masses = damped_modes(replace(controlled, rods=()))
+    ((eigenvalues, masses),) = damped_modes([replace(controlled, rods=())])
     if train.rods:
         eigenvalues, masses = eigenvalues[:count], masses[:count]
         swings = zip(eigenvalues.tolist(), masses, strict=True)
         eigenvalues = np.array([_exact(controlled, s, q) for s, q in swings])
-    shapes = scaled(referred.scale * masses[:, referred.mass])
-    size = np.abs(shapes).max(axis=1) / np.abs(referred.scale * masses[:, referred.mass]).max(axis=1)
-    inertia = 2 * size**2 * (referred.inertia * np.abs(masses) ** 2).sum(axis=1)
-    shafts = _of_shafts(train, referred, size[:, None] * masses, eigenvalues.imag)
+    return _vibration(train, referred, disc_damping, eigenvalues, masses)
+
+
+def damped_trains(
+    trains: Sequence[tuple[ReferredTrain, Floats, Floats | None]],
+) -> Iterator[DampedVibration]:
+    """The same of trains of lumped masses, solved together."""
+    modes = damped_modes([referred.on_springs(control) for referred, _, control in trains])
+    for (referred, damping, _), (eigenvalues, masses) in zip(trains, modes, strict=True):
+        yield _vibration(referred, referred, damping, eigenvalues, masses)
+
+
+def _vibration(
+    train: ReferredTrain, referred: ReferredTrain, disc_damping: Floats, eigenvalues: Complexes, q: Complexes
+) -> DampedVibration:
+    """Shapes and shares of modes of the masses, (modes, masses); `referred`: with rods in pieces."""
+    angles = referred.scale * q[:, referred.mass]
+    shapes = scaled(angles)
+    size = np.abs(shapes).max(axis=1) / np.abs(angles).max(axis=1)
+    inertia = 2 * size**2 * (referred.inertia * np.abs(q) ** 2).sum(axis=1)
+    shafts = _of_shafts(train, referred, size[:, None] * q, eigenvalues.imag)
     discs = disc_damping * np.abs(shapes) ** 2
     # Divided by their own sum, which σ is within rounding.
-    modal = np.einsum("ma,ab,mb->m", masses.conj(), referred.modal_damping, masses).real
-    losses = (shafts.sum(axis=1) + discs.sum(axis=1) + modal * size**2)[:, None]
-    damped = (-eigenvalues.real * inertia)[:, None] > 0
-    losses = np.where(damped & (losses > 0), losses, np.inf)
+    losses = shafts.sum(axis=1) + discs.sum(axis=1)
+    if len(referred.ratios):
+        losses += size**2 * np.einsum("ma,ab,mb->m", q.conj(), referred.modal_damping, q).real
+    damped = (-eigenvalues.real * inertia > 0) & (losses > 0)
+    losses = np.where(damped, losses, np.inf)[:, None]
     return DampedVibration(
         natural_frequencies=np.abs(eigenvalues) / (2 * math.pi),
         eigenvalues=eigenvalues,
@@ -310,12 +329,33 @@ def _dynamic_matrix(referred: ReferredTrain, s: complex) -> Complexes:
 _UNDAMPED = 1e-12
 
 
-def damped_modes(referred: ReferredTrain) -> tuple[Complexes, Complexes]:
-    """Eigenvalues and shapes of a train with damping.
+class _Reduced(NamedTuple):
+    """A train in the shapes of its modes without damping."""
 
-    Gives `eigenvalues`: (modes,) by their size; of pairs the one with a positive imaginary part [1/s];
+    free: Floats  # (free, masses) motions without stiffness
+    omega: Floats  # (modes of vibration,)
+    damping: Floats  # (kept, kept) C̃ of what moves: damped motions without stiffness, then modes
+    loss: Floats  # (modes of vibration, modes of vibration) H̃
+    shapes: Floats  # (kept, masses)
+
+
+def damped_modes(trains: Sequence[ReferredTrain]) -> list[tuple[Complexes, Complexes]]:
+    """Eigenvalues and shapes of trains with damping.
+
+    Each has `eigenvalues`: (modes,) by their size; of pairs the one with a positive imaginary part [1/s];
     `shapes`: (modes, masses) of the masses, of no particular size.
     """
+    reduced = [_reduced(one) for one in trains]
+    modes = list[tuple[Complexes, Complexes]]()
+    for one, (s, p) in zip(reduced, _solved(reduced), strict=True):
+        s = np.concatenate([np.zeros(len(one.free)), s])
+        shapes = np.concatenate([one.free, p @ one.shapes])
+        order = np.argsort(np.abs(s), kind="stable")
+        modes.append((s[order], shapes[order].astype(complex)))
+    return modes
+
+
+def _reduced(referred: ReferredTrain) -> _Reduced:
     omega, undamped = referred.modes()
     # The motions without stiffness, those come first: damped ones apart from the others.
     free = int(np.count_nonzero(omega == 0))
@@ -324,10 +364,7 @@ def damped_modes(referred: ReferredTrain) -> tuple[Complexes, Complexes]:
     damped = np.abs(C[:free]).max(axis=1, initial=0.0) > _undamped(Q[:free], referred.damping_matrix)
     kept = np.concatenate([np.flatnonzero(damped), np.arange(free, len(omega))])
     H = Q[free:] @ referred.loss_matrix @ Q[free:].T
-    s, p = _solved(omega[free:], C[np.ix_(kept, kept)], H)
-    s, shapes = np.concatenate([np.zeros(free), s]), np.concatenate([undamped[:free], p @ Q[kept]])
-    order = np.argsort(np.abs(s), kind="stable")
-    return s[order], shapes[order].astype(complex)
+    return _Reduced(undamped[:free], omega[free:], C[kept[:, None], kept], H, Q[kept])
 
 
 def _undamped(Q: Floats, C: Floats) -> float:
@@ -337,40 +374,69 @@ def _undamped(Q: Floats, C: Floats) -> float:
 
 def _apart(Q: Floats, C: Floats) -> Floats:
     """Motions without stiffness, rotated so that damping does not couple them."""
+    if len(Q) < 2:
+        return Q
     turned: Floats = np.linalg.eigh(Q @ C @ Q.T)[1].T @ Q
-    return turned if len(Q) > 1 else Q
+    return turned
 
 
-def _solved(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
-    """Eigenvalues with ω_d of zero or more, and p of their modes."""
-    s, p = _pairs(omega, C, np.zeros_like(H))
-    if not H.any():
-        return s, p
-    vibrating = s.imag > 0
-    lossy, shapes = _pairs(omega, C, H)
-    # What creeps has no hysteresis, and of what vibrates there are as many as without.
-    vibrates = lossy.imag > 0
+def _solved(trains: Sequence[_Reduced]) -> list[tuple[Complexes, Complexes]]:
+    """Eigenvalues with ω_d of zero or more, and p of their modes, of each train."""
+    solved = _pairs([one._replace(loss=np.zeros_like(one.loss)) for one in trains])
+    with_losses = [n for n, one in enumerate(trains) if one.loss.any()]
+    for n, lossy in zip(with_losses, _pairs([trains[n] for n in with_losses]), strict=True):
+        solved[n] = _with_losses(*solved[n], *lossy)
+    return solved
+
+
+def _with_losses(
+    s: Complexes, p: Complexes, lossy: Complexes, shapes: Complexes
+) -> tuple[Complexes, Complexes]:
+    """What creeps has no hysteresis, and of what vibrates there are as many as without."""
+    vibrating, vibrates = s.imag > 0, lossy.imag > 0
     ratio = np.divide(-lossy.real, np.abs(lossy), out=np.full(len(lossy), np.inf), where=vibrates)
     least = np.argsort(ratio, kind="stable")[: np.count_nonzero(vibrating)]
     return np.concatenate([s[~vibrating], lossy[least]]), np.concatenate([p[~vibrating], shapes[least]])
 
 
-def _pairs(omega: Floats, C: Floats, H: Floats) -> tuple[Complexes, Complexes]:
-    """Eigenvalues with an imaginary part of zero or more; p, a row each."""
-    n, m = len(omega), len(C)
-    stiff = np.diag(omega) + 1j * H / omega if H.any() else np.diag(omega)
-    A = np.zeros((n + m, n + m), stiff.dtype)
-    elastic = slice(m, n + m)
-    A[:n, elastic] = np.diag(omega)
-    A[elastic, :n] = -stiff
-    A[n:, n:] -= C
-    s, vectors = np.linalg.eig(A)
-    kept = s.imag >= 0
-    s, vectors = s[kept].astype(complex), vectors[:, kept]
-    # Nothing drives a train that is left to itself: a growth as small as this is rounding.
-    growth = (s.real > 0) & (s.real < 1e-14 * len(A) * np.abs(A).max(initial=0.0))
-    s.real[growth] = 0.0
-    return s, np.where(s == 0, _at_rest(omega, C, vectors), vectors[n:] / np.where(s == 0, 1.0, s)).T
+def _pairs(trains: Sequence[_Reduced]) -> list[tuple[Complexes, Complexes]]:
+    """Eigenvalues with an imaginary part of zero or more; p, a row each; of trains of one size together."""
+    together: dict[tuple[int, int, bool], list[int]] = {}
+    for n, one in enumerate(trains):
+        together.setdefault((len(one.omega), len(one.damping), bool(one.loss.any())), []).append(n)
+    pairs: dict[int, tuple[Complexes, Complexes]] = {}
+    for members in together.values():
+        alike = [trains[n] for n in members]
+        A = _states(*(np.stack(parts) for parts in list(zip(*alike, strict=True))[1:4]))
+        s, vectors = np.linalg.eig(A)
+        # Nothing drives a train that is left to itself: a growth as small as this is rounding.
+        rounding = 1e-14 * A.shape[1] * np.abs(A).max(axis=(1, 2), initial=0.0)[:, None]
+        s = np.where((s.real > 0) & (s.real < rounding), 1j * s.imag, s)
+        for n, one, *solution in zip(members, alike, s, vectors, s.imag >= 0, strict=True):
+            pairs[n] = _shaped(one, *solution)
+    return [pairs[n] for n in range(len(trains))]
+
+
+def _states(omega: Floats, C: Floats, H: Floats) -> Floats | Complexes:
+    """Matrices of the states y and v of trains of one size, (trains, states, states)."""
+    n, m = omega.shape[1], C.shape[1]
+    lossy = bool(H.any())
+    A = np.zeros((len(omega), n + m, n + m), complex if lossy else float)
+    y = np.arange(n)
+    A[:, y, m + y] = omega
+    A[:, m + y, y] = -omega
+    if lossy:
+        A[:, m:, :n] -= 1j * H / omega[:, None]
+    A[:, n:, n:] -= C
+    return A
+
+
+def _shaped(train: _Reduced, s: Complexes, vectors: Complexes, kept: Any) -> tuple[Complexes, Complexes]:
+    """The kept eigenvalues, and p of their modes."""
+    s, vectors = s[kept], vectors[:, kept]
+    at_rest = s == 0
+    p = vectors[len(train.omega) :] / np.where(at_rest, 1.0, s)
+    return s, (np.where(at_rest, _at_rest(train.omega, train.damping, vectors), p) if at_rest.any() else p).T
 
 
 def _at_rest(omega: Floats, C: Floats, vectors: Complexes) -> Complexes:

@@ -22,7 +22,7 @@ from linkwright.torsion.excitation.excited_train import excited_train, loaded
 from linkwright.torsion.excitation.harmonics import Torques
 from linkwright.torsion.model.train import Train
 from linkwright.torsion.model.whole_train import whole_train
-from linkwright.torsion.modes.damped import DampedVibration, at_rest, damped_train
+from linkwright.torsion.modes.damped import DampedVibration, at_rest, damped_trains
 from linkwright.torsion.modes.free import FreeVibration, TrainModes, modes_table
 from linkwright.torsion.response.forced import ForcedVibration, vibration_by_amplitudes
 
@@ -39,7 +39,7 @@ _VARIED = {
 # Numbers of a referred train by masses or shafts.
 _NUMBERS = ("inertia", "stiffness", "disc_damping", "damping", "loss_factor")
 
-# Speeds of all trains that are computed together.
+# Speeds of all trains, or their masses, that are computed together.
 _TOGETHER = 4000
 
 Vibration = TypeVar("Vibration", FreeVibration, ForcedVibration)
@@ -156,8 +156,10 @@ class _ManyTrains:
 
     def damped(self) -> Iterator[DampedVibration]:
         """Damped vibration of each at rest."""
-        for n, damping in enumerate(self._of_discs("damping")):
-            yield damped_train(*at_rest(self.train, self.one(n), damping), len(self.first.inertia))
+        damping, step = self._of_discs("damping"), max(1, _TOGETHER // len(self.first.inertia))
+        for start in range(0, self.count, step):
+            block = range(start, min(start + step, self.count))
+            yield from damped_trains([at_rest(self.train, self.one(n), damping[n]) for n in block])
 
     def forced(self, torques: Torques) -> Iterator[ForcedVibration]:
         """Forced vibration of each under the torques on all, in blocks."""
