@@ -13,7 +13,8 @@ on all elements, per unit mass
 | −α × r | `*DLOAD`, ROTA in Abaqus; CalculiX has no such load: GRAV of each element by its centre there |
 
 Sources: Dhondt, *CalculiX CrunchiX User's Manual*, `*CLOAD`, `*DLOAD`, `*RIGID BODY`; Dassault Systèmes,
-*Abaqus Keywords Reference Guide*, `*CLOAD`, `*DLOAD`.
+*Abaqus Keywords Reference Guide*, `*CLOAD`, `*DLOAD`; *Abaqus Theory Guide*, section 6.1.4: CENTRIF and ROTA
+are the d'Alembert forces in a system that rotates with ω and α, so that a positive α pulls along −α × r.
 """
 
 from __future__ import annotations
