@@ -134,7 +134,7 @@ def _bodies(loads: LinkLoads, i: int, model: Model) -> Iterator[str]:
             # −α × r = α (y, −x); a load of one kind for each element, whatever the solver does with several.
             along, across = (b / model.length).tolist()
             yield from _pull(str(element), along + alpha * y, across - alpha * x)
-    if square > 0:
+    if square > _ROUNDING * float((loads.speed**2).max()):
         yield f"{model.elements}, CENTRIF, {square:.12g}, {axis}"
     if alpha and model.solver == "abaqus":
         yield f"{model.elements}, ROTA, {alpha:.12g}, {axis}"
