@@ -217,7 +217,7 @@ def test_only_names_of_the_file_stay() -> None:
         "torsion drill_pipe",
         "loads drawn_connecting_rod",
         f"outline {EXAMPLES / 'drawn_connecting_rod' / 'rod.dxf'} --thickness 20mm --density 2700",
-        "fmu drive_line_torsion",
+        "fmu roller_two_carts",
     ],
 )
 def test_reports_of_commands_have_no_english(words: str, tmp_path: Path) -> None:
