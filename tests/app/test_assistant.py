@@ -84,6 +84,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (root / "below" / "carts.toml").write_text(template("two-carts"), encoding="utf-8")
     (root / "link.toml").symlink_to(above / "outside.toml")
     (root / "away").symlink_to(above)
+    (root / "round.toml").symlink_to(root / "round.toml")
     (root / "inside.toml").symlink_to(root / "press.toml")
     (root / "far.toml").write_text(STUDY.replace("roller_two_carts", "../outside.toml"), encoding="utf-8")
     (root / "well.toml").write_text(Path(library_path("rod_string")).read_text("utf-8"), encoding="utf-8")
@@ -149,6 +150,8 @@ OUTSIDE = {
     "press.toml\n": "expected the name of a .toml file below",
     "away": "no machine 'away' in the library",
     "none.toml": "no such file",
+    "round.toml": "a link that leads to itself",
+    "a" * 5000 + ".toml": "file name too long",
     "large.toml": "expected at most 1 000 000 bytes",
     "roller_two_cart": 'did you mean "roller_two_carts"',
 }
@@ -283,6 +286,8 @@ def test_options_that_write_files_are_not_offered() -> None:
 
 # Commands of one machine file with JSON that assistants have not, and why.
 NOT_OFFERED = {
+    "fmu": "its file is for another tool",
+    "outline": "takes a drawing",
     "plot": "its curves are those of run with curves",
     "law": "takes a name besides the file",
     "sweep": "a tool of its own",
@@ -348,6 +353,16 @@ def test_explanations_are_the_declarations(replies: Mapping[str, Any]) -> None:
     message = "press.toml:9: mechanism.cranks.A.radius\n  found: 1 deg\n  expected: a length"
     assert explained(message)["entries"][0]["address"] == "mechanism.cranks.NAME.radius"
     assert "breakdown torque" in {each["term"] for each in explained("exceeds the breakdown torque")["terms"]}
+
+
+@pytest.mark.parametrize(
+    "what", ["", "  ", "a." * 200_000, "(" * 9_000], ids=["empty", "blank", "long", "odd"]
+)
+def test_what_is_too_long_or_nothing_is_refused_in_a_line(what: str) -> None:
+    """The message does not repeat what nobody can read."""
+    with pytest.raises(InputError) as error:
+        explained(what)
+    assert len(str(error.value)) < 300
 
 
 def test_every_entry_of_shipped_machines_is_explained() -> None:

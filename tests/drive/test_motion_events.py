@@ -183,3 +183,28 @@ def test_what_has_no_acceleration_is_drawn_all_the_same() -> None:
     motion = lw.transient(machine, turns=1.0)
     assert not np.isfinite(motion.curves()["acceleration"]).any()
     assert in_time_figure(motion, ()).axes
+
+
+def test_a_crank_at_the_limit_of_its_rotation_is_refused() -> None:
+    """A rod half as long as its crank stops it where sin φ = l/r, at 30°; the motion is no rest there."""
+    machine = lw.loads(
+        """
+        format = 1
+        name = "Short rod"
+        [drive]
+        motor = { kind = "dc", torque_stall = "40 N m", speed_no_load = "1500 rpm" }
+        gearbox = { ratio = 20 }
+        [mechanism.cranks.A]
+        radius = "100 mm"
+        [mechanism.sliders.ram]
+        crank = "A"
+        rod = "50 mm"
+        [bodies]
+        ram = { mass = "80 kg" }
+        A = { inertia = "2 kg m^2" }
+        """
+    )
+    with pytest.raises(lw.AssemblyError, match=r"-30\.00° to 30\.00°"):
+        lw.transient(machine, duration=2.0)
+    before = lw.transient(machine, duration=0.05)
+    assert 0 < before.crank_angle[-1] < np.pi / 6

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -234,6 +235,48 @@ def test_blocks_in_place(tmp_path: Path) -> None:
     agrees(lw.outline(tmp_path / "block.dxf", layers=["OUT"]), 1200, (90, 30), 1200 * (60**2 + 20**2) / 12)
 
 
+def test_a_block_in_rows_and_columns(tmp_path: Path) -> None:
+    """A reference that repeats its block has every hole: 3 by 2 of radius 5, by Steiner's theorem."""
+    document = ezdxf.new(units=4)
+    document.blocks.new("HOLE").add_circle((0, 0), 5)
+    space = document.modelspace()
+    square(space, 0, 200)
+    space.add_blockref(
+        "HOLE",
+        (60, 80),
+        dxfattribs={"column_count": 3, "row_count": 2, "column_spacing": 40, "row_spacing": 40},
+    )
+    document.saveas(tmp_path / "grid.dxf")
+    plate = lw.outline(tmp_path / "grid.dxf")
+    hole = math.pi * 5**2
+    polar = 200**4 / 6 - 6 * hole * 5**2 / 2 - hole * (4 * 40**2 + 6 * 20**2)
+    assert len(plate.holes) == 6
+    agrees(plate, 200**2 - 6 * hole, (100, 100), polar)
+
+
+def test_the_frame_of_a_smoothed_polyline_is_no_part_of_it(tmp_path: Path) -> None:
+    """Vertices by which a curve was smoothed lie beside it and are passed over."""
+    document = ezdxf.new(units=4)
+    line = document.modelspace().add_polyline2d([(0, 0), (30, 0), (50, 70), (30, 10), (0, 10)], close=True)
+    line.vertices[2].dxf.flags |= 16
+    document.saveas(tmp_path / "smoothed.dxf")
+    assert lw.outline(tmp_path / "smoothed.dxf").area == pytest.approx(300e-6)
+
+
+def test_gaps_count_as_inaccuracy(tmp_path: Path) -> None:
+    """What a gap that counts as closed leaves out of a rectangle is within the accuracy."""
+
+    def almost(space: Any) -> None:
+        corners = [(0, 0), (100, 0), (100, 40), (0, 40), (0, 0)]
+        for nth, (start, end) in enumerate(itertools.pairwise(corners)):
+            x, y = start
+            space.add_line((x, y + (5e-5 if nth == 1 else 0)), end)
+
+    plate = lw.outline(drawing(tmp_path, almost))
+    assert 0 < abs(plate.area - 4000e-6) <= plate.accuracy * plate.area
+    assert plate.accuracy < 2e-6
+
+
 def square(space: Any, x: float = 0, size: float = 10, layer: str = "0") -> None:
     """A square with a corner at x."""
     corners = [(x, 0), (x + size, 0), (x + size, size), (x, size)]
@@ -296,6 +339,28 @@ def endless(space: Any) -> None:
     space.add_lwpolyline([(0, 0), (float("nan"), 0), (1, 1)], close=True)
 
 
+def inclined(space: Any) -> None:
+    space.add_polyline3d([(0, 0, 0), (10, 0, 5), (10, 10, 0)], close=True)
+
+
+def rising(space: Any) -> None:
+    space.add_line((0, 0, 0), (10, 0, 3))
+
+
+def arched(space: Any) -> None:
+    space.add_spline().set_open_uniform([(0, 0, 0), (5, 5, 4), (10, 0, 0)], 2)
+
+
+def recursive(space: Any) -> None:
+    block = space.doc.blocks.new("OWN")
+    block.add_blockref("OWN", (20, 0))
+    space.add_blockref("OWN", (0, 0))
+
+
+def sliver(space: Any) -> None:
+    space.add_lwpolyline([(0, 0), (1000, 0), (1000, 1e-3), (0, 1e-3)], close=True)
+
+
 def nothing(space: Any) -> None:
     space.add_point((0, 0))
 
@@ -312,6 +377,11 @@ FAULTS = {
     solid: "SOLID on the layer 0",
     speck: "an outline without size at (3, 4)",
     endless: "no finite number",
+    inclined: "POLYLINE out of the plane",
+    rising: "LINE out of the plane",
+    arched: "SPLINE out of the plane",
+    recursive: "more than 8 blocks inside one another",
+    sliver: "ends that are 0.002 apart in an outline as narrow",
     nothing: "no curve",
 }
 
@@ -322,6 +392,23 @@ def test_what_is_no_outline_is_refused(draw: Callable[[Any], None], tmp_path: Pa
     with pytest.raises(MachineFileError) as error:
         lw.outline(drawing(tmp_path, draw))
     assert FAULTS[draw] in str(error.value)
+
+
+def test_blocks_in_blocks_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A small file that stands for a million texts is refused after as many as a drawing may have."""
+    from linkwright.outlines.model import entities
+
+    monkeypatch.setattr(entities, "_ENTITIES_MOST", 500)
+
+    def nested(space: Any) -> None:
+        for level in range(6):
+            block = space.doc.blocks.new(f"B{level}")
+            for nth in range(10):
+                block.add_blockref(f"B{level - 1}", (nth, 0)) if level else block.add_text("x")
+        space.add_blockref("B5", (0, 0))
+
+    with pytest.raises(MachineFileError, match="more than 500 entities"):
+        lw.outline(drawing(tmp_path, nested))
 
 
 def test_layers_are_chosen(tmp_path: Path) -> None:

@@ -215,6 +215,9 @@ def test_only_names_of_the_file_stay() -> None:
         "run four_stroke_speed",
         "torsion damper v8_diesel --on front --ring-inertia 0.12 --mode 2",
         "torsion drill_pipe",
+        "loads drawn_connecting_rod",
+        f"outline {EXAMPLES / 'drawn_connecting_rod' / 'rod.dxf'} --thickness 20mm --density 2700",
+        "fmu roller_two_carts",
     ],
 )
 def test_reports_of_commands_have_no_english(words: str, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units.kinds import ANGLE, COUNT, SPEED, TIME
 from linkwright.kernel.units.marks import Quantity, positive
-from linkwright.linkages.closure import require_full_turn
+from linkwright.linkages.closure import require_full_turn, require_off_limits
 from linkwright.linkages.law_jumps import require_finite_accelerations
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
@@ -98,6 +98,9 @@ _DURATION, _TURNS = positive(TIME), positive(COUNT)
 
 # Share of the duration by which a sum of times may miss the end of the motion.
 _ROUNDING = 1e-12
+
+# Share of its maximum speed below which a crank stands.
+_STANDS = 1e-6
 
 
 @dataclass(frozen=True)
@@ -285,6 +288,9 @@ def transient(
     if not math.isfinite(motion.torque_drive_end + motion.torque_load_end):
         require_sound_loads(compiled, machine)
     last = float(motion.crank_angle[-1]), float(motion.speed[-1])
+    if last[1] <= _STANDS * float(motion.speed.max()):
+        # At a limit of its rotation the crank stops for an instant, and its links drive it back.
+        require_off_limits(compiled, machine, last[0])
     if locks and not motor:
         _require_no_driving_load(motion.crank_angle, turning[0] * motion.acceleration)
     if end == End.SLIDES:

@@ -13,7 +13,8 @@ on all elements, per unit mass
 | −α × r | `*DLOAD`, ROTA in Abaqus; CalculiX has no such load: GRAV of each element by its centre there |
 
 Sources: Dhondt, *CalculiX CrunchiX User's Manual*, `*CLOAD`, `*DLOAD`, `*RIGID BODY`; Dassault Systèmes,
-*Abaqus Keywords Reference Guide*, `*CLOAD`, `*DLOAD`.
+*Abaqus Keywords Reference Guide*, `*CLOAD`, `*DLOAD`; *Abaqus Theory Guide*, section 6.1.4: CENTRIF and ROTA
+are the d'Alembert forces in a system that rotates with ω and α, so that a positive α pulls along −α × r.
 """
 
 from __future__ import annotations
@@ -133,7 +134,7 @@ def _bodies(loads: LinkLoads, i: int, model: Model) -> Iterator[str]:
             # −α × r = α (y, −x); a load of one kind for each element, whatever the solver does with several.
             along, across = (b / model.length).tolist()
             yield from _pull(str(element), along + alpha * y, across - alpha * x)
-    if square > 0:
+    if square > _ROUNDING * float((loads.speed**2).max()):
         yield f"{model.elements}, CENTRIF, {square:.12g}, {axis}"
     if alpha and model.solver == "abaqus":
         yield f"{model.elements}, ROTA, {alpha:.12g}, {axis}"

@@ -10,6 +10,7 @@ the motion is not determined.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -58,6 +59,9 @@ _JUMP = 1e-3
 # So near to where its pin passes over its pivot [rad] a slotted lever has no sound motion: rounding of the
 # pin's place, 1e-16 of the crank, makes 1e-16 over the cube of this of ψ″, a millionth.
 _OVER_PIVOT = 5e-4
+
+# How near a limit of its rotation a crank stands at it [rad].
+_AT_LIMIT = 1e-6
 
 # Doublings of the revolutions examined in a motion that never repeats: some 8000 revolutions either way.
 _DOUBLINGS = 13
@@ -383,6 +387,17 @@ def require_full_turn(compiled: CompiledMachine, machine: Machine) -> None:
     """Raise an `AssemblyError` with the ranges that close and a remedy unless the crank rotates fully."""
     closed = closure_of(compiled)
     if not closed.turns_fully:
+        raise closure_error(closed, machine)
+
+
+def require_off_limits(compiled: CompiledMachine, machine: Machine, angle: float) -> None:
+    """Raise an `AssemblyError` if a crank stands at a limit of its rotation, where its links go on."""
+    closed = closure_of(compiled)
+    if closed.turns_fully:
+        return
+    ends = np.array(closed.ranges).ravel()
+    apart = np.abs((ends - angle + math.pi) % math.tau - math.pi)
+    if apart.size and float(apart.min()) <= _AT_LIMIT:
         raise closure_error(closed, machine)
 
 

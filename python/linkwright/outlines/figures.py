@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.kernel.figure.legends import legend_above
 from linkwright.kernel.figure.style import BLUE, INK, PAPER, RED, panels, styled
 from linkwright.outlines.plate import PlateProperties
 
@@ -26,5 +27,5 @@ def outline_figure(plate: PlateProperties) -> Figure:
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("along the link [mm]")
     axes.set_ylabel("across the link [mm]")
-    axes.legend(loc="best")
+    legend_above(axes)
     return figure

@@ -53,7 +53,7 @@ class PlateProperties(Result):
         Label("moment of inertia about the centre of mass", "J_S", "kg m²", table="plate"),
     ]
     accuracy: Annotated[
-        float, Label("relative accuracy of the integrals", "", "", "Measured by spans of half the length.")
+        float, Label("relative accuracy of the integrals", "", "", "By spans of half the length, and gaps.")
     ]
     holes: Annotated[tuple[str, ...], About("Numbers of the holes, as names.")]
     hole_along: Annotated[Floats, Label("place of a hole along the link", "", "m", shape="(holes,)")]

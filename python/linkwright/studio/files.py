@@ -21,6 +21,9 @@ _DEPTH = 4
 _FOLDERS = 2000
 _FILES = 500
 
+# Characters of a name in a message: the longest name of a file.
+_SHOWN = 255
+
 
 @dataclass(frozen=True)
 class Folder:
@@ -45,8 +48,10 @@ class Folder:
             raise InputError(f"{name!r}: expected the name of a {ending} file below the folder {self.root}")
         try:
             path = (self.root / name).resolve()
-        except OSError as error:
-            raise InputError(f"{name!r}: {error.strerror}") from None
+        except (OSError, RuntimeError) as error:
+            # A link that leads to itself is either, by the version of Python.
+            words = getattr(error, "strerror", "") or "a link that leads to itself"
+            raise InputError(f"{name[:_SHOWN]!r}: {words}") from None
         if not path.is_relative_to(self.root) or path.suffix != ending:
             raise InputError(f"{name!r} lies outside the folder {self.root}")
         return path

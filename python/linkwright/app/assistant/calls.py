@@ -19,7 +19,7 @@ from typing import IO, Any
 import anyio
 
 from linkwright.app.assistant.offered import words
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.files.library import library_path
 from linkwright.kernel.limits import ANSWER, ANSWER_ROWS, OUTPUT, grouped
 from linkwright.kernel.result import finite
@@ -162,7 +162,9 @@ def _part(results: Any, key: str, whole: str) -> Any:
     heads = [head for head in known if key == head or key.startswith(f"{head}.")]
     if not heads:
         there = f"there is {', '.join(known[:_NAMED])}" if known else "a value has no parts"
-        raise InputError(f'keys: found "{whole}", of which "{key}" is no part of the results; {there}')
+        raise InputError(
+            f"keys: found {show(whole)}, of which {show(key)} is no part of the results; {there}"
+        )
     # A longer name goes before a shorter one that it begins with.
     head = max(heads, key=len)
     return _part(results[head], key[len(head) + 1 :], whole)

@@ -23,7 +23,8 @@ from linkwright.kernel.description.schema_walk import (
     models_in,
     words_of,
 )
-from linkwright.kernel.errors import InputError
+from linkwright.kernel.errors import InputError, show
+from linkwright.kernel.limits import TEXT, grouped
 from linkwright.kernel.page.glossary import Term, glossary, matching
 from linkwright.kernel.quantities import quantities_of
 from linkwright.kernel.units.marks import Quantity, QuantityList
@@ -51,6 +52,10 @@ def explained(words: str) -> dict[str, Any]:
     `InputError` if there is nothing of that name.
     """
     text = words.strip()
+    if not text or len(text) > TEXT.most:
+        raise InputError(
+            f"what: found {grouped(len(text))} characters, expected a name or a message, {TEXT.words}"
+        )
     found = _named(text) if _NAME.fullmatch(text) else {}
     if not any(found.values()):
         found = {"entries": [], "quantities": [], "terms": list(matching(text)) or list(_terms_in(text))}
@@ -62,7 +67,7 @@ def explained(words: str) -> dict[str, Any]:
     if not any(found.values()):
         known = [entry.place[-1] for entry in entries()] + [term.term for term in glossary()]
         near = close_match(text, known) or "see the resource linkwright://schema, or `linkwright glossary`"
-        raise InputError(f'found "{text}", which is no entry, quantity or term; {near}')
+        raise InputError(f"found {show(text)}, which is no entry, quantity or term; {near}")
     say: dict[str, Callable[[Any], dict[str, Any]]] = {"entries": _entry, "quantities": dict, "terms": _term}
     return {of: [say[of](each) for each in known[:_LISTED]] for of, known in found.items() if known}
 

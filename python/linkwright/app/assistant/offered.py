@@ -26,6 +26,7 @@ OFFERED: Mapping[str, tuple[str, ...]] = {
     "forces": (
         *("at", "speed", "acceleration", "angles", "zero", "case", "friction", "pressure-angle", "curves"),
     ),
+    "loads": ("link", "speed", "acceleration", "angles", "zero", "friction", "pressure-angle", "curves"),
     "rods": ("card", "period", "damping", "harmonics", "curves"),
     "axes": ("speed", "clearance", "keep", "catalogue", "gearboxes", "axis", "goal", "curves"),
     "balance": ("links", "slider", "share", "radius", "planes", "speed"),

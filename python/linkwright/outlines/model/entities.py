@@ -15,7 +15,7 @@ Texts, dimensions, hatches, points and construction lines are passed over; any o
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,13 +31,25 @@ if TYPE_CHECKING:
 _IGNORED = frozenset(
     (
         *("ATTDEF", "ATTRIB", "HATCH", "IMAGE", "LEADER", "MLEADER", "MTEXT", "MULTILEADER", "OLE2FRAME"),
-        *("ACAD_TABLE", "ARC_DIMENSION", "DIMENSION", "LARGE_RADIAL_DIMENSION", "POINT", "RAY", "TEXT"),
+        *(
+            "ACAD_TABLE",
+            "ARC_DIMENSION",
+            "DIMENSION",
+            "INSERT",
+            "LARGE_RADIAL_DIMENSION",
+            "POINT",
+            "RAY",
+            "TEXT",
+        ),
         *("TOLERANCE", "UNDERLAY", "VIEWPORT", "WIPEOUT", "XLINE"),
     )
 )
 
-# Curves that an outline may have, and blocks inside one another.
-_CURVES_MOST, _DEPTH_MOST = 10_000, 8
+# Curves that an outline may have, entities of a drawing and its blocks, and blocks inside one another.
+_CURVES_MOST, _ENTITIES_MOST, _DEPTH_MOST = 10_000, 100_000, 8
+
+# Mark of the vertices of the frame of a smoothed polyline, which lie beside its curve; DXF Reference, VERTEX.
+_OF_FRAME = 16
 
 Drawn = tuple[str, Curve]
 
@@ -66,7 +78,9 @@ def curves_of(document: Document, layers: Collection[str], unit: Any, key: str) 
 def _drawn(document: Document, layers: Collection[str]) -> Iterator[Drawn]:
     """Curves with their layers, of those layers that are wanted."""
     count = 0
-    for layer, entity in _entities(document.modelspace(), "0", 0):
+    for nth, (layer, entity) in enumerate(_entities(document.modelspace(), "0", 0)):
+        if nth >= _ENTITIES_MOST:
+            raise DrawingError(f"more than {_ENTITIES_MOST} entities", "a drawing of fewer entities")
         kind = entity.dxftype()
         if kind in _IGNORED or (layers and layer.casefold() not in layers):
             continue
@@ -85,21 +99,40 @@ def _entities(container: Any, layer: str, depth: int) -> Iterator[tuple[str, Any
     for entity in container:
         # In a block, layer 0 means that of its reference.
         own = layer if entity.dxf.layer == "0" else entity.dxf.layer
+        # A reference itself is passed over; it counts as the entity that it is.
+        yield own, entity
         if entity.dxftype() != "INSERT":
-            yield own, entity
-        elif depth < _DEPTH_MOST:
-            yield from _entities(entity.virtual_entities(), own, depth + 1)
+            continue
+        if depth >= _DEPTH_MOST:
+            found = f"more than {_DEPTH_MOST} blocks inside one another"
+            raise DrawingError(found, "blocks that are not inside themselves", "explode them")
+        # A block may be repeated in rows and columns.
+        for each in entity.multi_insert() if entity.mcount > 1 else (entity,):
+            yield from _entities(each.virtual_entities(), own, depth + 1)
 
 
 def _mirror(entity: Any) -> float:
     """−1 for what is drawn in a plane seen from behind, 1 otherwise. Raises DrawingError: it is inclined."""
     x, y, z = entity.dxf.extrusion if entity.dxf.hasattr("extrusion") else (0.0, 0.0, 1.0)
     if max(abs(x), abs(y)) > 1e-9 * abs(z):
-        raise DrawingError(f"a {entity.dxftype()} out of the plane of the drawing", "a plane drawing")
+        raise _inclined(entity)
     return math.copysign(1.0, z)
 
 
+def _inclined(entity: Any) -> DrawingError:
+    return DrawingError(f"{entity.dxftype()} out of the plane of the drawing", "a plane drawing")
+
+
+def _require_level(entity: Any, points: Iterable[Any]) -> None:
+    """All points of a curve are at one height, which may be any."""
+    places = np.array([list(point) for point in points], dtype=float)
+    rise, *sides = np.ptp(places[:, ::-1], axis=0)
+    if rise > 1e-9 * max(sides):
+        raise _inclined(entity)
+
+
 def _line(entity: Any) -> Iterator[Curve]:
+    _require_level(entity, (entity.dxf.start, entity.dxf.end))
     yield Line(_xy(entity.dxf.start), _xy(entity.dxf.end))
 
 
@@ -132,7 +165,9 @@ def _polyline(entity: Any) -> Iterator[Curve]:
     else:
         if not entity.is_2d_polyline and not entity.is_3d_polyline:
             raise DrawingError("a POLYLINE that is a mesh", "plane polylines", "draw the outline alone")
-        places = [(vertex.dxf.location, vertex.dxf.get("bulge", 0.0)) for vertex in entity.vertices]
+        own = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _OF_FRAME]
+        places = [(vertex.dxf.location, vertex.dxf.get("bulge", 0.0)) for vertex in own]
+        _require_level(entity, (place for place, _ in places))
         vertices = [(float(place.x), float(place.y), float(bulge)) for place, bulge in places]
     after = [*vertices[1:], *(vertices[:1] if entity.is_closed else [])]
     for (x, y, bulge), (x2, y2, _) in zip(vertices, after, strict=False):
@@ -143,6 +178,7 @@ def _polyline(entity: Any) -> Iterator[Curve]:
 
 def _spline(entity: Any) -> Iterator[Curve]:
     tool = entity.construction_tool()
+    _require_level(entity, tool.control_points)
     controls = np.array([[point.x, point.y] for point in tool.control_points])
     weights = np.array(tool.weights()) if tool.is_rational else np.ones(len(controls))
     yield Spline(tool.order - 1, np.array(tool.knots(), dtype=float), controls, weights)

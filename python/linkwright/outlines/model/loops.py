@@ -51,6 +51,15 @@ class Loop:
         return np.concatenate(parts)
 
     @cached_property
+    def gap(self) -> float:
+        """Sum of the distances between the ends of sides and the starts of the next ones."""
+        ends = [(curve.end, curve.start) if back else (curve.start, curve.end) for curve, back in self.sides]
+        starts = [start for start, _ in ends]
+        return sum(
+            math.dist(end, start) for (_, end), start in zip(ends, starts[1:] + starts[:1], strict=True)
+        )
+
+    @cached_property
     def circle(self) -> tuple[Floats, float] | None:
         """Centre and radius, if it is one circle."""
         (first, _), *more = self.sides

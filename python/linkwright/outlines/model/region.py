@@ -15,6 +15,9 @@ from linkwright.outlines.model.loops import SAME, Loop, place_words
 # Sides of polygons that are compared at once.
 _BLOCK = 512
 
+# Share of the area that gaps between ends that count as one point may leave out.
+_MISSED_MOST = 1e-3
+
 
 @dataclass(frozen=True)
 class Region:
@@ -31,7 +34,7 @@ class Region:
     def integrals(self) -> tuple[float, Floats, float, float]:
         """Area, centre (2,), polar second moment of area about the centre, and their relative accuracy.
 
-        Raises DrawingError: there is no area.
+        Raises DrawingError: there is no area, or gaps are as wide as the outline.
         """
         origin = 0.5 * (self.outline.polygon.min(axis=0) + self.outline.polygon.max(axis=0))
         total, error = np.zeros(4), 0.0
@@ -44,6 +47,13 @@ class Region:
         if not 0 < area < math.inf:
             where = place_words(self.outline.polygon[0])
             raise DrawingError(f"an outline without area at {where}", "an outline that encloses an area")
+        # A gap encloses with any point of the outline a triangle that is counted or left out.
+        gap = sum(loop.gap for loop in self.loops)
+        missed = gap * float(np.linalg.norm(np.ptp(self.outline.polygon, axis=0))) / area
+        if missed > _MISSED_MOST:
+            found = f"ends that are {gap:.3g} apart in an outline as narrow, at {place_words(origin)}"
+            raise DrawingError(found, "ends that meet", "join the curves there")
+        error = max(error, missed)
         shift = total[1:3] / area
         return area, origin + shift, float(total[3] - area * (shift @ shift)), error
 
