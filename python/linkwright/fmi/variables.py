@@ -82,6 +82,8 @@ ANGLE, SPEED = "crank_angle", "crank_speed"
 
 _EXTERNAL = "External torque on the crank; counter-clockwise is positive."
 _BRAKE = "Braking torque referred to the crank, 0 or more; it opposes the motion and holds at rest."
+_LOAD_SPEED = "Speed of a load behind a viscous coupling with the crank; counter-clockwise is positive."
+_COUPLING = "Torque of the coupling with the load per difference of speeds; 0 for none."
 _SUPPLY = "Supply of the motor; without it the motor gives no torque."
 _REST = "The machine stands, and nothing moves it."
 
@@ -89,11 +91,16 @@ INPUTS = (
     Variable("motor_on", Group.INPUT, 0, "input", about=_SUPPLY, start=True, is_bool=True),
     Variable("external_torque", Group.INPUT, 1, "input", "N m", _EXTERNAL, 0.0),
     Variable("brake_torque", Group.INPUT, 2, "input", "N m", _BRAKE, 0.0, bounds=(0.0, None)),
+    Variable("load_speed", Group.INPUT, 3, "input", "rad/s", _LOAD_SPEED, 0.0),
+    Variable(
+        "load_coupling", Group.INPUT, 4, "parameter", "N m s/rad", _COUPLING, 0.0, bounds=(0.0, None)
+    ),
 )
 
 TIME = Variable("time", Group.TIME, 0, "independent", "s", "Time.")
 
 _KINETIC = Label("kinetic energy", "E", "J", "½ J(φ) ω².")
+_COUPLED = Label("torque of the coupling", "T_c", "N m", "c (ω_L − ω): of the load on the crank.")
 _MOTOR_SPEED = Label("speed of the motor", "ω_M", "rad/s", "At its shaft.")
 
 # Name, its number for the library, and the quantity.
@@ -105,9 +112,12 @@ _OUTPUTS = (
     ("power_motor", 4, declared(SteadyState, "power_motor")),
     ("energy_kinetic", 5, _KINETIC),
     ("speed_motor", 6, _MOTOR_SPEED),
+    ("torque_coupling", 7, _COUPLED),
 )
-# The angle alone gives J(φ), angle and speed the energy.
-_DEPENDS = {"inertia_reduced": (ANGLE,), "energy_kinetic": (ANGLE, SPEED), "speed_motor": (SPEED,)}
+# The angle alone gives J(φ), two speeds the torque of the coupling.
+_DEPENDS = {"inertia_reduced": (ANGLE,), "torque_coupling": (SPEED, "load_speed")}
+# Parts of an elastic driveline turn at speeds of their own.
+_DEPENDS_RIGID = {"energy_kinetic": (ANGLE, SPEED), "speed_motor": (SPEED,)}
 
 # Of a point, a link and a slide: names, units; the first ones of position, then of velocity, of acceleration.
 _PARTS: dict[str, tuple[Group, int, tuple[tuple[str, str], ...]]] = {
@@ -139,7 +149,7 @@ def variables_of(
         *(_parameter(k, entry) for k, entry in enumerate(entries)),
         *_motion(start),
         *([] if program.chain is None else [*_of_driveline(program.chain), *_of_stations(program.chain)]),
-        *_of_drive(),
+        *_of_drive(rigid=program.chain is None),
         *_of_mechanism(program.compiled),
     ]
 
@@ -236,10 +246,11 @@ def _of_label(name: str, group: Group, number: int, label: Label, **more: Any) -
     return Variable(name, group, number, "output", label.unit, about, **more)
 
 
-def _of_drive() -> Iterator[Variable]:
+def _of_drive(*, rigid: bool) -> Iterator[Variable]:
     """Torques, power, energy of the drive."""
+    depends = _DEPENDS | (_DEPENDS_RIGID if rigid else {})
     for name, number, label in _OUTPUTS:
-        yield _of_label(name, Group.OUTPUT, number, label, depends=_DEPENDS.get(name))
+        yield _of_label(name, Group.OUTPUT, number, label, depends=depends.get(name))
     yield Variable("at_rest", Group.OUTPUT, 16, "output", about=_REST, is_bool=True)
 
 
