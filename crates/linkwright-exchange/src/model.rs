@@ -4,7 +4,7 @@ use crate::data::Data;
 use crate::fault::Fault;
 use crate::instant::{Around, Instant};
 use crate::numbers::plain;
-use crate::outside::{BRAKE, COUPLING, Outside};
+use crate::outside::Outside;
 use crate::quantity::Quantity;
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
@@ -230,6 +230,12 @@ impl Model {
         self.data.scales.iter().find(|(of, _)| *of == reference).map_or(1.0, |&(_, factor)| factor)
     }
 
+    /// Between which numbers a number may be set: those of its range, else any.
+    fn range(&self, reference: u32) -> [f64; 2] {
+        let known = self.data.ranges.iter().find(|(of, ..)| *of == reference);
+        known.map_or([f64::MIN, f64::MAX], |&(_, low, high)| [low, high])
+    }
+
     /// Whether something holds.
     ///
     /// # Errors
@@ -255,13 +261,11 @@ impl Model {
     /// # Errors
     /// There is none of this reference, it may not be set, or its value is out of range.
     pub fn set_number(&mut self, reference: u32, value: f64) -> Result<(), Fault> {
-        let wrong = |expected| Fault::Value { reference, value, expected };
-        if !value.is_finite() {
-            return Err(wrong("a finite number"));
+        let range = self.range(reference);
+        if !(range[0]..=range[1]).contains(&value) {
+            return Err(Fault::Value { reference, value, range });
         }
         match Quantity::of(reference)? {
-            Quantity::Outside(BRAKE) if value < 0.0 => return Err(wrong("a brake torque of 0 or more")),
-            Quantity::Outside(COUPLING) if value < 0.0 => return Err(wrong("a coupling of 0 or more")),
             Quantity::Outside(n) => {
                 *self.state.outside.part(n).ok_or(Fault::Reference(reference))? = value;
             }

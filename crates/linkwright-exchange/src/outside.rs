@@ -9,10 +9,6 @@ use linkwright_kernel::dual::Dual;
 use linkwright_kernel::real::Real;
 use serde::{Deserialize, Serialize};
 
-/// Numbers of the parts that cannot be negative.
-pub(crate) const BRAKE: usize = 1;
-pub(crate) const COUPLING: usize = 3;
-
 /// Torques and speeds from outside, counter-clockwise positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outside<N> {

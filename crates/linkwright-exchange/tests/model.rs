@@ -101,6 +101,7 @@ fn machine(piston: Option<f64>, growth: Option<f64>) -> Data {
         ],
         brake: 0,
         scales: Vec::new(),
+        ranges: vec![(BRAKE, 0.0, 1e9), (STIFF_TORQUE, 1e-9, 1e9)],
         token: "{rotor}".to_owned(),
     }
 }
@@ -215,6 +216,26 @@ fn energy_is_lost_to_the_dry_load_alone() {
     let phi = number(&mut model, ANGLE);
     assert!(phi > 1.0 && phi < 3.0, "no dead centre on the way: {phi}");
     close(before - number(&mut model, KINETIC), 20.0 * (x(0.3) - x(phi)), 1e-10);
+}
+
+/// A number out of its range, or none, is refused with the range, and what was set before stays.
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let mut model = begun(data(None), Purpose::Stepping);
+    let wrong = [
+        (BRAKE, -1.0),
+        (STIFF_TORQUE, 0.0),
+        (STIFF_TORQUE, 2e9),
+        (TORQUE, f64::NAN),
+        (INERTIA, f64::INFINITY),
+    ];
+    for (reference, value) in wrong {
+        let before = number(&mut model, reference);
+        let fault = model.set_number(reference, value).expect_err("out of range");
+        assert!(matches!(fault, Fault::Value { .. }), "{fault}");
+        assert_eq!(number(&mut model, reference), before);
+    }
+    model.set_number(STIFF_TORQUE, 1e-9).expect("the end of the range");
 }
 
 /// Derivatives by states, inputs and parameters are those of differences of order 4.

@@ -16,12 +16,14 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
 from linkwright.driveline.chain import Chain
 from linkwright.driveline.in_time import ElasticTransient
-from linkwright.fmi.parameters import Adjustable
+from linkwright.fmi.parameters import Adjustable, bounds_of
 from linkwright.fmi.program import Program
 from linkwright.kernel.description.place import split
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.quantities import shown as declared
+from linkwright.kernel.units import kinds
+from linkwright.kernel.units.marks import Quantity, not_negative
 from linkwright.linkages.kinematics import everything
 from linkwright.machine.program.compiled import CompiledMachine
 
@@ -60,7 +62,7 @@ class Variable(NamedTuple):
     # Names of the inputs and states that it depends on; None for all.
     depends: tuple[str, ...] | None = None
     is_bool: bool = False
-    bounds: tuple[float | None, float | None] = (None, None)
+    bounds: tuple[float, float] | None = None  # between which it may be set
     factor: float = 1.0  # of what the library has, such as the speed of a mass referred to the crank
 
     @property
@@ -87,14 +89,18 @@ _COUPLING = "Torque of the coupling with the load per difference of speeds; 0 fo
 _SUPPLY = "Supply of the motor; without it the motor gives no torque."
 _REST = "The machine stands, and nothing moves it."
 
+
+def _set(name: str, number: int, causality: str, mark: Quantity, about: str) -> Variable:
+    """A number from outside, of a kind and within its bound."""
+    return Variable(name, Group.INPUT, number, causality, mark.kind.unit, about, 0.0, bounds=bounds_of(mark))
+
+
 INPUTS = (
     Variable("motor_on", Group.INPUT, 0, "input", about=_SUPPLY, start=True, is_bool=True),
-    Variable("external_torque", Group.INPUT, 1, "input", "N m", _EXTERNAL, 0.0),
-    Variable("brake_torque", Group.INPUT, 2, "input", "N m", _BRAKE, 0.0, bounds=(0.0, None)),
-    Variable("load_speed", Group.INPUT, 3, "input", "rad/s", _LOAD_SPEED, 0.0),
-    Variable(
-        "load_coupling", Group.INPUT, 4, "parameter", "N m s/rad", _COUPLING, 0.0, bounds=(0.0, None)
-    ),
+    _set("external_torque", 1, "input", Quantity(kinds.TORQUE), _EXTERNAL),
+    _set("brake_torque", 2, "input", not_negative(kinds.TORQUE), _BRAKE),
+    _set("load_speed", 3, "input", Quantity(kinds.SPEED), _LOAD_SPEED),
+    _set("load_coupling", 4, "parameter", not_negative(kinds.TORSIONAL_DAMPING), _COUPLING),
 )
 
 TIME = Variable("time", Group.TIME, 0, "independent", "s", "Time.")
@@ -179,8 +185,9 @@ def _motion(start: tuple[float, float]) -> Iterator[Variable]:
     angle, speed, acceleration = (
         declared(Transient, name) for name in ("crank_angle", "speed", "acceleration")
     )
-    yield _of_label(ANGLE, Group.STATE, 0, angle, start=start[0], depends=(ANGLE,))
-    yield _of_label(SPEED, Group.STATE, 1, speed, start=start[1], depends=(SPEED,))
+    bounds = [bounds_of(Quantity(kind)) for kind in (kinds.ANGLE, kinds.SPEED)]
+    yield _of_label(ANGLE, Group.STATE, 0, angle, start=start[0], depends=(ANGLE,), bounds=bounds[0])
+    yield _of_label(SPEED, Group.STATE, 1, speed, start=start[1], depends=(SPEED,), bounds=bounds[1])
     local = f"Derivative of the {angle.word}."
     yield Variable(
         f"der({ANGLE})", Group.DERIVATIVE, 0, "local", "rad/s", local, derivative_of=ANGLE, depends=(SPEED,)
