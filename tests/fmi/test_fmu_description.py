@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from xml.etree import ElementTree
 
 import pint
 import pytest
+from command_line import invoke
 from conftest import Unpacked
 from fmpy.model_description import read_model_description
 from fmpy.validation import validate_fmu
@@ -138,3 +140,14 @@ def test_the_archive_is_plain(tmp_path: Path) -> None:
     assert libraries == names[:-2]
     assert libraries
     assert math.isclose(unit.accuracy, 1e-8)
+
+
+def test_a_ukrainian_report(tmp_path: Path) -> None:
+    """In a Ukrainian report units are Ukrainian, and the version of FMI is the name 2.0."""
+    page = tmp_path / "report.html"
+    result = invoke("report", "--lang", "uk", "--to", page, "fmu", "roller_one_cart")
+    assert result.exit_code == 0, result.output
+    cells = [cell.strip() for cell in re.findall(r"<td[^>]*>([^<]*)</td>", page.read_text(encoding="utf-8"))]
+    assert "2.0" in cells
+    assert {"[рад]", "[рад/с]", "[рад/с²]", "[Н·м]", "[Вт]", "[Дж]", "[кг·м²]"} <= set(cells)
+    assert not [cell for cell in cells if re.search(r"\b(rad|N m|kg)\b", cell)]

@@ -60,7 +60,8 @@ def fmu(
         Answer(
             machine=machine,
             results={"fmu": unit},
-            names={variable.name for variable in unit.variables},
+            # The version is a name too: 2.0 everywhere.
+            names={unit.version, *(variable.name for variable in unit.variables)},
             tables=later("fmi.tables:fmu_tables", unit),
             machine_file=lambda: unit.data,
         )
