@@ -26,6 +26,8 @@ REFUSED = {
     "topper_crank": ((), "constant_speed"),
     "cam_constant_breadth": ((), "no masses"),
     "rod_string_card": ((), "rod string"),
+    "servo_press": ((), "servo axes"),
+    "excavator_bucket": ((), "cylinders"),
     "roller_two_carts": (("drive.gearbox.reverse=0",), "self-locking"),
 }
 
@@ -185,6 +187,18 @@ def test_numbers_beyond_the_range_of_the_file(version: str, unpacked: Unpacked) 
         assert unit.get(*wrong) == before
         unit.start()
         unit.step(0.0, 0.1)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("tolerance", [float("nan"), -1e-6, 1.0, float("inf")])
+def test_a_tolerance_that_is_none(version: str, tolerance: float, unpacked: Unpacked) -> None:
+    """A tolerance that no step can keep is an error with a message, not the default in silence."""
+    log: list[str] = []
+    unit = Opened(unpacked("roller_one_cart", version), logged=log)
+    with pytest.raises(Exception, match=r"(?i)setupExperiment|enterInitializationMode"):
+        unit.start(tolerance=tolerance)
+    assert "the tolerance is" in log[-1]
+    unit.fmu.freeInstance()
 
 
 @pytest.mark.parametrize("version", VERSIONS)

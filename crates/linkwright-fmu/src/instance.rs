@@ -172,7 +172,12 @@ impl Instance {
         if !time.is_finite() {
             return Err(Trouble::error("the start time is not a finite number"));
         }
-        if let Some(tolerance) = tolerance {
+        // Some programs write 0 where they ask for none.
+        if let Some(tolerance) = tolerance.filter(|&tolerance| tolerance != 0.0) {
+            if !(0.0..1.0).contains(&tolerance) {
+                let text = format!("the tolerance is {tolerance:?}: expected a number above 0 and below 1");
+                return Err(Trouble::error(&text));
+            }
             self.model.set_accuracy(tolerance);
         }
         self.model.set_time(time);
