@@ -8,7 +8,7 @@
 #   make lint    formatting, clippy, ruff, types
 #   make bench   the product against what a user would use instead
 #   make docs    the documentation as pages in site/
-#   make fmu     the library of FMUs, beside the core: part of `make build`
+#   make fmu     the library of FMUs, beside the core: seconds after `make build`; tests and wheel make it too
 
 SHELL := /bin/bash
 VENV := .venv
@@ -67,9 +67,9 @@ $(BUILT): $(VENV)/needs $(RUST)
 
 fmu: $(FMU)
 
-# With both packages named, the kernels are those that the module was built from.
-$(FMU): $(BUILT) $(VENV)/packages
-	@cargo build --release --locked -q -p linkwright-py -p linkwright-fmu --features pyo3/extension-module
+# All crates below it are those of the module, which is built before.
+$(FMU): $(BUILT)
+	@cargo build --release --locked -q -p linkwright-fmu
 	@PYTHONPATH=python $(BIN)/python -m linkwright.fmi.library target/release
 	@touch $@
 
@@ -80,7 +80,7 @@ $(VENV)/packages: constraints.txt pyproject.toml | $(VENV)/needs
 	@$(PIP) -r $@.txt
 	@touch $@
 
-$(INSTALLED): $(BUILT) $(FMU) $(VENV)/packages
+$(INSTALLED): $(BUILT) $(VENV)/packages
 	@$(PIP) --no-deps --no-build-isolation -e .
 	@touch $@
 
@@ -111,12 +111,12 @@ rust-test: $(BUILT)
 	cargo test --release --workspace --features pyo3/extension-module --locked
 	@test "$$(uname)" != Linux || $(BIN)/python benches/code_size.py
 
-python-test: $(TOOLS)
+python-test: $(TOOLS) $(FMU)
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal --ignore=$(PRINTED)
 
 # The module is built already, so that the wheel is only packed. Its environment borrows the dependencies alone.
 WHEEL := $(CURDIR)/$(VENV)/wheel
-wheel-test: $(TOOLS)
+wheel-test: $(TOOLS) $(FMU)
 	rm -rf $(WHEEL)
 	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/maturin build --release --locked -q -o $(WHEEL)/dist
 	$(PYTHON) -m venv --without-pip $(WHEEL)/env
@@ -139,7 +139,7 @@ studio-test: $(TOOLS)
 
 MINUTES ?= 60
 
-test-deep: $(TOOLS)
+test-deep: $(TOOLS) $(FMU)
 	LINKWRIGHT_DEEP=1 $(BIN)/python -m pytest -n $(CORES) --dist worksteal -m "deep or hypothesis"
 	$(BIN)/python tests/fuzz/deep.py --minutes $(MINUTES) --jobs $(CORES)
 

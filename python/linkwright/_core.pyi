@@ -1354,13 +1354,15 @@ def fmu_machine(
     driveline: Mapping[str, Any] | None = None,
     brake: int | None = None,
     scales: Sequence[tuple[int, float]] = ...,
+    ranges: Sequence[tuple[int, float, float]] = ...,
 ) -> FmuMachine:
     """A machine with its motor as data.
 
     `motor`: direction in which the motor drives, +1 or −1; `start`: crank angle [rad] and speed [rad/s].
     `parameters`: values v₀ and what each changes, slots with factors k and powers p: a slot changes by
     k (vᵖ − v₀ᵖ); behind those of the plan are the numbers of the driveline. `brake`: mass on which the brake
-    acts, else the crank; `scales`: value references, and what their numbers are read times.
+    acts, else the crank; `scales`: value references, and what their numbers are read times; `ranges`: value
+    references, and between which numbers they may be set.
     """
 
 def driveline_in_time(

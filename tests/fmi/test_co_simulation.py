@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import Unpacked
-from fmus import opened
+from fmus import combined, opened
 
 import linkwright as lw
 from linkwright.linkages.law import PolynomialLaw
@@ -28,8 +28,11 @@ def followed(folder: Any, times: np.ndarray, values: Any = (), tolerance: float 
         return np.array(unit.run(list(times), "crank_angle", "crank_speed")).T
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", ["roller_two_carts", "press_from_rest", "fan_by_formula", "roller_cam"])
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("name", "version"),
+    combined(["roller_two_carts", "press_from_rest", "fan_by_formula", "roller_cam"], VERSIONS),
+)
 def test_a_run_up_is_that_of_transient(name: str, version: str, unpacked: Unpacked) -> None:
     """From rest to work, a drive runs up in a tool as in `transient`, to 1e-8 of angle and speed."""
     machine = lw.read(name)

@@ -7,7 +7,7 @@ from conftest import Unpacked
 from fmus import opened
 
 import linkwright as lw
-from linkwright.fmi.variables import Variable
+from linkwright.fmi.variables import Group, Variable
 
 NAMES = ("crank_acceleration", "torque_motor", "torque_drive", "torque_load", "inertia_reduced")
 
@@ -16,7 +16,7 @@ NAMES = ("crank_acceleration", "torque_motor", "torque_drive", "torque_load", "i
 def test_a_parameter_is_the_entry_of_the_file(name: str, unpacked: Unpacked) -> None:
     """Each parameter, set to another value, gives the acceleration that `transient` has of that file."""
     machine = lw.read(name)
-    parameters = lw.fmu(machine).named("parameter")
+    parameters = entries(machine)
     assert len(parameters) >= 6
     with opened(unpacked(machine)) as unit:
         unit.start({"crank_angle": 0.6, "crank_speed": 5.0})
@@ -35,10 +35,16 @@ def test_a_parameter_is_the_entry_of_the_file(name: str, unpacked: Unpacked) -> 
         assert unit.get("crank_acceleration") == [before]
 
 
+def entries(machine: lw.Machine) -> list[Variable]:
+    """Parameters that are entries of the file."""
+    return [each for each in lw.fmu(machine).named("parameter") if each.group == Group.PARAMETER]
+
+
 def changed_value(variable: Variable) -> float:
     """Another value of a parameter, within its bounds."""
-    value, high = 1.25 * float(variable.start or 0.004), variable.bounds[1]
-    return value if high is None or value <= high else 0.8 * float(variable.start or 0.0)
+    value = 1.25 * float(variable.start or 0.004)
+    assert variable.bounds is not None
+    return value if value <= variable.bounds[1] else 0.8 * float(variable.start or 0.0)
 
 
 def entry_of(machine: lw.Machine, name: str) -> str:
@@ -50,7 +56,7 @@ def entry_of(machine: lw.Machine, name: str) -> str:
 def test_several_parameters_at_once(unpacked: Unpacked) -> None:
     """All parameters changed together are the file with all of these entries."""
     machine = lw.read("roller_two_carts")
-    parameters = [v for v in lw.fmu(machine).named("parameter") if v.start and v.bounds[1] is None]
+    parameters = [v for v in entries(machine) if v.start and v.bounds and v.bounds[1] > 1]
     values = {variable.name: 1.2 * float(variable.start or 0.0) for variable in parameters}
     changed = lw.replace(machine, {entry_of(machine, name): value for name, value in values.items()})
     start = {"crank_angle": 2.1, "crank_speed": 8.0}

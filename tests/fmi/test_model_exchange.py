@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conftest import Unpacked
-from fmus import opened, simulated
+from fmus import combined, opened, simulated
 
 import linkwright as lw
 
 VERSIONS = ("2.0", "3.0")
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", ["roller_two_carts", "press_from_rest"])
+@pytest.mark.deep
+@pytest.mark.parametrize(("name", "version"), combined(["roller_two_carts", "press_from_rest"], VERSIONS))
 def test_cvode_runs_it_up(name: str, version: str, unpacked: Unpacked) -> None:
     """CVode at 1e-9 follows a run-up through kinks of dry friction as `transient`, within its own error."""
     machine = lw.read(name)

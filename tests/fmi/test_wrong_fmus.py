@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import stat
 import subprocess
@@ -25,6 +26,8 @@ REFUSED = {
     "topper_crank": ((), "constant_speed"),
     "cam_constant_breadth": ((), "no masses"),
     "rod_string_card": ((), "rod string"),
+    "servo_press": ((), "servo axes"),
+    "excavator_bucket": ((), "cylinders"),
     "roller_two_carts": (("drive.gearbox.reverse=0",), "self-locking"),
 }
 
@@ -154,6 +157,48 @@ def test_wrong_references_and_values(version: str, unpacked: Unpacked) -> None:
                 write([reference], [value])
             assert len(log) > count
         unit.step(0.0, 0.1)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_numbers_beyond_the_range_of_the_file(version: str, unpacked: Unpacked) -> None:
+    """What a machine file may not have, an FMU does not take: a message states value and range of the XML."""
+    wrong = {
+        "bodies.ram.mass": (-5.0, 1e300),
+        "drive.gearbox.efficiency": (0.0, 2.0),
+        "drive.flywheel.inertia": (-1.0,),
+        "brake_torque": (-1.0,),
+        "load_coupling": (-1.0,),
+        "external_torque": (1e300,),
+        "crank_speed": (1e300, -1e300),
+        "crank_angle": (1e30,),
+    }
+    log: list[str] = []
+    with opened(unpacked("press_from_rest", version), logged=log) as unit:
+        before = unit.get(*wrong)
+        for name, values in wrong.items():
+            for value in values:
+                with pytest.raises(Exception, match=r"(?i)set"):
+                    unit.set({name: value})
+                variable = unit.variables[name]
+                low, high = float(variable.min), float(variable.max)
+                assert not low <= value <= high
+                found = [float(x) for x in re.findall(r"(?:found|from|to) (\S+?)(?=,|\s|$)", log[-1])]
+                assert found == [value, low, high]
+        assert unit.get(*wrong) == before
+        unit.start()
+        unit.step(0.0, 0.1)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("tolerance", [float("nan"), -1e-6, 1.0, float("inf")])
+def test_a_tolerance_that_is_none(version: str, tolerance: float, unpacked: Unpacked) -> None:
+    """A tolerance that no step can keep is an error with a message, not the default in silence."""
+    log: list[str] = []
+    unit = Opened(unpacked("roller_one_cart", version), logged=log)
+    with pytest.raises(Exception, match=r"(?i)setupExperiment|enterInitializationMode"):
+        unit.start(tolerance=tolerance)
+    assert "the tolerance is" in log[-1]
+    unit.fmu.freeInstance()
 
 
 @pytest.mark.parametrize("version", VERSIONS)

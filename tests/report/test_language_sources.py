@@ -32,7 +32,7 @@ OTHERS = re.compile(
     r"|outlines/model/.*|finite_elements/(steps|mesh)\.py"
     r"|studies/(point_responses|responses|plan|read|sought|knives|axes|model|engine)\.py|linkages/(law|zero)\.py"
     r"|axes/export/(formats|plain_text|structured_text)\.py"
-    r"|fmi/(variables|description)\.py"
+    r"|fmi/(variables|description|program)\.py"
     r"|(machine/machine|turning/model|machine/program/(compiled|core)|studies/folder|studies/sizes)\.py"
 )
 

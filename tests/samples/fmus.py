@@ -6,6 +6,7 @@ import itertools
 import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 from zipfile import ZipFile
@@ -13,7 +14,8 @@ from zipfile import ZipFile
 import fmpy
 from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Model, FMU3Slave
-from fmpy.model_description import read_model_description
+from fmpy.model_description import ModelDescription, read_model_description
+from sizes import DEEP
 
 # Content that a test unpacks at most, and how much smaller it may be packed.
 _BYTES_MAX = 200_000_000
@@ -38,11 +40,24 @@ def unpack(path: Path, folder: Path) -> Path:
     return folder
 
 
+@lru_cache(maxsize=4)
+def described(folder: Path) -> ModelDescription:
+    """The description of an FMU that was unpacked: to read it takes longer than to instantiate the FMU."""
+    return read_model_description(str(folder), validate=False)
+
+
+def combined(names: Sequence[str], versions: Sequence[str]) -> list[tuple[str, str]]:
+    """Names with versions of FMI: all pairs in `make test-deep`, else each name with one version in turn."""
+    if DEEP:
+        return list(itertools.product(names, versions))
+    return list(zip(names, itertools.cycle(versions)))
+
+
 class Opened:
     """An instance of an FMU: variables by name, calls the same in both versions."""
 
     def __init__(self, folder: Path, *, exchange: bool = False, logged: list[str] | None = None) -> None:
-        self.description = read_model_description(str(folder), validate=False)
+        self.description = described(folder)
         self.exchange, self.log = exchange, [] if logged is None else logged
         self.is_3 = self.description.fmiVersion.startswith("3")
         self.variables = {variable.name: variable for variable in self.description.modelVariables}

@@ -165,7 +165,19 @@ pub(crate) fn driveline_in_time(
         return Err(PyValueError::new_err("driveline: state or brakes have another number of masses"));
     }
     let torques = vec![0.0; brakes.len()];
-    let start = Start { state, brakes, torques, supply: 1.0, time, motor, speed, until, turns, accuracy };
+    let start = Start {
+        state,
+        brakes,
+        torques,
+        coupling: 0.0,
+        supply: 1.0,
+        time,
+        motor,
+        speed,
+        until,
+        turns,
+        accuracy,
+    };
     let (trajectory, measures) = guarded(py, ANALYSIS, || {
         let equation = Equation { plan: &known.get().0, q: &q, chain: &chain };
         let trajectory = follow(equation, &start);

@@ -23,7 +23,7 @@ pub(crate) struct FmuMachine {
 }
 
 #[pyfunction]
-#[pyo3(signature = (plan, q, *, motor, start, accuracy, parameters, token, driveline=None, brake=None, scales=Vec::new()))]
+#[pyo3(signature = (plan, q, *, motor, start, accuracy, parameters, token, driveline=None, brake=None, scales=Vec::new(), ranges=Vec::new()))]
 pub(crate) fn fmu_machine(
     py: Python<'_>,
     plan: &Plan,
@@ -36,11 +36,13 @@ pub(crate) fn fmu_machine(
     driveline: Option<Driveline<'_>>,
     brake: Option<usize>,
     scales: Vec<(u32, f64)>,
+    ranges: Vec<(u32, f64, f64)>,
 ) -> PyResult<FmuMachine> {
     let chain = driveline.map_or_else(|| Ok(rigid()), |driveline| driveline.chain())?;
     let data = Data {
         brake: brake.unwrap_or(chain.masses() - 1),
         scales,
+        ranges,
         q: plan.parameters(&q)?.to_vec(),
         plan: plan.0.clone(),
         chain,

@@ -7,7 +7,7 @@ use linkwright_driveline::chain::{Chain, Source, Torque};
 use serde::{Deserialize, Serialize};
 
 /// First bytes of the data; the last is the number of their layout.
-const MARK: &[u8; 4] = b"LWF1";
+const MARK: &[u8; 4] = b"LWF2";
 
 /// Bytes before the parts.
 const HEAD: usize = 16;
@@ -42,6 +42,8 @@ pub struct Data {
     pub brake: usize,
     /// Value references whose numbers are read times a factor: parts that turn at a speed of their own.
     pub scales: Vec<(u32, f64)>,
+    /// Value references that may be set within a range alone, with its ends.
+    pub ranges: Vec<(u32, f64, f64)>,
     /// What the description of the variables is known by.
     pub token: String,
 }
@@ -103,7 +105,7 @@ impl Data {
 
     /// Whether lists are as long as they must be.
     fn check(&self) -> Result<(), Fault> {
-        let Data { plan, q, chain, motor, start, accuracy, parameters, brake, scales, .. } = self;
+        let Data { plan, q, chain, motor, start, accuracy, parameters, brake, scales, ranges, .. } = self;
         let numbers = q.len() + chain.numbers().len();
         let slots = parameters.iter().flat_map(|one| &one.effects).all(|&(slot, ..)| slot < numbers);
         let is_moving = !chain.drivers.iter().any(|driver| matches!(driver.source, Source::Held(_)));
@@ -114,7 +116,12 @@ impl Data {
                 Err(Fault::Damaged("a number is missing"))
             }
             () if !is_moving => Err(Fault::Damaged("a motor keeps its speed")),
-            () if !finite || motor.abs() != 1.0 => Err(Fault::Damaged("a number is out of range")),
+            () if !finite
+                || motor.abs() != 1.0
+                || ranges.iter().any(|(_, low, high)| low.is_nan() || high.is_nan()) =>
+            {
+                Err(Fault::Damaged("a number is out of range"))
+            }
             () => Ok(()),
         }
     }

@@ -19,7 +19,7 @@ pub enum Fault {
     /// A value that may not be set, or not now.
     Fixed(u32),
     /// A value out of its range.
-    Value { reference: u32, value: f64, expected: &'static str },
+    Value { reference: u32, value: f64, range: [f64; 2] },
     /// No derivative by this, or of this.
     Derivative(u32),
     /// A list of another length.
@@ -54,8 +54,11 @@ impl fmt::Display for Fault {
             ),
             Fault::Reference(reference) => write!(f, "value reference {reference}: no variable of this type"),
             Fault::Fixed(reference) => write!(f, "value reference {reference}: the variable cannot be set"),
-            Fault::Value { reference, value, expected } => {
-                write!(f, "value reference {reference}: found {value}, expected {expected}")
+            Fault::Value { reference, value, range: [low, high] } => {
+                write!(
+                    f,
+                    "value reference {reference}: found {value:?}, expected a number from {low:?} to {high:?}"
+                )
             }
             Fault::Derivative(reference) => {
                 write!(f, "value reference {reference}: no derivative of or with respect to this variable")

@@ -5,6 +5,7 @@
 //! J_i a_i = M_d(w_i) + Σ T,   J(φ) a + ½ J′(φ) ω² = Σ T − M_r(φ, ω, t)
 //! ```
 
+use crate::outside::Outside;
 use linkwright_core::drive::structure::Plan;
 use linkwright_core::linkage::motion::Motion;
 use linkwright_driveline::chain::{Chain, Source, Torque};
@@ -21,11 +22,9 @@ pub struct Around<'a, N> {
     pub motor: f64,
     /// Share of their torque that is there.
     pub supply: f64,
-    /// Torque on the crank, counter-clockwise \[N m\].
-    pub torque: N,
-    /// Torque of the brake, referred to the crank \[N m\].
-    pub brake: N,
-    /// Mass on which it acts.
+    /// Torques and the speed of a load.
+    pub outside: Outside<N>,
+    /// Mass on which the brake acts.
     pub braked: usize,
     /// Speed below which laws are taken at rest \[rad/s\].
     pub slow: f64,
@@ -59,6 +58,8 @@ pub struct Instant<N> {
     drive: N,
     /// Torque of the loads, referred to the crank \[N m\].
     load: N,
+    /// Torque of the coupling with the load on the crank \[N m\].
+    coupled: N,
     /// Inertia of the mechanism and the drive at the crank \[kg m²\].
     inertia: N,
     /// Kinetic energy \[J\].
@@ -93,25 +94,29 @@ impl<N: Real> Instant<N> {
     /// Of a machine in a state.
     pub fn of(plan: &Plan, q: &[N], chain: &Chain<N>, y: Vec<N>, around: &Around<'_, N>) -> Self {
         let (n, zero) = (chain.masses(), N::splat(0.0));
-        let phi = y[2 * (n - 1) + 1];
+        let (phi, omega, outside) = (y[2 * (n - 1) + 1], chain.speed(n - 1, &y), &around.outside);
+        let coupled = outside.coupled(omega);
+        let torque = outside.torque + coupled;
+        let braking = outside.brake * direction(around.senses[around.braked]);
         let mut instant = Instant {
             motion: Motion::new(&plan.mechanism, q),
             angle: (0..n).map(|mass| chain.angle(mass, phi, &y)).collect(),
             speed: (0..n).map(|mass| chain.speed(mass, &y)).collect(),
             acceleration: vec![zero; n],
             links: Vec::new(),
-            motor_speed: chain.speed(n - 1, &y) * q[plan.drive.ratio],
+            motor_speed: omega * q[plan.drive.ratio],
             motor: zero,
             power: zero,
             drive: zero,
-            load: around.brake * direction(around.senses[around.braked]) - around.torque,
+            load: braking - torque,
+            coupled,
             inertia: zero,
             kinetic: zero,
             y,
         };
         let mut net = vec![zero; n];
-        net[n - 1] = around.torque;
-        net[around.braked] = net[around.braked] - around.brake * direction(around.senses[around.braked]);
+        net[n - 1] = torque;
+        net[around.braked] = net[around.braked] - braking;
         instant.add_links(chain, around, &mut net);
         let equation = Equation { plan, q, chain };
         chain.drivers.iter().for_each(|driver| instant.add_driver(equation, driver, around, &mut net));
@@ -254,10 +259,9 @@ impl<N: Real> Instant<N> {
     }
 
     /// Torque of the motor at its shaft, torque at the crank behind the gearbox, load torque, inertia at the crank, power at the
-    /// shafts, kinetic energy, speed of the motor.
+    /// shafts, kinetic energy, speed of the motor, torque of the coupling with the load.
     pub fn crank(&self, n: usize) -> Option<N> {
-        let all =
-            [self.motor, self.drive, self.load, self.inertia, self.power, self.kinetic, self.motor_speed];
-        all.get(n).copied()
+        let Instant { motor, drive, load, inertia, power, kinetic, motor_speed, coupled, .. } = *self;
+        [motor, drive, load, inertia, power, kinetic, motor_speed, coupled].get(n).copied()
     }
 }

@@ -6,6 +6,7 @@
 //! | [`fault`] | what went wrong |
 //! | [`quantity`] | what a value reference stands for |
 //! | [`instant`] | torques, accelerations and outputs at one instant, in plain numbers or duals |
+//! | [`outside`] | torques, a brake and a load behind a coupling, as the other program applies them |
 //! | [`numbers`] | the numbers of the machine for values of its parameters |
 //! | [`model`] | the machine with its state, and its values by reference |
 //! | [`slopes`] | derivatives of values by states, inputs and parameters |
@@ -18,6 +19,7 @@ pub mod fault;
 pub mod instant;
 pub mod model;
 pub mod numbers;
+pub mod outside;
 pub mod quantity;
 pub mod slopes;
 pub mod stepping;

@@ -4,6 +4,7 @@ use crate::data::Data;
 use crate::fault::Fault;
 use crate::instant::{Around, Instant};
 use crate::numbers::plain;
+use crate::outside::Outside;
 use crate::quantity::Quantity;
 use linkwright_driveline::chain::Chain;
 use linkwright_driveline::equation::Equation;
@@ -34,8 +35,8 @@ pub struct State {
     pub y: Vec<f64>,
     /// Whether the supply is on.
     pub supply: bool,
-    /// Torque on the crank from outside, and of the brake \[N m\].
-    pub outside: [f64; 2],
+    /// What the other program applies.
+    pub outside: Outside<f64>,
     /// Values of the parameters.
     pub parameters: Vec<f64>,
     /// Relative accuracy of a step.
@@ -69,7 +70,7 @@ impl Model {
             time: 0.0,
             y,
             supply: true,
-            outside: [0.0; 2],
+            outside: Outside::default(),
             parameters: data.parameters.iter().map(|one| one.value).collect(),
             accuracy: data.accuracy,
             modes: None,
@@ -128,7 +129,7 @@ impl Model {
 
     /// What is to be followed until a time.
     pub(crate) fn start(&self, until: f64) -> Start {
-        let State { time, ref y, supply, outside: [torque, brake], accuracy, .. } = self.state;
+        let State { time, ref y, supply, outside, accuracy, .. } = self.state;
         let masses = self.chain.masses();
         let on = |mass: usize, x: f64| {
             let mut list = vec![0.0; masses];
@@ -139,9 +140,10 @@ impl Model {
             state: y.clone(),
             time,
             motor: self.data.motor,
-            brakes: on(self.data.brake, brake),
+            brakes: on(self.data.brake, outside.brake),
             supply: f64::from(u8::from(supply)),
-            torques: on(masses - 1, torque),
+            torques: on(masses - 1, outside.torque + outside.coupled(0.0)),
+            coupling: outside.coupling,
             speed: self.speed(),
             until,
             turns: f64::INFINITY,
@@ -184,21 +186,19 @@ impl Model {
             Some(known) => known,
             None => {
                 let modes = self.modes();
-                let [torque, brake] = self.state.outside;
-                let around = self.around(&modes, torque, brake);
+                let around = self.around(&modes, self.state.outside);
                 Instant::of(&self.data.plan, &self.q, &self.chain, self.state.y.clone(), &around)
             }
         };
         self.instant.insert(instant)
     }
 
-    pub(crate) fn around<'a, N>(&self, modes: &'a Modes, torque: N, brake: N) -> Around<'a, N> {
+    pub(crate) fn around<'a, N>(&self, modes: &'a Modes, outside: Outside<N>) -> Around<'a, N> {
         Around {
             time: self.state.time,
             motor: self.data.motor,
             supply: f64::from(u8::from(self.state.supply)),
-            torque,
-            brake,
+            outside,
             braked: self.data.brake,
             slow: SLOW * self.speed(),
             senses: modes.senses(),
@@ -212,11 +212,10 @@ impl Model {
     /// There is none of this reference.
     pub fn number(&mut self, reference: u32) -> Result<f64, Fault> {
         let missing = Fault::Reference(reference);
-        let State { time, outside: [torque, brake], ref parameters, .. } = self.state;
+        let State { time, mut outside, ref parameters, .. } = self.state;
         match Quantity::of(reference)? {
             Quantity::Time => Ok(time),
-            Quantity::Torque => Ok(torque),
-            Quantity::Brake => Ok(brake),
+            Quantity::Outside(n) => outside.part(n).copied().ok_or(missing),
             Quantity::Parameter(n) => parameters.get(n).copied().ok_or(missing),
             Quantity::Indicator(n) => self.indicators()?.get(n).copied().ok_or(missing),
             quantity => {
@@ -229,6 +228,12 @@ impl Model {
     /// What a number is read times.
     pub(crate) fn scale(&self, reference: u32) -> f64 {
         self.data.scales.iter().find(|(of, _)| *of == reference).map_or(1.0, |&(_, factor)| factor)
+    }
+
+    /// Between which numbers a number may be set: those of its range, else any.
+    fn range(&self, reference: u32) -> [f64; 2] {
+        let known = self.data.ranges.iter().find(|(of, ..)| *of == reference);
+        known.map_or([f64::MIN, f64::MAX], |&(_, low, high)| [low, high])
     }
 
     /// Whether something holds.
@@ -256,14 +261,14 @@ impl Model {
     /// # Errors
     /// There is none of this reference, it may not be set, or its value is out of range.
     pub fn set_number(&mut self, reference: u32, value: f64) -> Result<(), Fault> {
-        let wrong = |expected| Fault::Value { reference, value, expected };
-        if !value.is_finite() {
-            return Err(wrong("a finite number"));
+        let range = self.range(reference);
+        if !(range[0]..=range[1]).contains(&value) {
+            return Err(Fault::Value { reference, value, range });
         }
         match Quantity::of(reference)? {
-            Quantity::Torque => self.state.outside[0] = value,
-            Quantity::Brake if value < 0.0 => return Err(wrong("a brake torque of 0 or more")),
-            Quantity::Brake => self.state.outside[1] = value,
+            Quantity::Outside(n) => {
+                *self.state.outside.part(n).ok_or(Fault::Reference(reference))? = value;
+            }
             Quantity::Parameter(n) => {
                 let place = self.state.parameters.get_mut(n).ok_or(Fault::Reference(reference))?;
                 *place = value;

@@ -9,10 +9,8 @@ use linkwright_kernel::real::Real;
 pub enum Quantity {
     /// Time \[s\].
     Time,
-    /// Torque on the crank from outside, counter-clockwise \[N m\].
-    Torque,
-    /// Torque of the brake at the crank \[N m\].
-    Brake,
+    /// What the other program applies ([`crate::outside::Outside::part`]).
+    Outside(usize),
     /// A parameter.
     Parameter(usize),
     /// A state: angle and speed of the crank, then twists of the other masses against it and their speeds against it.
@@ -49,8 +47,7 @@ impl Quantity {
         Ok(match (kind, n) {
             (0, 0) => Quantity::Time,
             (1, 0) => Quantity::Supply,
-            (1, 1) => Quantity::Torque,
-            (1, 2) => Quantity::Brake,
+            (1, n) => Quantity::Outside(n - 1),
             (2, n) => Quantity::Parameter(n),
             (3, n) => Quantity::State(n),
             (4, n) => Quantity::Rate(n),

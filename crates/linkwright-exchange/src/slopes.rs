@@ -23,13 +23,12 @@ impl Model {
         }
         let modes = self.modes();
         let mut y: Vec<_> = self.state.y.iter().copied().map(Dual::constant).collect();
-        let [mut torque, mut brake] = self.state.outside.map(Dual::constant);
+        let mut outside = self.state.outside.lifted();
         let mut ways = vec![0.0; self.state.parameters.len()];
         for (&reference, &d) in knowns.iter().zip(direction) {
             let none = Fault::Derivative(reference);
             match Quantity::of(reference)? {
-                Quantity::Torque => torque.d += d,
-                Quantity::Brake => brake.d += d,
+                Quantity::Outside(n) => outside.part(n).ok_or(none)?.d += d,
                 Quantity::Parameter(n) => *ways.get_mut(n).ok_or(none)? += d,
                 Quantity::State(n) if n < y.len() => {
                     y[Instant::<f64>::place(n, self.chain.masses() - 1)].d += d;
@@ -38,7 +37,7 @@ impl Model {
             }
         }
         let (q, chain) = along(&self.data, &self.state.parameters, &ways);
-        let around = self.around(&modes, torque, brake);
+        let around = self.around(&modes, outside);
         let instant = Instant::of(&self.data.plan, &q, &chain, y, &around);
         let of = |&reference: &u32| {
             let found = Quantity::of(reference)?.at(&instant).ok_or(Fault::Derivative(reference))?;

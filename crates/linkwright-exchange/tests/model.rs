@@ -12,12 +12,15 @@ use linkwright_exchange::{Data, Fault, Model, Parameter, Purpose};
 const SUPPLY: u32 = 1 << 16;
 const TORQUE: u32 = SUPPLY + 1;
 const BRAKE: u32 = SUPPLY + 2;
+const LOAD_SPEED: u32 = SUPPLY + 3;
+const COUPLING: u32 = SUPPLY + 4;
 const STIFF_TORQUE: u32 = 2 << 16;
 const INERTIA: u32 = STIFF_TORQUE + 1;
 const ANGLE: u32 = 3 << 16;
 const SPEED: u32 = ANGLE + 1;
 const ACCELERATION: u32 = (4 << 16) + 1;
 const KINETIC: u32 = (6 << 16) + 5;
+const COUPLED: u32 = (6 << 16) + 7;
 const AT_REST: u32 = (6 << 16) + 16;
 const SLIDE_SPEED: u32 = (9 << 16) + 1;
 
@@ -98,6 +101,7 @@ fn machine(piston: Option<f64>, growth: Option<f64>) -> Data {
         ],
         brake: 0,
         scales: Vec::new(),
+        ranges: vec![(BRAKE, 0.0, 1e9), (STIFF_TORQUE, 1e-9, 1e9)],
         token: "{rotor}".to_owned(),
     }
 }
@@ -154,6 +158,26 @@ fn a_brake_stops_and_holds() {
     close(number(&mut model, SPEED), -4.0 / J, 1e-10);
 }
 
+/// A load at a constant speed takes a rotor without supply along: ω = ω_L (1 − exp(−c t/J)), whatever the steps; however stiff the
+/// coupling, in few steps.
+#[test]
+fn a_load_takes_the_rotor_along() {
+    for (coupling, steps) in [(3.0, 1), (3.0, 40), (3e6, 1)] {
+        let mut model = begun(data(None), Purpose::Stepping);
+        model.set_truth(SUPPLY, false).expect("an input");
+        model.set_number(LOAD_SPEED, -8.0).expect("an input");
+        model.set_number(COUPLING, coupling).expect("a parameter");
+        let (rate, until) = (coupling / J, 2.0);
+        for step in 1..=steps {
+            model.step(until * f64::from(step) / f64::from(steps)).expect("a step");
+        }
+        let decay = (-rate * until).exp();
+        close(number(&mut model, SPEED), -8.0 * (1.0 - decay), 1e-10);
+        close(number(&mut model, ANGLE), 0.3 - 8.0 * (until - (1.0 - decay) / rate), 1e-9);
+        close(number(&mut model, COUPLED), -8.0 * coupling * decay, 1e-9 * (1.0 + coupling));
+    }
+}
+
 /// A torque c t takes a rotor on from its brake at t = M/c, whatever the steps; then ω = c (t − M/c)²/(2 J).
 #[test]
 fn a_torque_over_time_takes_on_what_is_held() {
@@ -194,14 +218,36 @@ fn energy_is_lost_to_the_dry_load_alone() {
     close(before - number(&mut model, KINETIC), 20.0 * (x(0.3) - x(phi)), 1e-10);
 }
 
+/// A number out of its range, or none, is refused with the range, and what was set before stays.
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let mut model = begun(data(None), Purpose::Stepping);
+    let wrong = [
+        (BRAKE, -1.0),
+        (STIFF_TORQUE, 0.0),
+        (STIFF_TORQUE, 2e9),
+        (TORQUE, f64::NAN),
+        (INERTIA, f64::INFINITY),
+    ];
+    for (reference, value) in wrong {
+        let before = number(&mut model, reference);
+        let fault = model.set_number(reference, value).expect_err("out of range");
+        assert!(matches!(fault, Fault::Value { .. }), "{fault}");
+        assert_eq!(number(&mut model, reference), before);
+    }
+    model.set_number(STIFF_TORQUE, 1e-9).expect("the end of the range");
+}
+
 /// Derivatives by states, inputs and parameters are those of differences of order 4.
 #[test]
 fn derivatives_are_those_of_differences() {
     let mut start = data(Some(3.0));
     start.start = [0.7, 11.0];
     let mut model = begun(start, Purpose::Exchange);
-    for known in [ANGLE, SPEED, TORQUE, BRAKE, STIFF_TORQUE, INERTIA] {
-        let unknowns = [ACCELERATION, SLIDE_SPEED, KINETIC];
+    model.set_number(LOAD_SPEED, 14.0).expect("an input");
+    model.set_number(COUPLING, 5.0).expect("an input");
+    for known in [ANGLE, SPEED, TORQUE, BRAKE, LOAD_SPEED, COUPLING, STIFF_TORQUE, INERTIA] {
+        let unknowns = [ACCELERATION, SLIDE_SPEED, KINETIC, COUPLED];
         let exact = model.derivative(&unknowns, &[known], &[1.0]).expect("derivatives");
         let mut other = begun(data(Some(3.0)), Purpose::Exchange);
         other.restore(model.saved(), false).expect("the state");

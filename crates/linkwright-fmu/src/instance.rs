@@ -7,6 +7,7 @@ use linkwright_exchange::data::Data;
 use linkwright_exchange::{Fault, Model, Purpose};
 use std::cell::RefCell;
 use std::ffi::{c_int, c_void};
+use std::mem::ManuallyDrop;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
@@ -65,7 +66,8 @@ pub(crate) struct Instance {
 pub(crate) static INSTANCES: Handles = Handles::new();
 
 thread_local! {
-    static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+    /// Without a destructor: one at the end of a thread would keep the library loaded.
+    static PANIC: RefCell<ManuallyDrop<String>> = const { RefCell::new(ManuallyDrop::new(String::new())) };
 }
 
 /// Keeps the message of a panic for the log, in place of one on standard error.
@@ -74,7 +76,7 @@ fn keep_panics() {
     KEPT.call_once(|| {
         std::panic::set_hook(Box::new(|info| {
             let text = info.to_string().replace('\n', " ");
-            PANIC.with_borrow_mut(|kept| *kept = text);
+            PANIC.with_borrow_mut(|kept| **kept = text);
         }));
     });
 }
@@ -83,7 +85,7 @@ fn keep_panics() {
 fn guarded<T>(work: impl FnOnce() -> Result<T, Trouble>) -> Result<T, Trouble> {
     keep_panics();
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-        let text = PANIC.with_borrow(|kept| format!("the library contradicts itself: {kept}"));
+        let text = PANIC.with_borrow(|kept| format!("the library contradicts itself: {}", **kept));
         Err(Trouble { status: FATAL, text })
     })
 }
@@ -170,7 +172,12 @@ impl Instance {
         if !time.is_finite() {
             return Err(Trouble::error("the start time is not a finite number"));
         }
-        if let Some(tolerance) = tolerance {
+        // Some programs write 0 where they ask for none.
+        if let Some(tolerance) = tolerance.filter(|&tolerance| tolerance != 0.0) {
+            if !(0.0..1.0).contains(&tolerance) {
+                let text = format!("the tolerance is {tolerance:?}: expected a number above 0 and below 1");
+                return Err(Trouble::error(&text));
+            }
             self.model.set_accuracy(tolerance);
         }
         self.model.set_time(time);

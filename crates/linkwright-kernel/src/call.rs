@@ -10,6 +10,7 @@
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::any::Any;
 use std::cell::{Cell, RefCell};
+use std::mem::ManuallyDrop;
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -51,7 +52,9 @@ struct Lookout {
 }
 
 thread_local! {
-    static CALL: RefCell<Option<Arc<Call>>> = const { RefCell::new(None) };
+    /// The call, which is put back by a guard and needs no destructor: one at the end of a thread would keep a library loaded that
+    /// another program wants to unload.
+    static CALL: RefCell<ManuallyDrop<Option<Arc<Call>>>> = const { RefCell::new(ManuallyDrop::new(None)) };
     static LOOKOUT: Cell<Option<Lookout>> = const { Cell::new(None) };
 }
 
@@ -64,6 +67,16 @@ pub fn run<T>(look: Inquiry, work: impl FnOnce() -> T) -> Result<T, Failure> {
     let lookout = Lookout { look, due: Instant::now() + PERIOD };
     let _here = CallGuard::enter(Some(call.clone()), Some(lookout));
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| call.failure(payload.as_ref()))
+}
+
+/// The call that this thread works for.
+fn current() -> Option<Arc<Call>> {
+    CALL.with_borrow(|call| (**call).clone())
+}
+
+/// Another call in its place; the one before.
+fn exchanged(call: Option<Arc<Call>>) -> Option<Arc<Call>> {
+    ManuallyDrop::into_inner(CALL.replace(ManuallyDrop::new(call)))
 }
 
 /// Unwinds if the call that this thread works for is no longer wanted; costs some ten nanoseconds.
@@ -83,7 +96,7 @@ fn look() -> bool {
     }
     LOOKOUT.set(Some(Lookout { look, due: now + PERIOD }));
     // Looking may make calls of its own, so nothing is borrowed meanwhile.
-    let (reason, call) = (look(), CALL.with_borrow(Clone::clone));
+    let (reason, call) = (look(), current());
     let (Some(reason), Some(call)) = (reason, call) else { return false };
     *call.reason.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
     call.is_over.store(true, Ordering::Relaxed);
@@ -93,7 +106,8 @@ fn look() -> bool {
 /// Keeps message and place of a panic for the call that this thread works for, to be installed as part of a panic hook;
 /// `false` if there is no call.
 pub fn keep_panic(info: &PanicHookInfo<'_>) -> bool {
-    let Ok(Some(call)) = CALL.try_with(|call| call.try_borrow().ok().and_then(|call| call.clone())) else {
+    let Ok(Some(call)) = CALL.try_with(|call| call.try_borrow().ok().and_then(|call| (**call).clone()))
+    else {
         return false;
     };
     let place = info.location().map_or(String::new(), |at| format!(" ({}:{})", at.file(), at.line()));
@@ -127,13 +141,13 @@ struct CallGuard {
 
 impl CallGuard {
     fn enter(call: Option<Arc<Call>>, lookout: Option<Lookout>) -> Self {
-        CallGuard { before: (CALL.replace(call), LOOKOUT.replace(lookout)) }
+        CallGuard { before: (exchanged(call), LOOKOUT.replace(lookout)) }
     }
 }
 
 impl Drop for CallGuard {
     fn drop(&mut self) {
-        CALL.set(self.before.0.take());
+        drop(exchanged(self.before.0.take()));
         LOOKOUT.set(self.before.1);
     }
 }
@@ -153,7 +167,7 @@ impl Crew {
 /// Does work that is divided among threads, each part of it a [`Crew::task`], while this thread looks whether the call is
 /// still wanted. Within a pool of threads it stays there.
 pub fn in_threads<T: Send>(work: impl FnOnce(&Crew) -> T + Send) -> T {
-    let crew = Crew(CALL.with_borrow(Clone::clone));
+    let crew = Crew(current());
     if rayon::current_thread_index().is_some() {
         return work(&crew);
     }

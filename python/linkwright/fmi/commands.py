@@ -13,7 +13,8 @@ from linkwright.kernel.later import later
 from linkwright.machine.file_argument import File
 
 Fmi = Annotated[
-    Literal["2", "3"], Option("--fmi", help="Version of FMI. All tools import 2.0, fewer import 3.0.")
+    Literal["2", "3", "2.0", "3.0"],
+    Option("--fmi", help="Version of FMI. All tools import 2.0, fewer import 3.0."),
 ]
 Accuracy = Annotated[
     float,
@@ -23,7 +24,7 @@ Accuracy = Annotated[
 ]
 To = Annotated[Output, to_file("Write the FMU there, a file .fmu.")]
 
-_VERSIONS: dict[str, Literal["2.0", "3.0"]] = {"2": "2.0", "3": "3.0"}
+_VERSIONS: dict[str, Literal["2.0", "3.0"]] = {"2": "2.0", "3": "3.0", "2.0": "2.0", "3.0": "3.0"}
 
 
 def fmu(
@@ -60,7 +61,8 @@ def fmu(
         Answer(
             machine=machine,
             results={"fmu": unit},
-            names={variable.name for variable in unit.variables},
+            # The version is a name too: 2.0 everywhere.
+            names={unit.version, *(variable.name for variable in unit.variables)},
             tables=later("fmi.tables:fmu_tables", unit),
             machine_file=lambda: unit.data,
         )

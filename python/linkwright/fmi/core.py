@@ -43,12 +43,14 @@ def machine_data(
     driveline: Mapping[str, Any] | None = None,
     brake: int | None = None,
     scales: Sequence[tuple[int, float]] = (),
+    ranges: Sequence[tuple[int, float, float]] = (),
 ) -> MachineData:
     """Plan and numbers of a machine, with what may be changed in them.
 
     `token`: of the instantiation; `numbers`: others than those of the machine; `driveline`: its masses and
     links, where it is elastic; `brake`: mass on which the brake acts, else the crank; `scales`: value
-    references, and factors of what the library has of them.
+    references, and factors of what the library has of them; `ranges`: value references, and between which
+    numbers they may be set.
     """
     require("fmu_machine")
     made = _core.fmu_machine(
@@ -62,5 +64,6 @@ def machine_data(
         driveline=driveline,
         brake=brake,
         scales=scales,
+        ranges=ranges,
     )
     return MachineData(made.data, made.states, made.event_indicators)

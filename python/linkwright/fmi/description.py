@@ -198,9 +198,7 @@ def _typed(of: Description, variable: Variable, place: Callable[[str], str]) -> 
         attributes["unit"] = unit_name(variable.unit)
         attributes |= of.displayed(attributes["unit"])
     attributes |= {
-        name: repr(float(bound))
-        for name, bound in zip(("min", "max"), variable.bounds, strict=True)
-        if bound is not None
+        name: repr(float(bound)) for name, bound in zip(("min", "max"), variable.bounds or (), strict=False)
     }
     if variable.start is not None:
         attributes["start"] = str(variable.start).lower() if variable.is_bool else repr(float(variable.start))

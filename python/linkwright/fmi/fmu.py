@@ -152,6 +152,7 @@ def _assembled(
         driveline=None if program.chain is None else program.chain.core,
         brake=program.brake_mass,
         scales=[(variable.reference, variable.factor) for variable in variables if variable.factor != 1.0],
+        ranges=[(variable.reference, *variable.bounds) for variable in variables if variable.bounds],
     )
     data = made()
 

@@ -12,6 +12,7 @@ translated anew with other values of the entry.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -58,7 +59,7 @@ class Adjustable(NamedTuple):
     value: float  # in the file [SI]
     kind: Kind
     about: str  # what it is
-    bounds: tuple[float | None, float | None]  # minimum and maximum; None where there is none
+    bounds: tuple[float, float]  # minimum and maximum
     moves: tuple[Move, ...]
 
     def change(self, value: float) -> dict[int, float]:
@@ -94,11 +95,18 @@ def _about(machine: Machine, name: str) -> str:
     return (type(owner).model_fields[field_names(type(owner))[key]].description or "").replace("`", "")
 
 
-def _bounds(mark: Quantity) -> tuple[float | None, float | None]:
-    """Minimum and maximum of a quantity."""
-    limits = mark.bound.schema
-    low = limits.get("minimum", limits.get("exclusiveMinimum"))
-    return low, limits.get("maximum", limits.get("exclusiveMaximum"))
+def bounds_of(mark: Quantity) -> tuple[float, float]:
+    """The smallest and the largest number of a quantity: the range of its kind, within its bound.
+
+    FMI has no bounds that are excluded, so that a size above zero has the smallest one of its kind.
+    """
+    limits, most = mark.bound.schema, mark.kind.most
+    above, below = limits.get("exclusiveMinimum", -math.inf), limits.get("exclusiveMaximum", math.inf)
+    smallest = mark.kind.least if above == 0 else math.nextafter(above, math.inf)
+    return (
+        max(limits.get("minimum", -most), smallest, -most),
+        min(limits.get("maximum", most), math.nextafter(below, -math.inf), most),
+    )
 
 
 class _Trials:
@@ -135,7 +143,7 @@ class _Trials:
             return None
         moves = self._moves(slots, value, others, known)
         entry = Adjustable(
-            name, value, mark.kind, _about(self.program.machine, name), _bounds(mark), tuple(moves)
+            name, value, mark.kind, _about(self.program.machine, name), bounds_of(mark), tuple(moves)
         )
         agree = all(self._agrees(row, [(entry, other)]) for row, other in zip(known, others, strict=True))
         return entry if agree else None

@@ -38,6 +38,10 @@ _NO_MASS = (
     "the machine has no masses, so that its motion in time is not determined; give its bodies or its drive "
     "their inertia"
 )
+_AXES = (
+    "the machine is moved by servo axes, linear drivers or cylinders; an FMU has a crank whose speed follows "
+    "from its motor: give a crank and a drive, or export the laws of the axes by linkwright law"
+)
 _ROD_STRING = (
     "rod_string: an FMU has no rod string, whose load depends on the whole stroke; export the unit without "
     "it and apply the load by the input external_torque"
@@ -107,6 +111,9 @@ def program_of(machine: Machine, angle: float, *, rigid: bool) -> Program:
     """
     if machine.rod_string is not None:
         raise InputError(_ROD_STRING)
+    parts = machine.mechanism
+    if machine.axes or (not parts.cranks and (parts.linear_drivers or parts.cylinders)):
+        raise InputError(_AXES)
     drive = machine.drive
     if drive is not None and isinstance(drive.motor, ConstantSpeedMotor):
         raise InputError(_CONSTANT_SPEED)

@@ -52,5 +52,6 @@ def _outputs(unit: Fmu) -> Table:
 
 
 def _unit(variable: Variable) -> str:
-    """The unit in which a tool shows it."""
-    return reader().shown(variable.unit)[0] or "–"
+    """The unit in which a tool shows it, in brackets as at the head of a column."""
+    unit = reader().shown(variable.unit)[0]
+    return f"[{unit}]" if unit else "–"

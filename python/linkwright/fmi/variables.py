@@ -16,12 +16,14 @@ from linkwright.drive.steady_state import SteadyState
 from linkwright.drive.transient import Transient
 from linkwright.driveline.chain import Chain
 from linkwright.driveline.in_time import ElasticTransient
-from linkwright.fmi.parameters import Adjustable
+from linkwright.fmi.parameters import Adjustable, bounds_of
 from linkwright.fmi.program import Program
 from linkwright.kernel.description.place import split
 from linkwright.kernel.numerics.tangent import primal
 from linkwright.kernel.quantities import Label
 from linkwright.kernel.quantities import shown as declared
+from linkwright.kernel.units import kinds
+from linkwright.kernel.units.marks import Quantity, not_negative
 from linkwright.linkages.kinematics import everything
 from linkwright.machine.program.compiled import CompiledMachine
 
@@ -60,7 +62,7 @@ class Variable(NamedTuple):
     # Names of the inputs and states that it depends on; None for all.
     depends: tuple[str, ...] | None = None
     is_bool: bool = False
-    bounds: tuple[float | None, float | None] = (None, None)
+    bounds: tuple[float, float] | None = None  # between which it may be set
     factor: float = 1.0  # of what the library has, such as the speed of a mass referred to the crank
 
     @property
@@ -82,18 +84,29 @@ ANGLE, SPEED = "crank_angle", "crank_speed"
 
 _EXTERNAL = "External torque on the crank; counter-clockwise is positive."
 _BRAKE = "Braking torque referred to the crank, 0 or more; it opposes the motion and holds at rest."
+_LOAD_SPEED = "Speed of a load behind a viscous coupling with the crank; counter-clockwise is positive."
+_COUPLING = "Torque of the coupling with the load per difference of speeds; 0 for none."
 _SUPPLY = "Supply of the motor; without it the motor gives no torque."
 _REST = "The machine stands, and nothing moves it."
 
+
+def _set(name: str, number: int, causality: str, mark: Quantity, about: str) -> Variable:
+    """A number from outside, of a kind and within its bound."""
+    return Variable(name, Group.INPUT, number, causality, mark.kind.unit, about, 0.0, bounds=bounds_of(mark))
+
+
 INPUTS = (
     Variable("motor_on", Group.INPUT, 0, "input", about=_SUPPLY, start=True, is_bool=True),
-    Variable("external_torque", Group.INPUT, 1, "input", "N m", _EXTERNAL, 0.0),
-    Variable("brake_torque", Group.INPUT, 2, "input", "N m", _BRAKE, 0.0, bounds=(0.0, None)),
+    _set("external_torque", 1, "input", Quantity(kinds.TORQUE), _EXTERNAL),
+    _set("brake_torque", 2, "input", not_negative(kinds.TORQUE), _BRAKE),
+    _set("load_speed", 3, "input", Quantity(kinds.SPEED), _LOAD_SPEED),
+    _set("load_coupling", 4, "parameter", not_negative(kinds.TORSIONAL_DAMPING), _COUPLING),
 )
 
 TIME = Variable("time", Group.TIME, 0, "independent", "s", "Time.")
 
 _KINETIC = Label("kinetic energy", "E", "J", "½ J(φ) ω².")
+_COUPLED = Label("torque of the coupling", "T_c", "N m", "c (ω_L − ω): of the load on the crank.")
 _MOTOR_SPEED = Label("speed of the motor", "ω_M", "rad/s", "At its shaft.")
 
 # Name, its number for the library, and the quantity.
@@ -105,9 +118,12 @@ _OUTPUTS = (
     ("power_motor", 4, declared(SteadyState, "power_motor")),
     ("energy_kinetic", 5, _KINETIC),
     ("speed_motor", 6, _MOTOR_SPEED),
+    ("torque_coupling", 7, _COUPLED),
 )
-# The angle alone gives J(φ), angle and speed the energy.
-_DEPENDS = {"inertia_reduced": (ANGLE,), "energy_kinetic": (ANGLE, SPEED), "speed_motor": (SPEED,)}
+# The angle alone gives J(φ), two speeds the torque of the coupling.
+_DEPENDS = {"inertia_reduced": (ANGLE,), "torque_coupling": (SPEED, "load_speed")}
+# Parts of an elastic driveline turn at speeds of their own.
+_DEPENDS_RIGID = {"energy_kinetic": (ANGLE, SPEED), "speed_motor": (SPEED,)}
 
 # Of a point, a link and a slide: names, units; the first ones of position, then of velocity, of acceleration.
 _PARTS: dict[str, tuple[Group, int, tuple[tuple[str, str], ...]]] = {
@@ -139,7 +155,7 @@ def variables_of(
         *(_parameter(k, entry) for k, entry in enumerate(entries)),
         *_motion(start),
         *([] if program.chain is None else [*_of_driveline(program.chain), *_of_stations(program.chain)]),
-        *_of_drive(),
+        *_of_drive(rigid=program.chain is None),
         *_of_mechanism(program.compiled),
     ]
 
@@ -169,8 +185,9 @@ def _motion(start: tuple[float, float]) -> Iterator[Variable]:
     angle, speed, acceleration = (
         declared(Transient, name) for name in ("crank_angle", "speed", "acceleration")
     )
-    yield _of_label(ANGLE, Group.STATE, 0, angle, start=start[0], depends=(ANGLE,))
-    yield _of_label(SPEED, Group.STATE, 1, speed, start=start[1], depends=(SPEED,))
+    bounds = [bounds_of(Quantity(kind)) for kind in (kinds.ANGLE, kinds.SPEED)]
+    yield _of_label(ANGLE, Group.STATE, 0, angle, start=start[0], depends=(ANGLE,), bounds=bounds[0])
+    yield _of_label(SPEED, Group.STATE, 1, speed, start=start[1], depends=(SPEED,), bounds=bounds[1])
     local = f"Derivative of the {angle.word}."
     yield Variable(
         f"der({ANGLE})", Group.DERIVATIVE, 0, "local", "rad/s", local, derivative_of=ANGLE, depends=(SPEED,)
@@ -236,10 +253,11 @@ def _of_label(name: str, group: Group, number: int, label: Label, **more: Any) -
     return Variable(name, group, number, "output", label.unit, about, **more)
 
 
-def _of_drive() -> Iterator[Variable]:
+def _of_drive(*, rigid: bool) -> Iterator[Variable]:
     """Torques, power, energy of the drive."""
+    depends = _DEPENDS | (_DEPENDS_RIGID if rigid else {})
     for name, number, label in _OUTPUTS:
-        yield _of_label(name, Group.OUTPUT, number, label, depends=_DEPENDS.get(name))
+        yield _of_label(name, Group.OUTPUT, number, label, depends=depends.get(name))
     yield Variable("at_rest", Group.OUTPUT, 16, "output", about=_REST, is_bool=True)
 
 

@@ -15,6 +15,8 @@ pub struct Start {
     pub supply: f64,
     /// Torque from outside on every mass, counter-clockwise, at the speed of the crank \[N m\].
     pub torques: Vec<f64>,
+    /// Torque that opposes the crank per its speed: of a coupling with what is outside \[N m s\].
+    pub coupling: f64,
     /// Speed of the crank about which the machine works \[rad/s\].
     pub speed: f64,
     /// Time at which the motion ends at the latest \[s\].

@@ -82,6 +82,8 @@ pub struct System<'a> {
     pub supply: f64,
     /// Torque from outside on every mass \[N m\].
     pub torques: Vec<f64>,
+    /// Torque that opposes the crank per its speed \[N m s\].
+    pub coupling: f64,
     /// Torque of the brake on every mass \[N m\].
     pub brakes: Vec<f64>,
     /// Direction of every mass whose torque jumps at rest: +1, −1, or 0 where it is held.
@@ -131,6 +133,7 @@ impl<'a> System<'a> {
             motor,
             supply,
             torques: start.torques.clone(),
+            coupling: start.coupling,
             brakes: start.brakes.clone(),
             senses: vec![1.0; chain.masses()],
             zones: chain.links.iter().map(of_link).collect(),
@@ -232,6 +235,7 @@ impl<'a> System<'a> {
         let Equation { chain, .. } = self.equation;
         self.evaluations += 1;
         self.net.copy_from_slice(&self.torques);
+        self.net[self.layout.others] -= self.coupling * y[self.layout.omega];
         self.inertia[..chain.inertia.len()].copy_from_slice(&chain.inertia);
         self.inertia[chain.inertia.len()] = -chain.apart;
         for (k, link) in chain.links.iter().enumerate() {
@@ -337,6 +341,7 @@ impl<'a> System<'a> {
                 to[(others + mass) * m + others + mass] += slope;
             }
         };
+        add(others, -self.coupling);
         for driver in &chain.drivers {
             add(driver.mass, self.driven(driver, self.speed(driver.mass, y)).1.d);
         }
