@@ -12,6 +12,7 @@ from tests.samples.wells import well
 import linkwright as lw
 from linkwright.app.report.scene import moving_scene, scene
 from linkwright.app.study import study
+from linkwright.machine.table import machine_parts
 from linkwright.pumping.unit import pumping_unit
 from linkwright.rods import prediction
 from linkwright.rods.along import along_rods, cards
@@ -222,3 +223,14 @@ def test_the_torque_of_the_gearbox_is_computed_for_the_last_solution_alone(monke
     motion = lw.rod_string(UNIT)
     assert motion.harmonics > 1000
     assert len(calls) == 1
+
+
+def test_a_report_counts_strokes_per_minute_and_weighs_the_rods():
+    """Speeds per minute; a sucker rod is no connecting rod; weight, which the string lives by, is counted."""
+    parts = machine_parts(UNIT)
+    entries = {entry[:2] for part in parts for entry in part.entries}
+    assert {("speed", f"{UNIT.drive.speed * 30 / np.pi:.6g} rpm"), ("nominal size", "7/8")} <= entries
+    assert not any(word == "rod" or word.startswith("section ") for word, _ in entries)
+    assumed = [*study(UNIT).showing("assumptions")]
+    assert any("structural unbalance" in text for text in assumed)
+    assert not any("neglected" in text for text in assumed)

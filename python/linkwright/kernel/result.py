@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, fields, is_dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
 import numpy as np
@@ -257,6 +258,7 @@ class Result(Record):
         return {name: getattr(self, name) for name in dict.fromkeys(names) if not name.startswith("_")}
 
 
+@cache
 def result_within(owner: type, name: str) -> type[Result] | None:
     """The kind of result that an attribute of a result is; None if it is none."""
     hint = get_type_hints(owner).get(name)

@@ -71,5 +71,7 @@ def _loads(machine: Machine) -> Iterator[str]:
         if isinstance(load, Gravity):
             way = degrees(load.direction)
             yield f"Gravity acts on all bodies, {quantity(load.acceleration, 'm/s²')} in the direction {way}."
-    if not any(isinstance(load, Gravity) for load in machine.all_loads.values()):
+    # Weights of rods, beam and counterbalance act on a pumping unit without a load of that kind.
+    is_pumped = machine.pumping_unit is not None or machine.rod_string is not None
+    if not is_pumped and not any(isinstance(load, Gravity) for load in machine.all_loads.values()):
         yield "Weight is neglected: the machine has no load of kind gravity."

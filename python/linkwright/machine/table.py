@@ -131,11 +131,16 @@ def _unit(machine: Machine) -> Iterator[Part]:
     if machine.pumping_unit is not None and machine.pumping_unit.load is not None:
         yield _part("Pumping unit", machine, ("pumping_unit", "load"))
     if machine.rod_string is not None:
-        yield _part("Rod string", machine, ("rod_string",))
+        part = _part("Rod string", machine, ("rod_string",))
+        yield part._replace(entries=[each for each in part.entries if not each.word.startswith("section ")])
         yield _part("Rod string", machine, ("rod_string", "pump"))
         for n in range(len(machine.rod_string.sections)):
             part = _part("Rod string", machine, ("rod_string", "sections", str(n)))
-            yield part._replace(name="section")
+            # A rod of a linkage is a connecting rod, in other languages another word.
+            words = [
+                each._replace(word="nominal size") if each.word == "rod" else each for each in part.entries
+            ]
+            yield part._replace(name="section", entries=words)
 
 
 def _mechanism(machine: Machine) -> Iterator[Part]:
@@ -234,7 +239,10 @@ def _value(machine: Machine, place: Place, value: Any) -> str:
         return str(value).replace("_", " ") if is_choice else str(value)
     quantity = kind(machine, join(place))
     unit = quantity.unit if quantity else ""
-    return measured(value, pretty_unit(unit), digits=_GIVEN)
+    is_pumped = machine.pumping_unit is not None or machine.rod_string is not None
+    # Pumping speeds are counted in strokes, and revolutions of the crank, per minute.
+    usual = "rpm" if unit == "rad/s" and is_pumped else ""
+    return measured(value, pretty_unit(unit), digits=_GIVEN, usual=usual)
 
 
 def _list(machine: Machine, place: Place, values: tuple[float, ...]) -> str:

@@ -32,6 +32,7 @@ STRING = Analysis(
     tables=of("rods.tables:string_tables", "rod_string"),
     figures=of("rods.figures:string_figures", "machine.rod_string", "rod_string"),
     headline=of("rods.tables:string_headline", "rod_string"),
+    assumptions=of("rods.check:string_assumptions", "machine.rod_string"),
 )
 
 CARD = Analysis(

@@ -8,6 +8,7 @@ from linkwright.kernel.findings import Findings
 from linkwright.kernel.reader.numbers import quantity
 from linkwright.machine.analysis import Obstacle
 from linkwright.machine.machine import Machine
+from linkwright.rods.model.rod_string import RodString
 from linkwright.rods.polished_rod import polished_rod_of
 
 
@@ -38,5 +39,23 @@ def string_summary(machine: Machine) -> Iterator[tuple[str, str]]:
     if string is None:
         return
     parts = (f"{s.rod or quantity(s.body, 'm')} × {quantity(s.length, 'm')}" for s in string.sections)
-    yield "rods", ", ".join(parts)
+    yield "rod string", ", ".join(parts)
     yield "pump", f"plunger {quantity(string.pump.plunger, 'm')} at {quantity(string.length, 'm')}"
+
+
+def string_assumptions(string: RodString) -> Iterator[str]:
+    """What the wave equation of the rods and the valves of the pump leave out."""
+    yield (
+        "The well is vertical, its rods do not rub on the tubing. They are damped in proportion to their "
+        "velocity; the fluid in the tubing has no inertia."
+    )
+    yield (
+        "The valves of the pump open and shut without delay, at equal pressure on both sides. The plunger "
+        "has no friction."
+    )
+    yield (
+        "Rods weigh as in the fluid; the weight of the links of a pumping unit counts by its structural "
+        "unbalance and its counterbalance."
+    )
+    if string.pump.tubing_diameter is None:
+        yield "The tubing is anchored at the pump."

@@ -71,7 +71,8 @@ def solve_string(string: RodString, period: float, motion: Floats, start: Floats
     n = len(motion)
     if start is not None:
         start = np.interp(np.arange(n) / n, np.arange(len(start)) / len(start), start, period=1.0)
-    found = solve_rows(string, np.array([numbers_of(string, period)], dtype=float), motion[None], start)
+    numbers = np.array([numbers_of(string, period)], dtype=float)
+    found = solve_rows(string, numbers, motion[None], start, tolerance=_TOLERANCE)
     mean_load, change = found.ends[0]
     return Solved(cards_in(found, string, 0), found.wave[0], float(mean_load), found.sweeps, float(change))
 
@@ -82,7 +83,7 @@ def solve_rows(
     motion: Floats,
     start: Floats | None = None,
     *,
-    tolerance: float = _TOLERANCE,
+    tolerance: float,
 ) -> _core.RodMotions:
     """Motions of strings of the same sections by rows of `numbers_of` and samples (rows, n)."""
     return _core.predict_rods(

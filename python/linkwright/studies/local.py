@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -34,6 +35,10 @@ _MARGIN = 3e-9
 
 # Cost of passing a limit by its own size, over the size of the goal: more than any multiplier that is met.
 _PENALTY = 1e3
+
+# SLSQP that gains less than this share in so many machines, and some more for each variable, stands before a
+# kink, where its line searches halve one step after another: cutting planes go on.
+_STALLED, _EACH, _LITTLE = 25, 5, 1e-4
 
 # First radius of the cutting planes and the last, as shares of the ranges, and how many tangents are kept.
 _FIRST, _LAST, _KEPT = 0.02, 1e-10, 30
@@ -68,13 +73,26 @@ class _SpentError(Exception):
     """As many machines are computed as may be."""
 
 
+class _StalledError(Exception):
+    """The last machines gained next to nothing."""
+
+
 class Descent:
-    """The way down from starts of a study whose variables are numbers; `most`: machines a log may count."""
+    """The way down from starts of a study whose variables are numbers.
+
+    `most`: machines a log may count; `watch`: called after each machine.
+    """
 
     def __init__(
-        self, plan: StudyPlan, goal: str, sign: float, log: SearchLog, most: float = math.inf
+        self,
+        plan: StudyPlan,
+        goal: str,
+        sign: float,
+        log: SearchLog,
+        most: float = math.inf,
+        watch: Callable[[], None] = lambda: None,
     ) -> None:
-        self.plan, self.goal, self.sign, self.log, self.most = plan, goal, sign, log, most
+        self.plan, self.goal, self.sign, self.log, self.most, self.watch = plan, goal, sign, log, most, watch
         self.free = free(plan)
         # Why machines on the way had no answer.
         self.reasons: Counter[str] = Counter()
@@ -114,6 +132,7 @@ class Descent:
         shares = self.base.copy()
         shares[self.free] = share
         _, rates, slopes = self.log.slopes(self.plan, shares)
+        self.watch()
         slope = {name: (slope * rates)[self.free] for name, slope in slopes.slopes.items()}
         over, over_slope = [], []
         for name, limit, way in limits(self.plan):
@@ -133,13 +152,23 @@ class Descent:
         """Best place on the path of SLSQP."""
         from scipy.optimize import minimize
 
+        merits: list[float] = []
+        patience = _STALLED + _EACH * len(start)
+
+        def advancing(share: Floats) -> float:
+            there = self.at(share)
+            merits.append(min([there.merit, *merits[-1:]]))
+            if len(merits) > patience and merits[-patience] - merits[-1] < _LITTLE * abs(merits[-1]):
+                raise _StalledError
+            return there.goal
+
         kept = {
             "type": "ineq",
             "fun": lambda share: -self.at(share).over,
             "jac": lambda share: -self.at(share).over_slope,
         }
         given: Any = {
-            "fun": lambda share: self.at(share).goal,
+            "fun": advancing,
             "x0": start,
             "jac": lambda share: self.at(share).goal_slope,
             "bounds": [(0.0, 1.0)] * len(start),
@@ -152,7 +181,7 @@ class Descent:
         except FindingError as error:
             # What was found before it stands.
             self.reasons[str(error)] += 1
-        except _SpentError:
+        except (_SpentError, _StalledError):
             pass
         return self._least()
 

@@ -115,8 +115,9 @@ def optimise(
     starts : int
         From how many places derivatives lead down, 1 to 1000, where `method` is ``"gradient"``.
     watch : callable, optional
-        Told after each population how many machines were computed, the best value of the goal, None as long
-        as no machine keeps the limits, and the values of that machine's variables [SI].
+        Called after each population, and each machine of the derivatives, with how many machines were
+        computed, the best value of the goal, None as long as no machine keeps the limits, and the values of
+        that machine's variables [SI].
     log : path, optional
         File to which each computation is written; a search that was stopped goes on by replaying it.
 

@@ -150,7 +150,7 @@ class Search:
             if not any(axis.is_continuous for axis in plan.axes):
                 return
             # The end is ranked as one machine more.
-            descent = Descent(plan, self.goal, self.sign, self.log, last - 1)
+            descent = Descent(plan, self.goal, self.sign, self.log, last - 1, self._watched)
             point, before = start.copy(), self.log.count
             try:
                 point[kept] = descent.run(start[kept])
@@ -172,11 +172,15 @@ class Search:
         at = min(range(len(keys)), key=keys.__getitem__)
         if self.best is None or keys[at] < self.best[0]:
             self.best = (keys[at], points[at].copy())
-        if self.watch is not None:
+        self._watched()
+        return keys
+
+    def _watched(self) -> None:
+        """Call back with the number of machines and the best of those that were ranked."""
+        if self.watch is not None and self.best is not None:
             (rank, value), best = self.best
             at_best = {name: float(column[0]) for name, column in self.plan.values(best[None]).items()}
             self.watch(self.count, self.sign * value if rank == 0 else None, at_best)
-        return keys
 
     def _key(self, rows: Rows, row: int) -> tuple[int, float]:
         if rows.status[row] != SOLVED:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from linkwright.kernel.command.answer import Answer
 from linkwright.kernel.command.common import Output, Seed, belong_to, to_file
+from linkwright.kernel.command.console import progress
 from linkwright.kernel.command.parameter import Option
 from linkwright.kernel.errors import FindingError
 from linkwright.kernel.later import later
@@ -74,7 +76,8 @@ def optimum_answer(plan: StudyPlan, options: dict[str, Any], untried: str = "") 
     from linkwright.studies.optimise import optimise as compute
 
     try:
-        optimum = compute(plan, **options)
+        with progress("computing machines") as shown:
+            optimum = compute(plan, **options, watch=_watch(shown))
     except FindingError as error:
         return Answer(machine=plan.machine, findings=[f"{error}{untried}"])
     return Answer(
@@ -91,6 +94,11 @@ def optimum_answer(plan: StudyPlan, options: dict[str, Any], untried: str = "") 
         tables=later("studies.tables:optimum_tables", optimum, plan.units),
         machine_file=later("machine.write:dumps", optimum.machine),
     )
+
+
+def _watch(shown: Any) -> Callable[..., None] | None:
+    """How many machines were computed, where somebody looks."""
+    return shown and (lambda count, value, at: shown.update(f"machines computed: {count}"))
 
 
 def _front(plan: StudyPlan, points: int, options: dict[str, Any]) -> Answer:
