@@ -312,7 +312,7 @@ impl Batch<'_> {
         if reached <= request.accuracy {
             return Some(Steady { mesh, solution, monodromy, reached, cycles: 0, multiple: 1 });
         }
-        let rough = Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 };
+        let rough = Rough { mesh, solution, monodromy, placed: Vec::new(), cycles: 0, multiple: 1 };
         refined(equation, rough, request).ok().filter(|one| is_stable(&one.monodromy))
     }
 

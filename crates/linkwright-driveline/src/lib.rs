@@ -17,6 +17,7 @@
 //! | [`request`] | what is asked for, and why there is none |
 //! | [`scale`] | what errors are compared with |
 //! | [`crossings`] | where a solution passes kinks of laws |
+//! | `followed` | cycles in time, on steps that end where laws change their form |
 //! | [`starts`] | from where a periodic solution is found |
 //! | `finer` | ends of finer steps |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
@@ -35,6 +36,7 @@ mod elimination;
 pub mod equation;
 pub mod error;
 mod finer;
+mod followed;
 pub mod in_time;
 pub mod law;
 pub mod mesh;

@@ -11,7 +11,7 @@ use crate::finer::{POWER, STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
-use crate::starts::{Rough, rough};
+use crate::starts::{Rough, at_first, followed};
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::structure::Plan;
 use linkwright_kernel::radau::S;
@@ -21,9 +21,6 @@ pub(crate) const ROUNDS_MAX: usize = 40;
 
 /// Rounds in which steps with a crossing inside are not divided: they end there in the next one.
 const KINKS_FIRST: usize = 12;
-
-/// Cycles that are followed where a motion on coarse steps leads to none on fine ones.
-const AGAIN: usize = 20;
 
 /// Cycles that are followed at most where Newton's method does not converge on finer steps.
 const FOLLOWED_ON_FINER: usize = 12;
@@ -63,23 +60,16 @@ pub struct Steady {
 pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Result<Steady, Failure> {
     let equation = Equation { plan, q, chain };
     let kinks = kinks(plan, q);
-    let found = refined(equation, rough(equation, &kinks, request)?, request);
-    if found.is_ok() || chain.is_linear() || request.cycles_first > 0 {
-        return found;
+    if request.cycles_first == 0
+        && let Some(rough) = at_first(equation, &kinks, request)
+    {
+        match refined(equation, rough, request) {
+            // From the motion on coarse steps none comes; the machine itself may come to one.
+            Err(Failure::NotFound { .. }) => {}
+            found => return found,
+        }
     }
-    // From the motion on coarse steps none comes; the machine itself comes to one.
-    let again = Request { cycles_first: AGAIN, ..request.clone() };
-    match refined(equation, rough(equation, &kinks, &again)?, &again) {
-        // What it does in time tells why.
-        Err(Failure::NotFound { .. }) => in_time(equation, &kinks, request),
-        found => found,
-    }
-}
-
-/// What a motion in which none was found does in time.
-fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Steady, Failure> {
-    let only = Request { cycles_first: usize::MAX, ..request.clone() };
-    rough(equation, kinks, &only).and(Err(NOT_FOLLOWED))
+    refined(equation, followed(equation, &kinks, request)?, request)
 }
 
 /// The periodic solution on finer steps from that on coarser ones, or behind cycles that are followed on them.
@@ -106,8 +96,8 @@ fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale:
 
 /// A periodic solution to the wanted accuracy.
 pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -> Result<Steady, Failure> {
-    let Rough { mut mesh, mut solution, mut monodromy, cycles, multiple } = rough;
-    let (mut reached, mut placed) = (f64::INFINITY, Vec::new());
+    let Rough { mut mesh, mut solution, mut monodromy, mut placed, cycles, multiple } = rough;
+    let mut reached = f64::INFINITY;
     for round in 0..ROUNDS_MAX {
         let scale = scales(&solution, equation.chain);
         let found = errors(&equation, &mesh, &solution, &scale);
