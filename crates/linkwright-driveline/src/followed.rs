@@ -3,14 +3,15 @@
 //! Between two events the rates are smooth, so that the derivative of the end of a cycle by its start on these steps is that of the
 //! motion, and Newton's method finds every law in the form that it has.
 
+use crate::cycle::Stop;
 use crate::equation::Equation;
+use crate::finer::SAME_ANGLE;
+use crate::in_time::Continuation;
 use crate::in_time::events::Event;
 use crate::in_time::start::Start;
 use crate::in_time::trajectory::{End, Trajectory};
-use crate::in_time::Continuation;
-use crate::cycle::Stop;
-use crate::finer::SAME_ANGLE;
 use crate::mesh::{Mesh, Solution};
+use crate::request::Failure;
 use linkwright_core::drive::mesh::crossing;
 use linkwright_kernel::radau::C;
 use linkwright_kernel::rk::rise;
@@ -29,6 +30,8 @@ pub(crate) struct Follower<'a> {
     kinks: &'a [f64],
     known: Continuation,
     start: Start,
+    /// Angle of the crank before the next cycle \[rad\].
+    turned: f64,
 }
 
 /// A cycle that was followed.
@@ -58,27 +61,31 @@ impl<'a> Follower<'a> {
             turns: cycle / TAU,
             accuracy: ACCURACY,
         };
-        Follower { equation, kinks, known: Continuation::new(equation, ACCURACY), start }
+        Follower { equation, kinks, known: Continuation::new(equation, ACCURACY), start, turned: 0.0 }
     }
 
-    /// The cycle that begins with a state.
+    /// The next cycle, which begins with a state.
     ///
     /// # Errors
-    /// Where the crank does not go on.
-    pub(crate) fn cycle(&mut self, y: &[f64]) -> Result<Passed, Stop> {
+    /// Where the crank does not go on, from the start of the first one; or it cannot be followed so exactly.
+    pub(crate) fn cycle(&mut self, y: &[f64]) -> Result<Passed, Failure> {
         self.start.state.clear();
         self.start.state.extend_from_slice(y);
         self.start.state.push(0.0);
         let trajectory = self.known.follow(self.equation, &self.start);
-        let (m, size) = (y.len(), trajectory.between.len() / (trajectory.t.len() - 1).max(1));
-        let at = |number: usize| trajectory.states.iter().skip(number).step_by(size.max(m + 1)).copied();
+        let (m, size) = (y.len(), trajectory.states.len() / trajectory.t.len());
+        let at = |number: usize| trajectory.states.iter().skip(number).step_by(size).copied();
         let (angles, speeds): (Vec<f64>, Vec<f64>) = (at(m).collect(), at(m - 1).collect());
-        let turns = speeds.iter().take_while(|&&speed| speed > 0.0).count();
-        if trajectory.end != End::Turns || turns < speeds.len() {
-            let last = turns.max(1) - 1;
-            return Err(Stop { phi: angles[last], omega: speeds[last] });
+        let forward = speeds.iter().take_while(|&&speed| speed > 0.0).count();
+        if forward < speeds.len() || matches!(trajectory.end, End::Rest | End::Time) {
+            let last = forward.max(1) - 1;
+            return Err(Failure::Stops(Stop { phi: self.turned + angles[last], omega: speeds[last] }));
+        }
+        if trajectory.end != End::Turns {
+            return Err(Failure::NotFound { off: f64::NAN, parting: f64::NAN });
         }
         let (edges, placed) = self.edges(&trajectory, &angles);
+        self.turned += edges[edges.len() - 1];
         Ok(Passed { angles, edges, placed, trajectory })
     }
 
@@ -161,7 +168,8 @@ pub(crate) fn joined<'p>(
             passed.add_state(0.0, m, &mut solution.start);
         }
         for pair in passed.edges.windows(2) {
-            C.iter().for_each(|c| passed.add_state(pair[0] + c * (pair[1] - pair[0]), m, &mut solution.stages));
+            C.iter()
+                .for_each(|c| passed.add_state(pair[0] + c * (pair[1] - pair[0]), m, &mut solution.stages));
         }
     }
     (Mesh::new(equation, edges).with_kinks(&placed), solution, placed)

@@ -1,40 +1,19 @@
 //! The periodic solution roughly: from where Newton's method begins, and what it comes to.
 //!
 //! It begins with the crank at one speed, on few steps from kink to kink. Where it does not converge from there, the driveline has
-//! more damping and no backlash at first, which are taken away and given back step by step; else the motion is followed from cycle to
-//! cycle, which also tells where a machine stalls, and after how many cycles its motion repeats.
+//! more damping and no backlash at first, which are taken away and given back step by step.
 
 use crate::chain::{Chain, Source};
-use crate::cycle::{Cycle, Stop, monodromy};
+use crate::cycle::Cycle;
 use crate::equation::Equation;
-use crate::followed::{Follower, Passed, joined};
 use crate::mesh::{Mesh, Solution};
-use crate::request::{Failure, Request};
-use crate::scale::scales;
-use std::collections::VecDeque;
+use crate::request::Request;
 use std::f64::consts::TAU;
 
 /// Steps of a revolution at first, and where Newton's method does not converge on them.
 pub(crate) const STEPS: f64 = 16.0;
 /// See [`STEPS`].
 const FINE_STEPS: f64 = 48.0;
-
-/// Cycles that are followed between attempts of Newton's method.
-const CYCLES_AT_ONCE: usize = 10;
-
-/// Difference between cycles, over the scale of the state, from which on they repeat.
-const REPEATS: f64 = 1e-3;
-
-/// Difference of a periodic motion from the cycles that led to it, likewise, up to which it is the one that they come to.
-const SAME_MOTION: f64 = 0.05;
-
-/// Share of a difference at which Newton's method has failed, at which it is tried again.
-const CLOSER: f64 = 0.1;
-
-/// Cycles over which the growth of a disturbance is measured, behind those in which it turns to where it grows most.
-const CYCLES_PARTING: usize = 100;
-/// See [`CYCLES_PARTING`].
-const CYCLES_SETTLING: usize = 10;
 
 /// Squarings of a matrix for its largest eigenvalue, to a hundredth.
 const SQUARINGS: u32 = 10;
@@ -143,99 +122,6 @@ fn from_damped(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Opti
         }
     }
     None
-}
-
-/// Cycles that the machine goes through, and the periodic solution behind them.
-pub(crate) fn followed(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Rough, Failure> {
-    let (mut next, mut scale) = beginning(equation.chain, request);
-    let (m, cycle) = (next.len(), kinks[kinks.len() - 1]);
-    let mut follower = Follower::new(equation, kinks, scale[m - 1]);
-    let mut last: VecDeque<Passed> = VecDeque::new();
-    let (mut cycles, mut near, mut beside) = (0, REPEATS, None);
-    loop {
-        for _ in 0..CYCLES_AT_ONCE {
-            let turned = cycles as f64 * cycle;
-            let stop = |stop: Stop| Failure::Stops(Stop { phi: stop.phi + turned, ..stop });
-            let passed = follower.cycle(&next).map_err(stop)?;
-            next = passed.end(m);
-            last.push_back(passed);
-            if last.len() > 2 * request.multiples {
-                last.pop_front();
-            }
-            cycles += 1;
-        }
-        scale = scales(&last[last.len() - 1].states(m), equation.chain);
-        let is_last = cycles >= request.cycles_max;
-        let (multiple, off) = repetition(&last, &next, &scale, request.multiples);
-        if cycles >= request.cycles_first && (off < near || is_last || request.multiples == 1) {
-            let cycles_of_one = last.range(last.len() - multiple..);
-            let (mesh, mut solution, placed) = joined(&equation, cycles_of_one);
-            let found = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, usize::MAX);
-            if let Some(monodromy) = found {
-                let is_near = distance(&solution.start, &next, &scale) < SAME_MOTION;
-                let settles = is_near && largest_multiplier(&monodromy) < 1.0;
-                let rough = Rough { mesh, solution, monodromy, placed, cycles, multiple };
-                if settles || request.multiples == 1 {
-                    return Ok(rough);
-                }
-                // A motion that the machine passes by and leaves again is one, but not that to which it comes; unstable ones of
-                // several cycles are many where it does not repeat, and any of them is near by chance.
-                beside = beside.or(if is_near && multiple == 1 { Some(rough) } else { None });
-            } else {
-                near = CLOSER * off.min(near);
-            }
-        }
-        if is_last {
-            if let Some(rough) = beside {
-                return Ok(rough);
-            }
-            let parting = if request.cycles_first > 0 {
-                f64::NAN
-            } else {
-                parting(&mut follower, next, &scale).map_err(Failure::Stops)?
-            };
-            return Err(Failure::NotFound { off, parting });
-        }
-    }
-}
-
-/// Factor by which motions close to one that is followed part in a cycle: the mean growth of a disturbance, its size over the scale.
-/// Its logarithm is the largest Lyapunov exponent.
-///
-/// Source: Benettin, Galgani, Giorgilli, Strelcyn, *Meccanica* 15 (1980) 9–30.
-fn parting(follower: &mut Follower<'_>, mut next: Vec<f64>, scale: &[f64]) -> Result<f64, Stop> {
-    let (m, mut growth) = (next.len(), 0.0);
-    let mut off = scale.to_vec();
-    for n in 0..CYCLES_SETTLING + CYCLES_PARTING {
-        let passed = follower.cycle(&next)?;
-        let (mesh, solution, _) = joined(&follower.equation, std::iter::once(&passed));
-        let (_, end) = Cycle::new(follower.equation, &mesh).linear(&solution, &[]);
-        let matrix = monodromy(&end, m);
-        let moved = |r: usize| (0..m).map(|c| matrix[r * m + c] * off[c]).sum::<f64>();
-        off = (0..m).map(moved).collect();
-        let size = off.iter().zip(scale).map(|(off, scale)| (off / scale).abs()).fold(0.0, f64::max);
-        off.iter_mut().for_each(|off| *off /= size);
-        if n >= CYCLES_SETTLING {
-            growth += size.ln() / CYCLES_PARTING as f64;
-        }
-        next = passed.end(m);
-    }
-    Ok(growth.exp())
-}
-
-/// Difference of two states over their scale.
-fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> f64 {
-    a.iter().zip(b).zip(scale).map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
-}
-
-/// Number of cycles after which the last ones repeat best, the smallest that is good enough, with what they differ by.
-fn repetition(last: &VecDeque<Passed>, end: &[f64], scale: &[f64], multiples: usize) -> (usize, f64) {
-    let off = |n: usize| distance(last[last.len() - n].start(), end, scale);
-    let found = (1..=multiples.min(last.len())).map(|n| (n, off(n)));
-    let better = |best: (usize, f64), next: (usize, f64)| {
-        if best.1 >= REPEATS && next.1 < best.1 { next } else { best }
-    };
-    found.fold((1, f64::INFINITY), better)
 }
 
 /// Size of the largest eigenvalue of a square matrix, row by row, from a high power of it.
