@@ -13,9 +13,10 @@ use crate::mesh::{Mesh, Solution};
 use crate::reading::{Measures, Reading};
 use crate::request::Request;
 use crate::scale::scales;
+use crate::search::steady;
 use crate::speed_kinks::speed_kinks;
 use crate::starts::{PATIENCE, Rough, STEPS, beginning, first_edges, largest_multiplier};
-use crate::steady::{Steady, add_vibration, refined, steady};
+use crate::steady::{Steady, add_vibration, refined};
 use linkwright_core::drive::batch::Rows;
 use linkwright_core::drive::kinks::kinks;
 use linkwright_core::drive::reduce::reductions;
@@ -312,7 +313,7 @@ impl Batch<'_> {
         if reached <= request.accuracy {
             return Some(Steady { mesh, solution, monodromy, reached, cycles: 0, multiple: 1 });
         }
-        let rough = Rough { mesh, solution, monodromy, cycles: 0, multiple: 1 };
+        let rough = Rough { mesh, solution, monodromy, placed: Vec::new(), cycles: 0, multiple: 1 };
         refined(equation, rough, request).ok().filter(|one| is_stable(&one.monodromy))
     }
 

@@ -10,7 +10,7 @@ use crate::elimination::solve;
 use crate::equation::{Equation, Rates};
 use crate::mesh::{Mesh, Solution};
 use linkwright_kernel::call::poll;
-use linkwright_kernel::radau::{A, C, S};
+use linkwright_kernel::radau::{A, S};
 
 /// Sweeps of Newton's method at most.
 pub(crate) const SWEEPS_MAX: usize = 40;
@@ -26,9 +26,6 @@ const DAMPED_MOST: f64 = 0.125;
 /// Corrections, as a share of what they correct, at which the last sweep has been.
 const SMALL: f64 = 1e-9;
 
-/// Corrections at which a step that is followed is solved: what they leave goes with their square.
-const FOLLOWED: f64 = 1e-5;
-
 /// Corrections that rounding leaves.
 const ROUNDING: f64 = 1e-12;
 
@@ -40,11 +37,6 @@ const FAR: f64 = 1e6;
 
 /// Share of the way to the stage before at which the end of a step is seen from inside.
 const INSIDE: f64 = 1e-6;
-
-/// Parts of a step that is not solved at once, and the length \[rad\] below which it is not solved at all.
-const PARTS: usize = 4;
-/// See [`PARTS`].
-const SHORTEST: f64 = 1e-4;
 
 /// Where a motion ends that does not go on.
 #[derive(Clone, Copy, Debug)]
@@ -81,9 +73,9 @@ impl<'a> Cycle<'a> {
         }
     }
 
-    /// Makes a step linear about its stages: corrections of the stages for the start as it is, by that of the start if asked for,
-    /// and by that of a parameter of which the rates at all stages have these derivatives, in the last columns of the table.
-    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], with_start: bool, by_parameter: &[f64]) {
+    /// Makes a step linear about its stages: corrections of the stages for the start as it is, by that of the start, and
+    /// by that of a parameter of which the rates at all stages have these derivatives, in the last columns of the table.
+    fn linear_step(&mut self, k: usize, y: &[f64], stages: &[f64], by_parameter: &[f64]) {
         let m = y.len();
         let (h, n) = (self.mesh.length(k), S * m);
         for i in 0..S {
@@ -103,8 +95,8 @@ impl<'a> Cycle<'a> {
             self.f[i * m..][..m].copy_from_slice(&self.rates.rate);
             self.jacobians[i * m * m..][..m * m].copy_from_slice(&self.rates.jacobian);
         }
-        let (starts, own) = (if with_start { m } else { 0 }, usize::from(!by_parameter.is_empty()));
-        let width = n + 1 + starts + own;
+        let own = usize::from(!by_parameter.is_empty());
+        let width = n + 1 + m + own;
         self.table.clear();
         self.table.resize(n * width, 0.0);
         for i in 0..S {
@@ -121,9 +113,7 @@ impl<'a> Cycle<'a> {
                 }
                 row[i * m + r] += 1.0;
                 row[n] = right;
-                if with_start {
-                    row[n + 1 + r] = 1.0;
-                }
+                row[n + 1 + r] = 1.0;
                 if own > 0 {
                     let slopes = &by_parameter[k * n..][..n];
                     row[width - 1] = (0..S).map(|j| h * A[i][j] * slopes[j * m + r]).sum();
@@ -144,7 +134,7 @@ impl<'a> Cycle<'a> {
             end[r * columns + 1 + r] = 1.0;
         }
         for k in 0..self.mesh.steps() {
-            self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], true, by_parameter);
+            self.linear_step(k, solution.start_of(k), &solution.stages[k * n..][..n], by_parameter);
             let kept = &mut solved[k * n * columns..][..n * columns];
             for (to, row) in kept.chunks_exact_mut(columns).zip(self.table.chunks_exact(n + columns)) {
                 to.copy_from_slice(&row[n..]);
@@ -176,86 +166,6 @@ impl<'a> Cycle<'a> {
             last = size;
         }
         None
-    }
-
-    /// Follows the motion over one cycle, step by step, from the start of a solution.
-    ///
-    /// # Errors
-    /// Where the crank does not go on.
-    pub fn follow(&mut self, solution: &mut Solution, scale: &[f64]) -> Result<(), Stop> {
-        let m = solution.states();
-        let n = S * m;
-        for k in 0..self.mesh.steps() {
-            let y = solution.start_of(k).to_vec();
-            let mut stages = self.begun(k, &y, solution);
-            if !self.solved_step(k, &y, &mut stages, scale) {
-                let pair = [self.mesh.edges[k], self.mesh.edges[k + 1]];
-                stages = self.in_parts(pair, &y, scale).ok_or(Stop { phi: pair[0], omega: y[m - 1] })?;
-            }
-            solution.stages[k * n..][..n].copy_from_slice(&stages);
-        }
-        Ok(())
-    }
-
-    /// Stages with which Newton's method begins in a step: those of the step before, taken on where no law has kinks.
-    fn begun(&self, k: usize, y: &[f64], solution: &Solution) -> Vec<f64> {
-        let mut stages = y.repeat(S);
-        if k > 0 && self.equation.chain.is_linear() {
-            let longer = self.mesh.length(k) / self.mesh.length(k - 1);
-            for (c, to) in C.iter().zip(stages.chunks_exact_mut(y.len())) {
-                solution.state(k - 1, 1.0 + c * longer, to);
-            }
-        }
-        stages
-    }
-
-    /// Stages of a step that Newton's method does not solve at once, such as one with kinks inside: by parts.
-    fn in_parts(&self, [low, high]: [f64; 2], y: &[f64], scale: &[f64]) -> Option<Vec<f64>> {
-        let m = y.len();
-        let at = |i: usize| low + (high - low) * (i as f64 / PARTS as f64);
-        let parts = Mesh::new(&self.equation, (0..=PARTS).map(at).collect());
-        let mut followed = Solution::constant(PARTS, y);
-        let mut cycle = Cycle::new(self.equation, &parts);
-        for k in 0..PARTS {
-            let start = followed.start_of(k).to_vec();
-            let mut stages = start.repeat(S);
-            if !cycle.solved_step(k, &start, &mut stages, scale) {
-                // A speed that falls to zero ends the motion.
-                if parts.length(k) < SHORTEST {
-                    return None;
-                }
-                stages = self.in_parts([parts.edges[k], parts.edges[k + 1]], &start, scale)?;
-            }
-            followed.stages[k * S * m..][..S * m].copy_from_slice(&stages);
-        }
-        Some(followed.on(&parts.edges, &[low, high]).stages)
-    }
-
-    fn solved_step(&mut self, k: usize, y: &[f64], stages: &mut [f64], scale: &[f64]) -> bool {
-        let m = y.len();
-        let n = S * m;
-        for _ in 0..SWEEPS_MAX {
-            poll();
-            self.linear_step(k, y, stages, false, &[]);
-            let (mut size, mut share) = (0.0_f64, 1.0_f64);
-            for (i, row) in self.table.chunks_exact(n + 1).enumerate() {
-                let d = row[n];
-                if d.is_nan() {
-                    return false;
-                }
-                size = size.max(d.abs() / scale[i % m]);
-                if i % m == m - 1 && d < 0.0 {
-                    share = share.min((1.0 - SPEED_LEFT) * stages[i] / -d);
-                }
-            }
-            for (x, row) in stages.iter_mut().zip(self.table.chunks_exact(n + 1)) {
-                *x += share * row[n];
-            }
-            if size <= FOLLOWED {
-                return true;
-            }
-        }
-        false
     }
 }
 

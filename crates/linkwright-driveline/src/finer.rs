@@ -13,7 +13,7 @@ const PARTS_MAX: f64 = 6.0;
 pub(crate) const POWER: f64 = 6.0;
 
 /// Angles \[rad\] that are one.
-const SAME_ANGLE: f64 = 1e-9;
+pub(crate) const SAME_ANGLE: f64 = 1e-9;
 
 /// Ends of finer steps, with those at crossings, which move with the solution until both stand; `placed` are those of the last round.
 pub(crate) fn finer_edges(

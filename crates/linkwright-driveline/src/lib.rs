@@ -12,14 +12,16 @@
 //! | [`equation`] | the equations of motion over the crank angle, and their Jacobian |
 //! | `elimination` | a dense system for several right sides |
 //! | [`mesh`] | steps of a cycle, the mechanism at their stages, a solution on them |
-//! | [`cycle`] | Newton's method for the periodic solution, and motion from cycle to cycle |
+//! | [`cycle`] | Newton's method for the periodic solution |
 //! | [`error`] | error of a solution in every step |
 //! | [`request`] | what is asked for, and why there is none |
 //! | [`scale`] | what errors are compared with |
 //! | [`crossings`] | where a solution passes kinks of laws |
-//! | [`starts`] | from where a periodic solution is found |
+//! | `followed` | cycles in time, on steps that end where laws change their form |
+//! | [`starts`] | the periodic solution on few steps |
 //! | `finer` | ends of finer steps |
 //! | [`steady`] | the periodic solution to a wanted accuracy |
+//! | [`search`] | steady motion: by Newton's method, or behind cycles that the machine goes through |
 //! | [`branch`] | steady motions over a parameter, through folds |
 //! | [`reading`] | curves, extremes, and power of every part |
 //! | [`in_time`] | motion in time from rest or any state |
@@ -35,12 +37,14 @@ mod elimination;
 pub mod equation;
 pub mod error;
 mod finer;
+mod followed;
 pub mod in_time;
 pub mod law;
 pub mod mesh;
 pub mod reading;
 pub mod request;
 pub mod scale;
+pub mod search;
 mod speed_kinks;
 pub mod starts;
 pub mod station;

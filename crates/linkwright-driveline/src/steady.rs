@@ -2,7 +2,6 @@
 //!
 //! Steps whose error is too large are divided, and end where the solution passes a kink of a law, until neither changes.
 
-use crate::chain::Chain;
 use crate::crossings::{Crossing, crossings};
 use crate::cycle::Cycle;
 use crate::equation::Equation;
@@ -11,10 +10,7 @@ use crate::finer::{POWER, STEPS_MAX, finer_edges};
 use crate::mesh::{Mesh, Solution};
 use crate::request::{Failure, Request};
 use crate::scale::scales;
-use crate::starts::{Rough, rough};
-use linkwright_core::drive::kinks::kinks;
-use linkwright_core::drive::structure::Plan;
-use linkwright_kernel::radau::S;
+use crate::starts::Rough;
 
 /// Times that steps are divided.
 pub(crate) const ROUNDS_MAX: usize = 40;
@@ -22,18 +18,12 @@ pub(crate) const ROUNDS_MAX: usize = 40;
 /// Rounds in which steps with a crossing inside are not divided: they end there in the next one.
 const KINKS_FIRST: usize = 12;
 
-/// Cycles that are followed where a motion on coarse steps leads to none on fine ones.
-const AGAIN: usize = 20;
-
-/// Cycles that are followed at most where Newton's method does not converge on finer steps.
-const FOLLOWED_ON_FINER: usize = 12;
-
 /// Rounds in which crossings have to stand so exactly that derivatives by the start err by no more than [`SLOPES`].
 const SLOPES_FIRST: usize = 8;
 /// See [`SLOPES_FIRST`].
 const SLOPES: f64 = 1e-8;
 
-/// Newton's method fails, and whether the machine comes to a periodic motion is not known.
+/// Newton's method fails.
 const NOT_FOLLOWED: Failure = Failure::NotFound { off: f64::NAN, parting: f64::NAN };
 
 /// Phase \[rad\] of a vibration in a step: the method errs by 2.2·10⁻⁹ times its tenth power.
@@ -56,58 +46,10 @@ pub struct Steady {
     pub multiple: usize,
 }
 
-/// Steady motion of a machine with its driveline.
-///
-/// # Errors
-/// None is found, or not as exactly as asked for.
-pub fn steady(plan: &Plan, q: &[f64], chain: &Chain, request: &Request) -> Result<Steady, Failure> {
-    let equation = Equation { plan, q, chain };
-    let kinks = kinks(plan, q);
-    let found = refined(equation, rough(equation, &kinks, request)?, request);
-    if found.is_ok() || chain.is_linear() || request.cycles_first > 0 {
-        return found;
-    }
-    // From the motion on coarse steps none comes; the machine itself comes to one.
-    let again = Request { cycles_first: AGAIN, ..request.clone() };
-    match refined(equation, rough(equation, &kinks, &again)?, &again) {
-        // What it does in time tells why.
-        Err(Failure::NotFound { .. }) => in_time(equation, &kinks, request),
-        found => found,
-    }
-}
-
-/// What a motion in which none was found does in time.
-fn in_time(equation: Equation<'_>, kinks: &[f64], request: &Request) -> Result<Steady, Failure> {
-    let only = Request { cycles_first: usize::MAX, ..request.clone() };
-    rough(equation, kinks, &only).and(Err(NOT_FOLLOWED))
-}
-
-/// The periodic solution on finer steps from that on coarser ones, or behind cycles that are followed on them.
-fn on_finer(equation: Equation<'_>, mesh: &Mesh, solution: &mut Solution, scale: &[f64]) -> Option<Vec<f64>> {
-    let mut cycle = Cycle::new(equation, mesh);
-    let mut tried = solution.clone();
-    if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
-        *solution = tried;
-        return Some(monodromy);
-    }
-    for n in 1..=FOLLOWED_ON_FINER {
-        cycle.follow(solution, scale).ok()?;
-        if n == 1 || n == FOLLOWED_ON_FINER {
-            let mut tried = solution.clone();
-            if let Some(monodromy) = cycle.periodic(&mut tried, scale, usize::MAX) {
-                *solution = tried;
-                return Some(monodromy);
-            }
-        }
-        solution.start = solution.stage(mesh.steps() - 1, S - 1).to_vec();
-    }
-    None
-}
-
 /// A periodic solution to the wanted accuracy.
 pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -> Result<Steady, Failure> {
-    let Rough { mut mesh, mut solution, mut monodromy, cycles, multiple } = rough;
-    let (mut reached, mut placed) = (f64::INFINITY, Vec::new());
+    let Rough { mut mesh, mut solution, mut monodromy, mut placed, cycles, multiple } = rough;
+    let mut reached = f64::INFINITY;
     for round in 0..ROUNDS_MAX {
         let scale = scales(&solution, equation.chain);
         let found = errors(&equation, &mesh, &solution, &scale);
@@ -124,7 +66,8 @@ pub(crate) fn refined(equation: Equation<'_>, rough: Rough, request: &Request) -
         let finer = Mesh::new(&equation, edges).with_kinks(&placed);
         solution = solution.on(&mesh.edges, &finer.edges);
         mesh = finer;
-        monodromy = on_finer(equation, &mesh, &mut solution, &scale).ok_or(NOT_FOLLOWED)?;
+        let found = Cycle::new(equation, &mesh).periodic(&mut solution, &scale, usize::MAX);
+        monodromy = found.ok_or(NOT_FOLLOWED)?;
     }
     Err(Failure::Inaccurate(reached))
 }

@@ -27,9 +27,9 @@ CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 AWAY = 100
 
-# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: one that
-# repeats, or drifts over a torus, has 1 at most, and 100 cycles of 1.1 are a factor of 10 000.
-CHAOTIC = 1.1
+# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: on a torus they
+# part in proportion to the time, by 1.024 a cycle on average from the tenth cycle to the 110th.
+CHAOTIC = 1.05
 
 # Angles of a revolution at which the minimum inertia is looked for.
 ANGLES = 36
@@ -103,21 +103,22 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
             f"{np.degrees(motion.crank_angle) % 360:.4g}°; choose a stiffer or more damped coupling, a "
             "larger flywheel or motor, or follow the motion in time (elastic_transient)"
         )
-    if motion.reason == "not found" and motion.parting > CHAOTIC:
-        off = number(100 * motion.accuracy, 2)
-        return SteadyStateError(
-            "no steady motion of the elastic driveline: its motion is chaotic; motions that begin close "
-            f"part from cycle to cycle; the last cycles differ by {off} % at best; reduce the backlash, add "
-            "damping, or follow it in time (elastic_transient)"
-        )
     if motion.reason == "not found":
-        off = ""
-        if not np.isnan(motion.accuracy):
-            percent = number(100 * motion.accuracy, 2)
-            off = f"; the last cycles differ by {percent} % at best; it is chaotic, or settles very slowly"
+        off, parting = number(100 * motion.accuracy, 2), number(motion.parting, 3)
+        seen = (
+            f"the last cycles differ by {off} % at best; motions that begin close part by a factor of {parting} "
+            "per cycle"
+        )
+        if motion.parting > CHAOTIC:
+            return SteadyStateError(
+                f"no steady motion of the elastic driveline: its motion is chaotic; {seen}; reduce the "
+                "backlash, add damping, or follow it in time (elastic_transient)"
+            )
+        # Nothing was seen of a motion that cannot be followed so exactly.
+        seen = "" if np.isnan(motion.accuracy) else f"; {seen}; it is quasi-periodic, or settles very slowly"
         return ConvergenceError(
             f"no periodic motion of the elastic driveline was found: in {CYCLES} cycles the motion does not "
-            f"come to one that Newton's method converges to{off}; follow it in time (elastic_transient)",
+            f"come to one that Newton's method converges to{seen}; follow it in time (elastic_transient)",
             method="Newton's method",
             iterations=CYCLES,
         )

@@ -250,6 +250,10 @@ impl<'a> System<'a> {
             let (shaft, behind) = self.driven(driver, self.speed(driver.mass, y));
             (self.shafts[k], self.drives[k]) = (shaft, behind.value);
             self.net[driver.mass] += behind.value;
+            if let Source::Held(_) = driver.source {
+                // A motor that keeps its speed does so as a mass would that nothing accelerates.
+                self.inertia[driver.mass] = f64::INFINITY;
+            }
         }
         (self.load, self.load_power) = (0.0, 0.0);
         for load in &chain.loads {
