@@ -66,7 +66,7 @@ SUBJECTS = (
     "axes",
     "synthesis",
     "sizing",
-    "axes",
+    "multibody",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -169,6 +169,13 @@ EDGES = {
     ("sizing", "kinetostatics"),
     ("sizing", "linkages"),
     ("sizing.commands", "drive.model"),
+    # A model of multibody dynamics has the bodies of the equilibrium, and the driveline.
+    ("multibody", "drive.model"),
+    ("multibody", "kinetostatics"),
+    ("multibody", "kinetostatics.model"),
+    ("multibody", "linkages"),
+    ("multibody", "linkages.model"),
+    ("multibody.commands", "drive.commands"),
     # A law that goes to a controller is a motion law.
     ("axes.export", "cam.laws"),
 }

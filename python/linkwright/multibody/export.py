@@ -91,6 +91,7 @@ class Mjcf(_File):
     speed_start: Annotated[float, Label("crank speed at the start", "", "rad/s")]
     is_constant_speed: Annotated[bool, About("Whether a large inertia keeps the speed of the crank.")]
     loads: Annotated[tuple[str, ...], About("Loads, and the motor, as MJCF names them, without weight.")]
+    moves: Annotated[bool, About("Whether it has a speed at the start, or a load or weight that moves it.")]
 
 
 @dataclass(frozen=True)
@@ -176,6 +177,7 @@ def mjcf(
         speed_start=first,
         is_constant_speed=kept is not None,
         loads=tuple(law.name for law in laws),
+        moves=bool(first or setting.gravity.any() or any(law.constant or law.per_length for law in laws)),
     )
 
 
