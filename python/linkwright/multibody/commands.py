@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -14,7 +16,7 @@ from linkwright.kernel.command.parameter import Option, Value
 from linkwright.kernel.errors import InputError
 from linkwright.kernel.later import later
 from linkwright.kernel.units.kinds import SPEED, TIME
-from linkwright.machine.file_argument import File
+from linkwright.machine.file_argument import File, MachineFile
 
 if TYPE_CHECKING:
     from linkwright.multibody.export import Mjcf, Urdf
@@ -83,21 +85,23 @@ def export(
         if table is not None:
             require_place(table, replace=to.force)
         machine = file.read()
-        made = urdf(machine, angle=from_angle)
+        with _located(file):
+            made = urdf(machine, angle=from_angle)
         if table is not None:
             _write_table(made, table, force=to.force)
     else:
         if table is not None:
             raise InputError("--table: it belongs to --to urdf")
         machine = file.read()
-        made = mjcf(
-            machine,
-            angle=from_angle,
-            speed=speed,
-            speed_start=from_speed,
-            step=step,
-            leave_out=tuple(leave_out or ()),
-        )
+        with _located(file):
+            made = mjcf(
+                machine,
+                angle=from_angle,
+                speed=speed,
+                speed_start=from_speed,
+                step=step,
+                leave_out=tuple(leave_out or ()),
+            )
     to.hand_over(
         Answer(
             machine=machine,
@@ -108,6 +112,20 @@ def export(
             machine_file=lambda: made.text,
         )
     )
+
+
+@contextmanager
+def _located(file: MachineFile) -> Iterator[None]:
+    """Problems of the machine with their lines of its file."""
+    from linkwright.kernel.errors import MachineError, MachineFileError
+    from linkwright.kernel.files.lines import located
+    from linkwright.machine.read import text_of_machine
+
+    try:
+        yield
+    except MachineError as error:
+        text = text_of_machine(file.file)
+        raise MachineFileError(located(error.problems, text, str(file.file))) from None
 
 
 def _write_table(made: Urdf, path: Path, *, force: bool) -> None:

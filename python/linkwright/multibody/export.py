@@ -27,11 +27,11 @@ from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia, speed_guess
 from linkwright.multibody.laws import Law, load_laws, motor_law, weight
-from linkwright.multibody.mjcf import IMPEDANCE, TIME_CONSTANT, Setting, mjcf_text
+from linkwright.multibody.mjcf_file import IMPEDANCE, TIME_CONSTANT, Setting, mjcf_text
 from linkwright.multibody.refusals import require_guides, require_laws, require_tree
 from linkwright.multibody.transmission import Transmission, start_speeds, transmission
 from linkwright.multibody.tree import Tree, tree
-from linkwright.multibody.urdf import urdf_text
+from linkwright.multibody.urdf_file import urdf_text
 
 # Mass of a body without one, as a share of all masses: programs refuse zero, and less would be rounding.
 _MASSLESS = 1e-8

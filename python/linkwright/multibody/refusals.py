@@ -33,8 +33,8 @@ def require_guides(scene: Scene) -> None:
         raise MachineError(
             [
                 Problem(
-                    f"mechanism: guide {pair.name}",
-                    f"through a point of {pair.first}, which does not turn it",
+                    "mechanism",
+                    f"guide {pair.name} through a point of {pair.first}, which does not turn it",
                     "a guide on the body that carries its point",
                     'give the guide "on" with the name of that link',
                 )
