@@ -218,6 +218,11 @@ CASES = {
     "synthesise line": Case(
         "--kind hoeken", "--kind hoeken --proportion arm=0.1", "--kind hoeken --proportion arm"
     ),
+    "export": Case(
+        "{roller_two_carts} --to urdf",
+        "{roller_two_carts} --to mjcf --leave-out motor" + _SHORT_ROD,
+        "{roller_two_carts} --to mjcf --leave-out nobody",
+    ),
     "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),
     "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
     "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),

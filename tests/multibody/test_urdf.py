@@ -1,7 +1,7 @@
 """Joints of a URDF that follow the transmission table put all bodies where the mechanism has them."""
 
 from pathlib import Path
-from xml.etree import ElementTree as xml
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -18,7 +18,7 @@ def starts(machine: lw.Machine, made: Urdf) -> dict[str, str]:
     """Links whose frame is at their start, with the point there."""
     places = {
         joint.find("child").get("link"): joint.get("name")  # type: ignore[union-attr]
-        for joint in xml.fromstring(made.text).iter("joint")
+        for joint in ElementTree.fromstring(made.text).iter("joint")
     }
     links = machine.linkage.links()
     return {
@@ -70,7 +70,10 @@ def test_second_derivatives_are_those_of_the_first(name: str) -> None:
 def test_a_gear_mimics_the_other() -> None:
     """A gear of the same size outside mimics the crank with the factor −1; the next one that gear."""
     machine = lw.read(EXAMPLES / "geared_five_bar" / "machine.toml")
-    joints = {joint.get("name"): joint for joint in xml.fromstring(lw.urdf(machine, n=12).text).iter("joint")}
+    joints = {
+        joint.get("name"): joint
+        for joint in ElementTree.fromstring(lw.urdf(machine, n=12).text).iter("joint")
+    }
     mimics = {name: joint.find("mimic") for name, joint in joints.items()}
     found = {n: (m.get("joint"), m.get("multiplier")) for n, m in mimics.items() if m is not None}
     assert found == {"M": ("O", "-1"), "B": ("M", "-1")}
@@ -79,7 +82,7 @@ def test_a_gear_mimics_the_other() -> None:
 def test_slides_have_their_range_as_limits() -> None:
     """The range of a slider-crank's slide is twice the crank radius."""
     machine = lw.read(EXAMPLES / "press_motion" / "machine.toml")
-    limit = next(xml.fromstring(lw.urdf(machine).text).iter("limit"))
+    limit = next(ElementTree.fromstring(lw.urdf(machine).text).iter("limit"))
     low, high = float(limit.get("lower") or 0), float(limit.get("upper") or 0)
     radius = next(iter(machine.mechanism.cranks.values())).radius
     assert high - low == pytest.approx(2 * radius, rel=1e-4)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from tests.multibody.test_mujoco import SIX_BAR
 
 import linkwright as lw
 from linkwright.app.application import application
-from tests.multibody.test_mujoco import SIX_BAR
 
 ROOT = Path(__file__).parents[2]
 

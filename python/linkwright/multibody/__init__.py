@@ -4,7 +4,7 @@
 | --- | --- |
 | `commands` | ``linkwright export`` |
 | `export` | A machine as MJCF or URDF: what is written, and what it stands on |
-| `laws` | Motor and loads as forces with a linear law |
+| `linear_laws` | Motor and loads as forces with a linear law |
 | `mjcf_file` | A machine as MJCF, with loops closed by constraints |
 | `numbers` | Numbers and elements of XML |
 | `refusals` | What such programs cannot do |

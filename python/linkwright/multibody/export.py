@@ -26,7 +26,7 @@ from linkwright.linkages.closure import closure, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia, speed_guess
-from linkwright.multibody.laws import Law, load_laws, motor_law, weight
+from linkwright.multibody.linear_laws import Law, load_laws, motor_law, weight
 from linkwright.multibody.mjcf_file import IMPEDANCE, TIME_CONSTANT, Setting, mjcf_text
 from linkwright.multibody.refusals import require_guides, require_laws, require_tree
 from linkwright.multibody.transmission import Transmission, start_speeds, transmission
@@ -298,4 +298,3 @@ def _common(made: Tree, masses: Mapping[str, tuple[float, float]], text: str) ->
         "mass_min": masses[massless[0]][0] if massless else 0.0,
         "text": text,
     }
-

@@ -5,8 +5,7 @@ the gap is that of a spring and damper to the share d, and free to the share 1 �
 
 .. math:: \ddot r = (1 - d)\,\ddot r_0 - d\,(b \dot r + k r), \qquad b = 2/(d\,T), \quad k = 1/(d\,T)^2
 
-with the time constant T, which follows the time step: T = 4 h. Errors of positions then fall with h²
-(`tests/multibody`).
+with the time constant T, which follows the time step: T = 4 h. Errors of positions then fall with h².
 
 Source: MuJoCo documentation, *Computation*, "Solver parameters"; *XML reference*.
 """
@@ -15,18 +14,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from xml.etree import ElementTree as xml
+from xml.etree import ElementTree
 
 import numpy as np
 
 from linkwright.kernel.arrays import Floats
 from linkwright.linkages.model.structure import FRAME
-from linkwright.multibody.laws import AtPoint, Joints, Law, Line
+from linkwright.multibody.linear_laws import AtPoint, Joints, Law, Line
 from linkwright.multibody.numbers import element, numbers, text_of
 from linkwright.multibody.tree import Body, Tree, place_of
 
-# Time constant of the loops over the time step. MuJoCo permits 2 or more; at 4 positions are as exact as at 2,
-# and speeds and forces ten times more exact.
+# Time constant of the loops over the time step. MuJoCo permits 2 or more; at 4 positions are as exact as at
+# 2, and speeds and forces ten times more exact.
 TIME_CONSTANT = 4.0
 
 # Impedance of the loops: the largest that MuJoCo permits.
@@ -75,7 +74,7 @@ def mjcf_text(tree: Tree, setting: Setting) -> str:
 # -- bodies --------------------------------------------------------------------------------------------------
 
 
-def _worldbody(tree: Tree, setting: Setting, world: xml.Element) -> None:
+def _worldbody(tree: Tree, setting: Setting, world: ElementTree.Element) -> None:
     made = {FRAME: world}
     size = 0.02 * tree.scene.size
     for body in tree.bodies.values():
@@ -101,7 +100,7 @@ def _worldbody(tree: Tree, setting: Setting, world: xml.Element) -> None:
         element(made[carrier], "site", name=name, pos=numbers(*place, 0.0), size=numbers(size))
 
 
-def _joint(part: xml.Element, body: Body, armature: float) -> None:
+def _joint(part: ElementTree.Element, body: Body, armature: float) -> None:
     if body.kind == "fixed":
         return
     axis = (0.0, 0.0, 1.0) if body.kind == "hinge" else (*body.axis, 0.0)
@@ -110,7 +109,7 @@ def _joint(part: xml.Element, body: Body, armature: float) -> None:
         joint.set("armature", numbers(armature))
 
 
-def _picture(part: xml.Element, body: Body, size: float) -> None:
+def _picture(part: ElementTree.Element, body: Body, size: float) -> None:
     if body.length:
         ends = numbers(body.start, 0.0, 0.0, body.start + body.length, 0.0, 0.0)
         element(part, "geom", type="capsule", fromto=ends, size=numbers(size))
@@ -134,14 +133,14 @@ def _sites(tree: Tree, setting: Setting) -> Iterator[tuple[str, Floats, str]]:
 # -- loops, loads, start -------------------------------------------------------------------------------------
 
 
-def _equality(tree: Tree, part: xml.Element) -> None:
+def _equality(tree: Tree, part: ElementTree.Element) -> None:
     for loop in tree.loops:
         element(part, "connect", name=loop.name, site1=f"{loop.name}.loop1", site2=f"{loop.name}.loop2")
     for coupling in tree.couplings:
         element(part, "tendon", name=coupling.name, tendon1=coupling.name)
 
 
-def _tendons(tree: Tree, setting: Setting, part: xml.Element) -> None:
+def _tendons(tree: Tree, setting: Setting, part: ElementTree.Element) -> None:
     sums = {coupling.name: coupling.factors for coupling in tree.couplings}
     for law in setting.laws:
         if isinstance(law.on, Line):
@@ -159,7 +158,7 @@ def _tendons(tree: Tree, setting: Setting, part: xml.Element) -> None:
             element(fixed, "joint", joint=joint, coef=numbers(factor))
 
 
-def _actuators(setting: Setting, part: xml.Element) -> None:
+def _actuators(setting: Setting, part: ElementTree.Element) -> None:
     for law in setting.laws:
         if law.dry:
             continue
@@ -179,7 +178,7 @@ def _actuators(setting: Setting, part: xml.Element) -> None:
         actuator.attrib |= {"gainprm": "0", "biastype": "affine", "biasprm": values}
 
 
-def _start(tree: Tree, setting: Setting, part: xml.Element) -> None:
+def _start(tree: Tree, setting: Setting, part: ElementTree.Element) -> None:
     """The initial position, with the speeds of all joints; the supply is on."""
     joints = tree.joints()
     speeds = [setting.speeds[name] for name in joints]

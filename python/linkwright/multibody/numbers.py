@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from xml.etree import ElementTree as xml
+from xml.etree import ElementTree
 
 
 def numbers(*values: float) -> str:
@@ -10,18 +10,17 @@ def numbers(*values: float) -> str:
     return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)
 
 
-
-def element(parent: xml.Element | None, tag: str, /, **attributes: str) -> xml.Element:
+def element(parent: ElementTree.Element | None, tag: str, /, **attributes: str) -> ElementTree.Element:
     """An element of XML below another."""
     if parent is None:
-        return xml.Element(tag, attributes)
-    return xml.SubElement(parent, tag, attributes)
+        return ElementTree.Element(tag, attributes)
+    return ElementTree.SubElement(parent, tag, attributes)
 
 
-def text_of(root: xml.Element) -> str:
+def text_of(root: ElementTree.Element) -> str:
     """The document, indented; containers without content are left out."""
     for child in list(root):
         if len(child) == 0 and not child.attrib:
             root.remove(child)
-    xml.indent(root)
-    return xml.tostring(root, encoding="unicode") + "\n"
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode") + "\n"

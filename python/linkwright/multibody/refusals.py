@@ -13,14 +13,14 @@ from linkwright.kinetostatics.places import Scene
 from linkwright.linkages.kinematics import kinematics_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
-from linkwright.multibody.laws import slide_joint
+from linkwright.multibody.linear_laws import slide_joint
 from linkwright.multibody.tree import Tree, is_plain, is_split
 
 _LEAVE_OUT = "leave it out with --leave-out {name} and let the receiving program apply it"
 
 
 def require_tree(machine: Machine) -> None:
-    """Raise `MachineError` if the machine has no crank that turns evenly, or parts that no joint stands for."""
+    """Raise `MachineError` for a machine without a crank in proportion to the shaft, or with other parts."""
     problems = list(_parts(machine)) or list(_drivers(machine))
     if problems:
         raise MachineError(problems)

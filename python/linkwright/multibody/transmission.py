@@ -106,5 +106,3 @@ def start_speeds(tree: Tree, speed: float) -> dict[str, float]:
     """Speeds of all joints at the initial position for a speed of the crank [rad/s]."""
     motion = transmission(tree, tree.scene).joints
     return {name: speed * float(joint.d1[0]) for name, joint in motion.items()}
-
-

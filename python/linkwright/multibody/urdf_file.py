@@ -9,7 +9,7 @@ Source: URDF XML specification, http://wiki.ros.org/urdf/XML.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from xml.etree import ElementTree as xml
+from xml.etree import ElementTree
 
 from linkwright.kernel.arrays import Floats
 from linkwright.linkages.model.structure import FRAME
@@ -24,14 +24,14 @@ BASE = "base_link"
 _MARGIN, _NO_LIMIT = 1e-6, 1e9
 
 
-def urdf_text(
-    tree: Tree, name: str, masses: Mapping[str, tuple[float, float]], motion: Transmission
-) -> str:
+def urdf_text(tree: Tree, name: str, masses: Mapping[str, tuple[float, float]], motion: Transmission) -> str:
     """The tree as text; `masses`: mass and inertia of each body; `motion`: its joints over a cycle."""
     root = element(None, "robot", name=name)
     loops = ", ".join(loop.name for loop in tree.loops)
     if loops:
-        root.append(xml.Comment(f" Loops that the transmission table closes: {loops} ".replace("--", "- -")))
+        root.append(
+            ElementTree.Comment(f" Loops that the transmission table closes: {loops} ".replace("--", "- -"))
+        )
     element(root, "link", name=BASE)
     for body in tree.bodies.values():
         _link(root, body, *masses[body.name])
@@ -46,7 +46,7 @@ def urdf_text(
     return text_of(root)
 
 
-def _link(root: xml.Element, body: Body, mass: float, inertia: float) -> None:
+def _link(root: ElementTree.Element, body: Body, mass: float, inertia: float) -> None:
     link = element(root, "link", name=body.name)
     inertial = element(link, "inertial")
     element(inertial, "origin", xyz=numbers(*body.centre, 0.0), rpy="0 0 0")
@@ -55,7 +55,7 @@ def _link(root: xml.Element, body: Body, mass: float, inertia: float) -> None:
     element(inertial, "inertia", **moments, ixy="0", ixz="0", iyz="0")
 
 
-def _joint(root: xml.Element, body: Body) -> xml.Element:
+def _joint(root: ElementTree.Element, body: Body) -> ElementTree.Element:
     kinds = {"hinge": "continuous", "slide": "prismatic", "fixed": "fixed"}
     joint = element(root, "joint", name=body.joint or f"{body.name}.fixed", type=kinds[body.kind])
     element(joint, "parent", link=BASE if body.parent == FRAME else body.parent)
@@ -67,7 +67,7 @@ def _joint(root: xml.Element, body: Body) -> xml.Element:
     return joint
 
 
-def _limits(joint: xml.Element, travel: Floats) -> None:
+def _limits(joint: ElementTree.Element, travel: Floats) -> None:
     """The range of a slide over a cycle, which URDF asks for."""
     low, high = float(travel.min()), float(travel.max())
     margin = _MARGIN * (high - low)

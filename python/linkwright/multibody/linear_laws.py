@@ -30,7 +30,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Joints:
-    """A sum of joint coordinates, counted from the initial position, against which a torque or force works."""
+    """A sum of joint coordinates, counted from the initial position, that a torque or force acts on."""
 
     factors: dict[str, float]  # by joint
 
