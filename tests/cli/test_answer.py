@@ -220,7 +220,7 @@ CASES = {
     ),
     "export": Case(
         "{roller_two_carts} --to urdf",
-        "{roller_two_carts} --to mjcf --leave-out motor" + _SHORT_ROD,
+        "{roller_two_carts} --to urdf" + _SHORT_ROD,
         "{roller_two_carts} --to mjcf --leave-out nobody",
     ),
     "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),

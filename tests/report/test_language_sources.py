@@ -30,7 +30,7 @@ OTHERS = re.compile(
     r"|cam/laws/(boundary|limited|optimal|polynomial|spline)\.py|synthesis/(task|commands)\.py"
     r"|machine/(read|size_limits|address|overrides|iso286|tolerances)\.py|.*/(parquet|step)\.py"
     r"|studies/(point_responses|responses|plan|read|sought|knives|axes|model|engine)\.py|linkages/(law|zero)\.py"
-    r"|axes/export/(formats|plain_text|structured_text)\.py"
+    r"|axes/export/(formats|plain_text|structured_text)\.py|multibody/(refusals|mjcf_file|urdf_file)\.py"
     r"|(machine/machine|turning/model|machine/program/(compiled|core)|studies/folder|studies/sizes)\.py"
 )
 
