@@ -194,7 +194,7 @@ def test_mechanisms_of_the_gallery_move_as_their_kinematics(name: str) -> None:
 
 
 def test_cranks_on_one_shaft_are_one_body_and_others_are_coupled() -> None:
-    """Two cranks with one pivot need no joint between them; one on another pivot follows by a coupling."""
+    """Cranks with one pivot need no joint between them; a further pivot and a nut follow by couplings."""
     text = SLIDER_CRANK.replace(
         "[mechanism.sliders.S]",
         """[mechanism.points.Q]
@@ -207,6 +207,9 @@ phase = "90 deg"
 radius = "0.06 m"
 pivot = "Q"
 phase = "40 deg"
+[mechanism.linear_drivers.D]
+per_turn = "0.3 m"
+guide = { through = "Q", angle = "30 deg" }
 [mechanism.sliders.S]""",
     )
     machine = lw.loads(text)
@@ -250,3 +253,47 @@ def test_constraint_force_of_a_loop_is_the_joint_reaction() -> None:
         angles.append(made.speed_start * data.time)
     force = lw.forces(machine, speed=made.speed_start, angles=np.array(angles)).pairs[made.loops[0]].force
     assert np.abs(np.array(found) - force).max() < 2e-4 * np.abs(force).max()
+
+
+def test_cylinder_with_pressure_damping_and_friction_as_its_motion_in_time() -> None:
+    """A cylinder between frame and crank that is a force: barrel and rod slide, pressure and losses act."""
+    text = SLIDER_CRANK.replace(
+        "[mechanism.cranks.A]", '[mechanism.points.Q]\nx = "-0.5 m"\ny = "0.2 m"\n[mechanism.cranks.A]'
+    )
+    cylinder = """
+[mechanism.cylinders.Z]
+start = "Q"
+end = "A"
+bore = "20 mm"
+rod = "10 mm"
+pressure = "2 bar"
+damping = "5 N s/m"
+friction = "5 N"
+[bodies.Z]
+mass = "0.4 kg"
+inertia = "0.002 kg m^2"
+along = "0.1 m"
+[bodies."Z.rod"]
+mass = "0.2 kg"
+inertia = "0.001 kg m^2"
+along = "0.15 m"
+"""
+    machine = lw.loads(text + cylinder)
+    motion = lw.transient(machine, angle=0.3, speed=20.0, duration=0.401, accuracy=1e-11)
+    errors = []
+    for step in (5e-4, 2.5e-4):
+        run = simulated(lw.mjcf(machine, angle=0.3, speed_start=20.0, step=step), 0.4)
+        errors.append(largest_error(run, machine, motion.at(run.time)[0]))
+    assert errors[-1] < 1e-5
+    run = simulated(lw.mjcf(machine, angle=0.3, speed_start=20.0, step=5e-4, leave_out=["Z.friction"]), 0.4)
+    assert largest_error(run, machine, motion.at(run.time)[0]) > 1e-3
+
+
+def test_motor_of_constant_speed_keeps_its_speed_at_the_crank() -> None:
+    """Without --speed the crank has the speed of a motor of constant speed, divided by the ratio."""
+    motor = '[drive.motor]\nkind = "constant_speed"\nspeed = "30 rad/s"\n[drive.gearbox]\nratio = 3\n'
+    machine = lw.loads(SLIDER_CRANK.replace("[drive.flywheel]", motor + "[drive.flywheel]"))
+    made = lw.mjcf(machine, step=1e-3)
+    assert made.is_constant_speed
+    run = simulated(made, 0.6, samples=20)
+    assert run.speed == pytest.approx(10.0, rel=1e-7)

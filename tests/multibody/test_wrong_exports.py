@@ -76,6 +76,7 @@ def test_positions_that_do_not_close_are_findings() -> None:
 LOADS = {
     "a spring by a curve": 'kind = "spring", between = ["B", "K"], length = "0, 1 m", force = "0, 5 N"',
     "dry friction on a point": 'kind = "dry", on = "K", force = "3 N"',
+    "dry friction on a link without mass": 'kind = "dry", on = "S.rod", torque = "1 N m"',
     "a force that turns with another link": 'kind = "force", on = "K", force = "3 N", along = "A"',
     "a spring wound by revolutions": 'kind = "torsional_spring", on = "A", stiffness = "1 N m/rad"',
 }

@@ -31,6 +31,9 @@ TIME_CONSTANT = 4.0
 # Impedance of the loops: the largest that MuJoCo permits.
 IMPEDANCE = 0.9999
 
+# The same at any gap: both limits, then a width, a middle and a power without effect.
+_IMPEDANCES = numbers(IMPEDANCE, IMPEDANCE, 1e-3, 0.5, 2.0)
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -56,19 +59,18 @@ def mjcf_text(tree: Tree, setting: Setting) -> str:
     element(option, "flag", contact="disable")
     default = element(root, "default")
     element(default, "geom", contype="0", conaffinity="0", group="1", rgba="0.4 0.5 0.6 1")
-    time = TIME_CONSTANT * setting.step
-    element(
-        default,
-        "equality",
-        solref=numbers(time, 1.0),
-        solimp=numbers(IMPEDANCE, IMPEDANCE, 1e-3, 0.5, 2.0),
-    )
+    element(default, "equality", solref=_reference(setting), solimp=_IMPEDANCES)
     _worldbody(tree, setting, element(root, "worldbody"))
     _tendons(tree, setting, element(root, "tendon"))
     _equality(tree, element(root, "equality"))
     _actuators(setting, element(root, "actuator"))
     _start(tree, setting, element(root, "keyframe"))
     return text_of(root)
+
+
+def _reference(setting: Setting) -> str:
+    """Time constant and damping ratio of a constraint: no overshoot."""
+    return numbers(TIME_CONSTANT * setting.step, 1.0)
 
 
 # -- bodies --------------------------------------------------------------------------------------------------
@@ -153,7 +155,8 @@ def _tendons(tree: Tree, setting: Setting, part: ElementTree.Element) -> None:
     for name, factors in sums.items():
         fixed = element(part, "fixed", name=name)
         if name in dry:
-            fixed.set("frictionloss", numbers(dry[name]))
+            softness = {"solreffriction": _reference(setting), "solimpfriction": _IMPEDANCES}
+            fixed.attrib |= {"frictionloss": numbers(dry[name]), **softness}
         for joint, factor in factors.items():
             element(fixed, "joint", joint=joint, coef=numbers(factor))
 

@@ -13,6 +13,7 @@ from linkwright.kinetostatics.places import Scene
 from linkwright.linkages.kinematics import kinematics_of
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
+from linkwright.machine.program.drive_line import drive_inertia
 from linkwright.multibody.linear_laws import slide_joint
 from linkwright.multibody.tree import Tree, is_plain, is_split
 
@@ -82,7 +83,7 @@ def require_laws(tree: Tree, left_out: Collection[str], *, motor: bool) -> None:
         if name not in left_out and (found := _found(tree, load)):
             own = name.partition(".")[0]
             key = f"loads.{name}" if name in machine.loads else f"mechanism.cylinders.{own}"
-            expected = "weight, a constant, a linear spring or damper, or dry friction of a joint"
+            expected = "weight, a constant, a linear spring or damper, or dry friction of a joint with mass"
             problems.append(Problem(key, found, expected, _LEAVE_OUT.format(name=name)))
     if problems:
         raise MachineError(problems)
@@ -120,13 +121,24 @@ def _found(tree: Tree, load: object) -> str:
             return "" if is_own else f"a force on {load.on} that turns with another link, {load.along}"
         case loads.TorsionalSpring():
             return _revolves(scene, load)
-        case loads.DryFriction(force=float()):
-            return "" if slide_joint(tree, load.on) else "dry friction on a point"
-        case loads.Gravity() | loads.ConstantTorque() | loads.DryFriction() | loads.ViscousFriction():
+        case loads.DryFriction():
+            return _dry(tree, load)
+        case loads.Gravity() | loads.ConstantTorque() | loads.ViscousFriction():
             return ""
         case loads.TorsionalDamper():
             return ""
     return f"a load of the kind {getattr(load, 'kind', '')}"
+
+
+def _dry(tree: Tree, load: loads.DryFriction) -> str:
+    """Dry friction is a constraint of a joint, as soft as the mass that it acts on is small."""
+    joint = slide_joint(tree, load.on)
+    if load.torque is None and not joint:
+        return "dry friction on a point"
+    body = tree.joints()[joint] if load.torque is None else tree.bodies[load.on]
+    is_shaft = body.joint == tree.crank or body.kind == "fixed"
+    inertia = drive_inertia(tree.scene.machine.drive or Drive()) if is_shaft else 0.0
+    return "" if body.mass or body.inertia or inertia else f"dry friction on {body.name}, which has no mass"
 
 
 def _revolves(scene: Scene, load: loads.TorsionalSpring) -> str:
