@@ -135,6 +135,18 @@ def test_slider_crank_swings_freely_under_gravity_as_its_motion_in_time() -> Non
     assert errors[-1] < 1e-6
 
 
+def test_dry_friction_of_a_slide_at_every_reversal() -> None:
+    """Dry friction that reverses twice per revolution: errors of order h², 5e-5 of the way at the end."""
+    machine = lw.loads(SLIDER_CRANK + 'rubbing = { kind = "dry", on = "S", force = "30 N" }\n')
+    motion = lw.transient(machine, angle=0.3, speed=20.0, duration=0.501, accuracy=1e-11)
+    errors = []
+    for step in (1e-3, 5e-4, 2.5e-4):
+        run = simulated(lw.mjcf(machine, angle=0.3, speed_start=20.0, step=step), 0.5, samples=20)
+        errors.append(largest_error(run, machine, motion.at(run.time)[0]))
+    requires_second_order(errors)
+    assert errors[-1] < 5e-5
+
+
 def test_four_bar_at_constant_speed_as_its_kinematics() -> None:
     """A four-bar at constant speed: errors of order h², 1e-6 of the way at the finest step."""
     machine = lw.read(EXAMPLES / "four_bar_counterweights" / "machine.toml")

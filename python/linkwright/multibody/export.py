@@ -282,7 +282,7 @@ def _inertias(made: Tree, *, is_constant: bool) -> tuple[float, dict[str, tuple[
 
 
 def _step(machine: Machine, speed: float) -> float:
-    """A time step of two digits that a revolution at the speeds of the motion has 2000 of."""
+    """A time step of one digit: about 1/2000 of a revolution at the fastest speed."""
     fastest = max(abs(speed), float(speed_guess(machine.drive or Drive())))
     return float(f"{2 * math.pi / (_STEPS * fastest):.1g}")
 
