@@ -228,6 +228,11 @@ CASES = {
         "{roller_two_carts} --set mechanism.sliders.cart1.rod=0.1 --from-angle=90deg",
         "{roller_two_carts} --accuracy 1",
     ),
+    "export": Case(
+        "{roller_two_carts} --to urdf",
+        "{roller_two_carts} --to urdf" + _SHORT_ROD,
+        "{roller_two_carts} --to mjcf --leave-out nobody",
+    ),
     "law": Case("{roller_cam}", "{roller_cam} --to siemens --points 3", "{roller_two_carts}"),
     "cam": Case("{roller_cam}", "{undercut}", "{roller_two_carts}"),
     "cam laws": Case("--law cycloidal", NEVER, "--law nothing"),

@@ -33,6 +33,7 @@ OTHERS = re.compile(
     r"|studies/(point_responses|responses|plan|read|sought|knives|axes|model|engine)\.py|linkages/(law|zero)\.py"
     r"|axes/export/(formats|plain_text|structured_text)\.py"
     r"|fmi/(variables|description|program)\.py"
+    r"|multibody/(refusals|mjcf_file|urdf_file)\.py"
     r"|(machine/machine|turning/model|machine/program/(compiled|core)|studies/folder|studies/sizes)\.py"
 )
 

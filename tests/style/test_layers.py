@@ -69,6 +69,7 @@ SUBJECTS = (
     "synthesis",
     "sizing",
     "fmi",
+    "multibody",
 )
 
 # What a part of a subject may use of another subject, and why. Every subject may use the model of any that it
@@ -187,6 +188,13 @@ EDGES = {
     ("fmi", "torsion.model"),
     ("fmi.commands", "drive.commands"),
     ("fmi.commands", "driveline.commands"),
+    # A model of multibody dynamics has the bodies of the equilibrium, and the driveline.
+    ("multibody", "drive.model"),
+    ("multibody", "kinetostatics"),
+    ("multibody", "kinetostatics.model"),
+    ("multibody", "linkages"),
+    ("multibody", "linkages.model"),
+    ("multibody.commands", "drive.commands"),
     # A law that goes to a controller is a motion law.
     ("axes.export", "cam.laws"),
 }

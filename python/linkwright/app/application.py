@@ -65,6 +65,7 @@ COMMANDS = {
         "Derivatives of the results by the entries of the file.", "sensitivity.commands:sensitivity"
     ),
     "fmu": Place("Export a drive as an FMU for other simulation tools.", "fmi.commands:fmu"),
+    "export": Place("Export a machine to MuJoCo (MJCF) or as URDF.", "multibody.commands:export"),
     "law": Place("Export the law of a cam or axis to a motion controller.", "axes.export.command:law"),
     "size": Place("Choose motor and flywheel.", "sizing.commands:size"),
     "motors": Place("List the motors of the catalogue.", "sizing.commands:motors"),
