@@ -77,7 +77,7 @@ def test_parts_that_the_file_does_not_name_have_a_word(path: Path) -> None:
         ("The follower rises by 5.5 mm; derivatives are by the cam angle θ.", FOLLOWER),
         ("≥ 4.85 1/m", "≥ 4,85 1/м"),
         ("Measured angle of front, order 8", "Виміряний кут front, порядок 8"),
-        ("trial: torque of line, order 4.5", "trial: момент line, порядок 4,5"),
+        ("trial: torque of line, order 4.5", "trial: момент (line), порядок 4,5"),
         ("Motion of cart 2.5 and cart 3.5", "Рух cart 2.5 і cart 3.5"),
         ("2.5-axle at most 3.5 N", "2.5-axle — не більше 3,5 Н"),
         (

@@ -116,6 +116,14 @@ FREE = {"stroke": None}
     [
         (lambda p, f: (f, p), "position and load are probably exchanged", {}, {}),
         (lambda p, f: (f, p), "position and load are probably exchanged", FREE, {}),
+        (
+            lambda p, f: (f / POUND * INCH, p / INCH * POUND),
+            "position and load are probably exchanged",
+            {},
+            {},
+        ),
+        (lambda p, f: (p / INCH * 0.01, f), "probably in in, not in cm", {}, {}),
+        (lambda p, f: (p, f / POUND * 1e3), "probably in lbf, not in kN", {}, {}),
         (lambda p, f: (p / INCH, f), "probably in in", {}, {}),
         (lambda p, f: (p / FOOT, f), "probably in ft", {}, {}),
         (lambda p, f: (p * 1e3, f), "probably in mm", {}, {}),
@@ -170,3 +178,13 @@ def test_a_file_that_is_no_card_is_refused(tmp_path, text, message):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(lw.LinkwrightError, match=message):
         lw.read_card(path)
+
+
+def test_a_record_of_a_spreadsheet_with_semicolons_is_refused_with_its_remedy(tmp_path):
+    """The message shows the header of a card, and how columns and decimals are written."""
+    path = tmp_path / "card.csv"
+    path.write_text("position [in];load [lbf]\n12,40;9830\n13,91;9870\n")
+    with pytest.raises(lw.MachineFileError) as refused:
+        lw.read_card(path)
+    assert "position [in], load [lbf]" in str(refused.value)
+    assert "a comma between columns, and a point in decimals" in str(refused.value)

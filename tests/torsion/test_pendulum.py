@@ -97,6 +97,17 @@ def test_swing_is_judged() -> None:
     assert study.findings
 
 
+@pytest.mark.parametrize("scale", [0.9, 1.1])
+def test_a_swing_that_is_not_small_is_a_warning(scale: float) -> None:
+    """M = m R (R + l) Ω² ψ at the lowest speed: a warning beyond ψ = 0.5 rad, where no limit is given."""
+    torque = scale * 0.5 * MASS * RADIUS * (RADIUS + LENGTH) * 40.0**2
+    excitations = machine().model_dump(exclude_unset=True)["train"]["excitations"]
+    (one,) = excitations.values()
+    one["harmonics"] = [{"order": one["harmonics"][0]["order"], "torque": torque}]
+    warned = [text for text in torsion_study(machine(excitations=excitations)).warnings if "swing" in text]
+    assert bool(warned) == (scale > 1)
+
+
 def test_what_pendulums_need() -> None:
     """Speeds set their stiffness in linear vibration."""
     with pytest.raises(MachineError, match="speeds, which set the stiffness"):

@@ -228,14 +228,18 @@ def elastic(file: File, *, along: Annotated[RangeOptions, Group(RangeOptions)], 
 
 def _motion(machine: Machine) -> Answer:
     from linkwright.driveline.elastic_motion import elastic_motion
+    from linkwright.driveline.study import motion_warnings
+    from linkwright.kernel.findings import sentence
 
     motion = elastic_motion(machine, others=True)
     return Answer(
         machine=machine,
+        is_described=True,
         results=lambda curves: {"elastic_motion": motion.to_dict(curves=curves)},
         findings=motion.findings,
+        warnings=[sentence(text) for text in motion_warnings(machine, motion)],
         tables=later("driveline.tables:elastic_tables", motion),
-        figures={"elastic_motion": later("driveline.figures:elastic_figure", motion)},
+        figures=later("driveline.figures:elastic_figures", motion),
     )
 
 
@@ -249,6 +253,7 @@ def _branches(machine: Machine, address: str, along: RangeOptions) -> Answer:
     branches = elastic_branches(machine, address, first, last)
     return Answer(
         machine=machine,
+        is_described=True,
         results=lambda _: {"elastic_branches": branches.to_dict()},
         tables=later("driveline.branch_tables:branch_tables", branches),
         figures={"elastic_branches": later("driveline.branch_tables:branch_figure", branches)},

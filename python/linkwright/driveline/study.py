@@ -118,12 +118,17 @@ def elastic_warnings(known: Results) -> Iterator[str]:
     motion = known.elastic_motion
     if motion is None:
         return
-    yield from _stability(motion)
-    yield from _resonance(known.machine, motion)
-    yield from _parametric(known.machine, motion)
-    yield from _others(motion)
-    yield from _reversals(known.machine, motion)
+    yield from motion_warnings(known.machine, motion)
     yield from _fluctuation(known, motion)
+
+
+def motion_warnings(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
+    """What should be known of an elastic motion, whatever else was computed of its machine."""
+    yield from _stability(motion)
+    yield from _resonance(machine, motion)
+    yield from _parametric(machine, motion)
+    yield from _others(motion)
+    yield from _reversals(machine, motion)
 
 
 def _stability(motion: ElasticMotion) -> Iterator[str]:
@@ -198,6 +203,8 @@ def _reversals(machine: Machine, motion: ElasticMotion) -> Iterator[str]:
                 f"The torque of {name} changes sign, from {quantity(low, 'N m')} to {quantity(high, 'N m')}: "
                 f"{backlash}"
             )
+        elif gap and low * high == 0:
+            yield f"The flanks of {name} part in every cycle: its torque falls to zero"
 
 
 def _fluctuation(known: Results, motion: ElasticMotion) -> Iterator[str]:

@@ -43,8 +43,9 @@ def _mechanism(machine: Machine) -> Iterator[str]:
     angle = "crank angle φ, which counts counter-clockwise from the x axis and"
     if is_screw(machine):
         angle = "angle φ of the drive, which"
+    rigid = "Links" if machine.drive is not None and machine.drive.twists else "Links and shafts"
     yield (
-        f"The machine has one degree of freedom, the {angle} increases in time. Links and shafts are rigid. "
+        f"The machine has one degree of freedom, the {angle} increases in time. {rigid} are rigid. "
         "Joints have no clearance, and no friction except the given loads."
     )
     yield "Load torque M_r is positive where it opposes forward rotation."

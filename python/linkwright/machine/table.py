@@ -92,7 +92,7 @@ def _drive(machine: Machine) -> Iterator[Part]:
         yield Part(
             "Drive", "design", [Entry("speed", _value(machine, ("drive", "speed"), machine.drive.speed))]
         )
-    for name in ("motor", "gearbox", "coupling", "flywheel", "brake"):
+    for name in ("motor", "motor_shaft", "gearbox", "coupling", "flywheel", "brake", "crankshaft"):
         if getattr(machine.drive, name) is not None:
             yield _part("Drive", machine, ("drive", name))
 

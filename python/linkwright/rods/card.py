@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import permutations
 from pathlib import Path
 
 import numpy as np
@@ -45,9 +46,11 @@ _FORCES = {
     "kN": 1e3,
     "klbf": 4448.2216152605,
     "kgf": GRAVITY,
-    "1/4.448 N, converted twice": 1 / 4.4482216152605,
 }
 _LENGTHS = {"in": 0.0254, "ft": 0.3048, "cm": 0.01, "mm": 1e-3}
+
+# A length that is read as a force, and so the other way round: m and N, in and lbf [m/N].
+_EXCHANGED = 1.0, _LENGTHS["in"] / _FORCES["lbf"]
 
 
 @public_type
@@ -92,7 +95,7 @@ def read_card(path: str | os.PathLike[str]) -> SurfaceCard:
     InputError
         Times are not equally spaced.
     """
-    has_time = "time" in columns_of(Path(path), "", numbers=())[0]
+    has_time = "time" in columns_of(Path(path), "", "card", ())[0]
     kinds = {"position": LENGTH, "load": FORCE, **({"time": TIME} if has_time else {})}
     columns = read_columns(path, kinds)
     return timed_card(columns["position"], columns["load"], columns.get("time"), f"{path}: column time")
@@ -178,7 +181,7 @@ def _require_stroke(stroke: float, known: float | None, range_of_load: float) ->
     low, high = _STROKES if known is None else (known * (1 - _STROKE_AGREES), known * (1 + _STROKE_AGREES))
     if low <= stroke <= high:
         return
-    if low <= range_of_load <= high:
+    if any(low <= range_of_load * factor <= high for factor in _EXCHANGED):
         remedy = "; position and load are probably exchanged"
     elif known is None:
         remedy = "; the positions are in another unit than their header says"
@@ -213,4 +216,7 @@ def _unit_remedy(factors: Mapping[str, float], fits: Callable[[float], bool]) ->
             return f"; the numbers are probably in {unit}"
         if fits(1 / factor):
             return f"; the numbers were probably multiplied by {factor:.4g} once too often"
+    for (said, taken), (unit, factor) in permutations(factors.items(), 2):
+        if fits(factor / taken):
+            return f"; the numbers are probably in {unit}, not in {said}"
     return ""

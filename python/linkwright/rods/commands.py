@@ -99,7 +99,6 @@ def _answer(
         results={name: result},
         findings=list(findings),
         warnings=list(warnings),
-        head=machine.name,
         tables=later(f"rods.{kind}_tables", result),
         **more,
     )

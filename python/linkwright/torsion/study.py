@@ -20,6 +20,7 @@ from linkwright.torsion.excitation.engine_torques import EngineData, engine_data
 from linkwright.torsion.excitation.excited_train import ExcitedTrain, excited_train, is_excited, pulsates
 from linkwright.torsion.in_time.transient import TorsionTransient, torsion_transient
 from linkwright.torsion.limits.crank_fatigue import CrankshaftFatigue, surveyed_fatigue
+from linkwright.torsion.limits.criteria import swing
 from linkwright.torsion.limits.critical_response import CriticalResponse, critical_responses
 from linkwright.torsion.limits.misfire import MisfireVerdict, misfire_verdict
 from linkwright.torsion.limits.overlay import Overlay, overlay
@@ -52,6 +53,9 @@ _BALANCED = 1e-3
 
 # Share of a limit from which on it matters that more may be asked for beyond the speeds.
 _NEAR = 0.8
+
+# Swing of a pendulum beyond which linear vibration misleads [rad]: its period grows by ψ²/16, here 1.6 %.
+_LARGE_SWING = 0.5
 
 
 @dataclass(frozen=True)
@@ -444,6 +448,7 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
         yield from _balance_warnings(train, at)
     yield from _about_loads(study, at)
     yield from _about_couplings(study, forced)
+    yield from () if train is None else _about_pendulums(train, forced)
     yield from limited_controllers(at, forced)
     yield from _about_the_ends(study, forced)
     rest = np.flatnonzero(~forced.together.together)
@@ -454,6 +459,18 @@ def _warnings(study: TorsionStudy) -> Iterator[str]:
             f"Orders {listed} have no common base with the others: the peaks of each family are added, an "
             "upper bound."
         )
+
+
+def _about_pendulums(train: Train, forced: ForcedVibration) -> Iterator[str]:
+    for name, pendulum in train.pendulums.items():
+        amplitude = np.nan_to_num(swing(name, pendulum, forced), posinf=0.0)
+        most = int(amplitude.argmax())
+        if pendulum.swing_permitted is None and amplitude[most] > _LARGE_SWING:
+            yield (
+                f"The pendulum {name} would swing by {np.degrees(amplitude[most]):.4g}° at "
+                f"{forced.speeds[most] * 30 / np.pi:.5g} rpm: linear vibration holds for small swings only; "
+                "more mass swings less, and swing_permitted sets a limit."
+            )
 
 
 def _about_throws(train: Train) -> Iterator[str]:

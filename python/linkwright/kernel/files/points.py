@@ -128,9 +128,9 @@ def columns_of(
     if not lines or not all(heads):
         found = show(",".join(lines[0][1])) if lines else "an empty file"
         expected = f'a header such as "{_EXAMPLES[kind]}", and a row for each point, separated by commas'
-        raise MachineFileError(
-            [Problem(key, found, expected, path=str(path), line=lines[0][0] if lines else 1)]
-        )
+        remedy = "write a comma between columns, and a point in decimals" if ";" in found else ""
+        line = lines[0][0] if lines else 1
+        raise MachineFileError([Problem(key, found, expected, remedy, str(path), line)])
     names = [head[1] for head in heads if head is not None]
     twice = next((name for name, n in Counter(names).items() if n > 1), None)
     if twice is not None:

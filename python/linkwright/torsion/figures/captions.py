@@ -80,6 +80,8 @@ def _manoeuvre(study: TorsionStudy, moved: TorsionTransient) -> Iterator[Caption
         # silent: a record too short for orders has no waterfall
         # Too short for turns to tell orders apart.
         return
+    if len(orders.time) < 2:  # One window shows no change of speed.
+        return
     caption = f"Torque in {moved.shafts[shaft]}, order by order as the speed changes [N m]."
     figure = waterfall_figure(orders, quantity="torque [N m]")
     yield CaptionedFigure("waterfall", "Waterfall of the manoeuvre", caption, figure)

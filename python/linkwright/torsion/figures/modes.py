@@ -106,10 +106,14 @@ def in_a_row(discs: Sequence[str], joined: Sequence[tuple[str, str]]) -> list[in
     ends = [name for name in discs if len(about[name]) < 2]
     if len(ends) != 2 or any(len(name) > 2 for name in about.values()):
         return list(range(len(discs)))
+    row = _from(ends[0], about)
+    if len(row) != len(discs):  # An open clutch leaves two trains.
+        return list(range(len(discs)))
     # From the end that is nearer to the first disc of the file.
-    row = min((_from(end, about) for end in ends), key=lambda name: name.index(discs[0]))
+    if 2 * row.index(discs[0]) >= len(row):
+        row.reverse()
     place = {name: n for n, name in enumerate(discs)}
-    return [place[name] for name in row] if len(row) == len(discs) else list(range(len(discs)))
+    return [place[name] for name in row]
 
 
 def _from(end: str, about: Mapping[str, Sequence[str]]) -> list[str]:

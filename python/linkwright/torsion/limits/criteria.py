@@ -25,7 +25,7 @@ from linkwright.kernel.units.kinds import ANGLE, POWER, PRESSURE, TORQUE, Kind
 from linkwright.machine.machine import Machine
 from linkwright.torsion.excitation.excited_train import ExcitedTrain
 from linkwright.torsion.excitation.harmonics import span
-from linkwright.torsion.model.coupling import Coupling, Damper
+from linkwright.torsion.model.coupling import Coupling, Damper, Pendulum
 from linkwright.torsion.model.shaft_limit import ShaftLimit
 from linkwright.torsion.model.train import Shaft, Train
 from linkwright.torsion.response.forced import TorsionResponse
@@ -115,10 +115,16 @@ def _heats(train: Train | None, response: TorsionResponse) -> Iterator[Criterion
 def _swings(train: Train | None, at: ExcitedTrain, response: TorsionResponse) -> Iterator[Criterion]:
     for name, pendulum in ({} if train is None else train.pendulums).items():
         if pendulum.swing_permitted is not None:
-            ring, disc = (response.amplitudes[:, response.discs.index(end)] for end in (name, pendulum.on))
-            top, bottom = span(response.together, pendulum.swing_per_twist * (ring - disc))
             permitted = np.full(len(response.speeds), pendulum.swing_permitted)
-            yield Criterion(name, "swing", ANGLE, 0.5 * (top - bottom), permitted)
+            yield Criterion(name, "swing", ANGLE, swing(name, pendulum, response), permitted)
+
+
+def swing(name: str, pendulum: Pendulum, response: TorsionResponse) -> Floats:
+    """Amplitude of the swing of a pendulum at each speed [rad], (speeds,)."""
+    ring, disc = (response.amplitudes[:, response.discs.index(end)] for end in (name, pendulum.on))
+    top, bottom = span(response.together, pendulum.swing_per_twist * (ring - disc))
+    amplitude: Floats = 0.5 * (top - bottom)
+    return amplitude
 
 
 def _contacts(gears: MeshTorque) -> Iterator[Criterion]:
