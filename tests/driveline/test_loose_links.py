@@ -15,13 +15,16 @@ from linkwright.driveline.solving import multipliers_of, ready, solved
 
 def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down_here() -> None:
     """Start, multipliers, period, losses and extremes of drives with up to three links."""
-    refused = []
+    chaotic, unknown = [], []
     for number, rng in random_cases(4802, 1, 200, also=(9,)):
         loose = random_loose_drive(rng)
         try:
             motion = lw.elastic_motion(loose.machine, angles=np.zeros(1))
-        except (lw.ConvergenceError, lw.SteadyStateError):
-            refused.append(number)
+        except lw.SteadyStateError:
+            chaotic.append(number)
+            continue
+        except lw.ConvergenceError:
+            unknown.append(number)
             continue
         lead, masses = loose.drive.ratio, _masses(motion)
         speed = motion.speed[masses, 0] / motion.ratio[masses]
@@ -46,12 +49,15 @@ def test_random_drives_with_backlash_and_curves_repeat_by_equations_written_down
             size = np.abs(expected).max(axis=1)
             assert np.abs((low - expected[:, 0]) / size).max() <= 1e-6, number
             assert np.abs((high - expected[:, 1]) / size).max() <= 1e-6, number
-    assert len(refused) <= 1 + number // 15
-    for case in refused:
+    assert len(unknown) <= 1
+    for case in chaotic:
         # Seen in time: neighbouring motions part, and no cycle of up to 24 revolutions repeats.
         factor, near = parting(random_loose_drive(generator(4802, case)))
         assert factor > 1.05, case
         assert near > 1e-5, case
+    for case in unknown:
+        # They meet: what is not found is none of those that are called chaotic.
+        assert parting(random_loose_drive(generator(4802, case)))[0] < 1.05, case
 
 
 def _masses(motion: lw.ElasticMotion) -> list[int]:

@@ -27,8 +27,8 @@ CYCLES = 300
 # Cycles that it is followed before where the motion found is unstable: another may be stable.
 AWAY = 100
 
-# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: on a torus they
-# part in proportion to the time, by 1.024 a cycle on average from the tenth cycle to the 110th.
+# Factor by which neighbouring motions part in a cycle, from which on a motion is called chaotic: on a torus
+# they part in proportion to the time, by 1.024 a cycle on average from the tenth cycle to the 110th.
 CHAOTIC = 1.05
 
 # Angles of a revolution at which the minimum inertia is looked for.
@@ -106,8 +106,8 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
     if motion.reason == "not found":
         off, parting = number(100 * motion.accuracy, 2), number(motion.parting, 3)
         seen = (
-            f"the last cycles differ by {off} % at best; motions that begin close part by a factor of {parting} "
-            "per cycle"
+            f"the last cycles differ by {off} % at best; motions that begin close part by a factor of "
+            f"{parting} per cycle"
         )
         if motion.parting > CHAOTIC:
             return SteadyStateError(
@@ -115,7 +115,8 @@ def _failure(motion: NoDrivelineMotion, driven: Driven, accuracy: float) -> Exce
                 "backlash, add damping, or follow it in time (elastic_transient)"
             )
         # Nothing was seen of a motion that cannot be followed so exactly.
-        seen = "" if np.isnan(motion.accuracy) else f"; {seen}; it is quasi-periodic, or settles very slowly"
+        regular = f"it repeats after more than {MULTIPLES} cycles, is quasi-periodic, or settles very slowly"
+        seen = "" if np.isnan(motion.accuracy) else f"; {seen}; {regular}"
         return ConvergenceError(
             f"no periodic motion of the elastic driveline was found: in {CYCLES} cycles the motion does not "
             f"come to one that Newton's method converges to{seen}; follow it in time (elastic_transient)",
