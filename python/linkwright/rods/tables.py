@@ -17,7 +17,9 @@ from linkwright.kernel.page.table import (
     parts_of,
     rows_of,
 )
-from linkwright.kernel.reader.numbers import measured, number, quantity
+from linkwright.kernel.reader.numbers import measured, number
+from linkwright.kernel.units.kinds import VOLUME_FLOW
+from linkwright.kernel.units.reading import parse
 from linkwright.pumping.gear_torque import GearTorque
 from linkwright.rods.diagnosis import CardDiagnosis
 from linkwright.rods.prediction import RodStringMotion
@@ -64,7 +66,8 @@ def diagnosis_tables(found: CardDiagnosis) -> Iterator[Table]:
 
 def barrels(flow: float) -> str:
     """A flow in barrels of 42 US gallons by the day."""
-    return quantity(flow, "m^3/s", usual="bbl/d")
+    # Beside the flow in the reader's unit, always in barrels.
+    return f"{number(flow / parse('1 bbl/d', VOLUME_FLOW))} bbl/d"
 
 
 def sections_table(stress: RodStress) -> Table:

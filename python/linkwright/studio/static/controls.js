@@ -11,6 +11,9 @@ import { effect, entryAt, keysOf } from "./slopes.js";
 import * as state from "./state.js";
 import { number, read, shownUnit, typed } from "./units.js";
 
+/** Word of an entry: a sucker rod is no connecting rod, in other languages another word. @param {{ address: string, key: string }} entry */
+const wordOf = ({ address, key }) => (/^rod_string\..*\.rod$/.test(address) ? "nominal size" : key.replaceAll("_", " "));
+
 /** Whether an entry stands on a line of its own. @param {Entry} entry */
 const isLong = ({ holds, written }) => (holds === "text" ? String(written).length > 16 : holds === "choice" && said(written.replaceAll("_", " ")).length > 13);
 
@@ -38,7 +41,7 @@ export function follows() {
 /** @param {{ entry: Entry }} props */
 function Quantity({ entry }) {
   const { address, unit = "" } = entry;
-  const key = said(entry.key.replaceAll("_", " "));
+  const key = said(wordOf(entry));
   const { unit: word, factor } = shownUnit(unit, state.units.value);
   const pulled = useComputed(() => state.live.value[address]).value;
   const si = typeof pulled === "number" ? pulled : entry.si;
@@ -147,7 +150,7 @@ function Row({ entry, draggable }) {
   const isPulled = useComputed(() => address in state.live.value).value;
   return html`
     <div class="row ${isPulled ? "pulled" : ""} ${isLong(entry) ? "long" : ""}">
-      <label for="at ${address}" title=${about}>${key.replaceAll("_", " ")}</label>
+      <label for="at ${address}" title=${about}>${wordOf(entry)}</label>
       <span class="signs">${entry.holds === "quantity" ? html`<${Slope} entry=${entry} />` : null}${draggable.has(address) ? html`<button class="lock" aria-pressed=${locked} aria-label="Lock ${key} of ${keysOf(address).at(-2)}" title=${locked ? "Locked: dragging joints does not change it" : "Follows dragged joints; lock it"}
         onClick=${() => (state.locks.value = { ...state.locks.value, [address]: !locked })}><${Icon} name=${locked ? "locked" : "open"} /></button>` : null}</span>
       ${entry.holds === "quantity" ? html`<${Quantity} entry=${entry} />` : html`<div class="field"><${Other} entry=${entry} /></div>`}
@@ -175,7 +178,7 @@ function More({ group }) {
       <button class="quiet" aria-expanded=${open} onClick=${() => setOpen(!open)}>${open ? "Fewer entries" : `Add an entry (${plain.length})`}</button>
       ${open ? plain.map((each) => html`
         <button class="add" key=${each.key} title=${each.about} onClick=${() => settle({ [each.address]: first(each) })}>
-          <b>${each.key.replaceAll("_", " ")}</b> ${each.about} <i>${each.usual === null || each.usual === "" ? "" : `Now ${each.usual} ${each.unit ?? ""}.`}</i>
+          <b>${wordOf(each)}</b> ${each.about} <i>${each.usual === null || each.usual === "" ? "" : `Now ${each.usual} ${each.unit ?? ""}.`}</i>
         </button>`) : null}
     </div>`;
 }

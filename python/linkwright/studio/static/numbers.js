@@ -28,7 +28,7 @@ const partOf = (of) => /^(?:axis|cylinder)\.(?!motor$)(.+?)(?:\.motor)?$/.exec(o
 /** Index marks of a symbol, as M_d,max or φ(ω_min). @param {{ symbol: string }} props */
 export function Sign({ symbol }) {
   const [head, index, rest] = (/^([^_]*)_?([^)]*)(.*)$/.exec(symbol) ?? []).slice(1);
-  return html`<span class="symbol">${head}${index ? html`<sub>${index}</sub>` : null}${rest}</span>`;
+  return html`<span class="symbol" translate="no">${head}${index ? html`<sub>${index}</sub>` : null}${rest}</span>`;
 }
 
 /** @param {string} name */
