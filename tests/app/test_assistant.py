@@ -284,6 +284,7 @@ def test_options_that_write_files_are_not_offered() -> None:
 # Commands of one machine file with JSON that assistants have not, and why.
 NOT_OFFERED = {
     "plot": "its curves are those of run with curves",
+    "export": "its answer is a file",
     "law": "takes a name besides the file",
     "sweep": "a tool of its own",
 }
