@@ -289,6 +289,7 @@ NOT_OFFERED = {
     "fmu": "its file is for another tool",
     "outline": "takes a drawing",
     "plot": "its curves are those of run with curves",
+    "export": "its answer is a file",
     "law": "takes a name besides the file",
     "sweep": "a tool of its own",
 }

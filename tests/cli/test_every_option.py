@@ -31,6 +31,7 @@ ELSEWHERE = {
     "--catalogue",
     "--gearboxes",
     "--study",
+    "--table",
 }
 
 # Beside the first calls of the answers: the other ways of commands that have two.

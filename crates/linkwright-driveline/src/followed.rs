@@ -56,6 +56,7 @@ impl<'a> Follower<'a> {
             brakes: vec![0.0; masses],
             supply: 1.0,
             torques: vec![0.0; masses],
+            coupling: 0.0,
             speed,
             until: SLOWEST * cycle / speed,
             turns: cycle / TAU,

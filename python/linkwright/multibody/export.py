@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -109,7 +109,7 @@ def mjcf(
     speed: float | None = None,
     speed_start: float = 0.0,
     step: float | None = None,
-    leave_out: Collection[str] = (),
+    leave_out: Sequence[str] = (),
 ) -> Mjcf:
     """Export a machine for MuJoCo.
 
@@ -126,7 +126,7 @@ def mjcf(
         Crank speed at the start of a motion under motor and loads [rad/s].
     step : float, optional
         Time step [s]; without it 2000 per revolution.
-    leave_out : collection of str
+    leave_out : sequence of str
         Loads, or ``"motor"``, that the receiving program applies itself.
 
     Returns
@@ -250,7 +250,7 @@ def _kept_speed(machine: Machine, speed: float | None, speed_start: float) -> fl
     return None
 
 
-def _laws(made: Tree, leave_out: Collection[str], *, motor: bool) -> tuple[Law, ...]:
+def _laws(made: Tree, leave_out: Sequence[str], *, motor: bool) -> tuple[Law, ...]:
     """Motor and loads that are not left out; of a constant speed no motor."""
     machine = made.scene.machine
     known = [*machine.all_loads, "motor"]

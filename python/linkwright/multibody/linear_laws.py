@@ -80,7 +80,10 @@ def motor_law(tree: Tree, drive: Drive | None) -> Law | None:
 def load_laws(tree: Tree, names: Iterable[str]) -> Iterator[Law]:
     """The laws of loads by name, without weight; those that are refused must be left out."""
     for name in names:
-        yield from _laws(tree, f"loads.{name}", tree.scene.machine.all_loads[name])
+        for law in _laws(tree, f"loads.{name}", tree.scene.machine.all_loads[name]):
+            # A torque on a body that does not turn does no work.
+            if not isinstance(law.on, Joints) or law.on.factors:
+                yield law
 
 
 def _laws(tree: Tree, name: str, load: object) -> Iterator[Law]:
