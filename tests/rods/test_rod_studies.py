@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.samples.sizes import DEEP
 from tests.samples.wells import well
 
 import linkwright as lw
@@ -47,9 +48,10 @@ def test_the_best_taper_has_equal_loadings(study_of):
 
 
 @pytest.mark.deep
-def test_the_most_production_is_at_the_rating_of_the_gearbox(study_of):
+@pytest.mark.parametrize("evaluations", [40] if DEEP else [])
+def test_the_most_production_is_at_the_rating_of_the_gearbox(study_of, evaluations):
     """Production grows with the speed until the torque has its rating: two per cent more exceed it."""
-    found = lw.optimise(study_of("speed.toml"), 40)
+    found = lw.optimise(study_of("speed.toml"), evaluations)
     best = found.responses
     assert 0.99 < best["torque"] <= 1
     assert best["loading"] < 1

@@ -90,7 +90,7 @@ def sentences(machine):
         ({}, {"speed": "30 rpm"}, "Section 1 \\(7/8 in\\) is overloaded"),
         ({}, of(rod="1/2", length="16400 ft"), "the plunger hardly moves"),
         ({"leak": "100 l/min"}, {}, "slippage takes all"),
-        ({"fillage": 0.5}, {"damping_factor": 0.01}, "falls too suddenly"),
+        ({"fillage": 0.3}, {"damping_factor": 0.02}, "falls too suddenly"),
         ({}, {"speed": "40 rpm"}, "Section 1 \\(7/8 in\\) tends to buckle"),
     ],
 )

@@ -98,7 +98,9 @@ def optimum_answer(plan: StudyPlan, options: dict[str, Any], untried: str = "") 
 
 def _watch(shown: Any) -> Callable[..., None] | None:
     """How many machines were computed, where somebody looks."""
-    return shown and (lambda count, value, at: shown.update(f"machines computed: {count}"))
+    if shown is None:
+        return None
+    return lambda count, value, at: shown.update(f"machines computed: {count}")
 
 
 def _front(plan: StudyPlan, points: int, options: dict[str, Any]) -> Answer:
