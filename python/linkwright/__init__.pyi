@@ -105,9 +105,9 @@ from linkwright.machine.machine import Machine as Machine
 from linkwright.machine.read import loads as loads
 from linkwright.machine.read import read as read
 from linkwright.machine.write import write as write
-from linkwright.outlines.plate import outline as outline
 from linkwright.multibody.export import mjcf as mjcf
 from linkwright.multibody.export import urdf as urdf
+from linkwright.outlines.plate import outline as outline
 from linkwright.papers.published_lengths import length_verdict as length_verdict
 from linkwright.pumping.model.unit_catalogue import pumping_units as pumping_units
 from linkwright.pumping.rod_rotator import rod_rotator as rod_rotator

@@ -173,7 +173,7 @@ def test_spellings_of_one_unit(given: str, same: str) -> None:
         ("4 Nms", kinds.TORSIONAL_DAMPING, "N m s"),
         ("", kinds.LENGTH, "a length"),
         ("m", kinds.LENGTH, "a length"),
-        ("1 m m", kinds.LENGTH, "something else"),
+        ("1 m m", kinds.LENGTH, "unit of area"),
         ("1 kg m22", kinds.INERTIA, "not a known unit"),
         ("1 NM", kinds.TORQUE, "did you mean N m?"),
         ("1 KG M2", kinds.INERTIA, "did you mean kg m^2?"),

@@ -54,6 +54,7 @@ class Fmu(Result):
     accuracy: Annotated[float, Label("relative accuracy of a step", "", "")]
     data: Annotated[bytes, About("Content of the file.")]
 
+    @public
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the file ``.fmu``; one that exists is replaced.
 

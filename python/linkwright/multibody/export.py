@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -60,12 +60,13 @@ class _File(Result):
     mass_min: Annotated[float, Label("mass given to bodies without one", "", "kg")]
     text: Annotated[str, About("Content of the file.")]
 
-    def write(self, path: str | Path) -> None:
+    @public
+    def write(self, path: str | os.PathLike[str]) -> None:
         """Write the file.
 
         Parameters
         ----------
-        path : str or pathlib.Path
+        path : str or path-like
             It is replaced if it exists.
 
         Raises

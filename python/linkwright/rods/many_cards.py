@@ -34,7 +34,7 @@ _SAMPLES, _AT_ONCE, _FITTED = 512, 256, 9
 FULL = 0.95
 
 # A card, or a file with one.
-Given = SurfaceCard | str | os.PathLike[str]
+CardOrFile = SurfaceCard | str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class _Ready(NamedTuple):
 @public
 def diagnose_cards(
     machine: Machine,
-    cards: Sequence[Given],
+    cards: Sequence[CardOrFile],
     *,
     damping: float | None = None,
     period: float | None = None,
@@ -130,7 +130,7 @@ _QUANTITIES = tuple(
 )
 
 
-def _names(cards: Sequence[Given]) -> tuple[str, ...]:
+def _names(cards: Sequence[CardOrFile]) -> tuple[str, ...]:
     """Names of files, with their folders where two have one name; numbers of cards without a file."""
     files = [None if isinstance(card, SurfaceCard) else Path(card) for card in cards]
     short = [str(n) if file is None else file.name for n, file in enumerate(files, start=1)]
@@ -139,11 +139,11 @@ def _names(cards: Sequence[Given]) -> tuple[str, ...]:
     return tuple(str(n) if file is None else str(file) for n, file in enumerate(files, start=1))
 
 
-def _read(card: Given) -> SurfaceCard:
+def _read(card: CardOrFile) -> SurfaceCard:
     return card if isinstance(card, SurfaceCard) else read_card(card)
 
 
-def _fitted(machine: Machine, cards: Sequence[Given], period: float | None) -> float:
+def _fitted(machine: Machine, cards: Sequence[CardOrFile], period: float | None) -> float:
     """The median of the dampings that fit some of the cards, those evenly over the day first."""
     spread = np.linspace(0, len(cards) - 1, _FITTED).astype(int)
     found: list[float] = []
@@ -165,7 +165,7 @@ def _fitted(machine: Machine, cards: Sequence[Given], period: float | None) -> f
 def _ready(
     machine: Machine,
     string: RodString,
-    cards: Sequence[Given],
+    cards: Sequence[CardOrFile],
     rows: range,
     period: float | None,
     faults: list[str],

@@ -329,6 +329,11 @@ def _parts(kind: str, expected: str) -> Check:
     return check
 
 
+def _cards_or_files(name: str, value: Any) -> Any:
+    listed = _several(name, value, "a list of cards, such as read_card() gives, or of their files")
+    return tuple(part if type(part).__name__ == "SurfaceCard" else _path(name, part) for part in listed)
+
+
 def _numbers_or_texts(name: str, value: Any) -> Any:
     parts = _several(name, value, "a list of numbers or texts")
     return tuple(part if _is_text(part) else number(name, part) for part in parts)
@@ -413,6 +418,7 @@ _CHECKS: dict[str, Check] = {
     "Iterable[str]": _texts,
     "Sequence[DriveSwitch]": _parts("DriveSwitch", "a list of DriveSwitch"),
     "Sequence[SurfaceCard]": _parts("SurfaceCard", "a list of cards, such as read_card() gives"),
+    "Sequence[CardOrFile]": _cards_or_files,
     "Sequence[CatalogueMotor]": _parts(
         "CatalogueMotor", "a list of motors, such as motors() or read_motors() gives"
     ),
