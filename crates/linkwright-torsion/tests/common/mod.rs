@@ -4,7 +4,7 @@ use linkwright_torsion::transient::rates::Rates;
 use linkwright_torsion::transient::system::System;
 
 /// The derivatives that Newton uses against central differences of the accelerations, over this step of the angles \[rad\].
-pub fn require_derivatives(system: &System, time: f64, [angle, speed]: [&[f64]; 2], step: f64) {
+pub(crate) fn require_derivatives(system: &System, time: f64, [angle, speed]: [&[f64]; 2], step: f64) {
     let n = system.len();
     let mut rates = Rates::new(system);
     rates.enter(time);
