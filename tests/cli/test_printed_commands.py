@@ -32,8 +32,8 @@ README = ROOT / "README.md"
 PAGES = sorted(page for page in (ROOT / "docs").rglob("*.md") if page.name != "cases.md")
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-# Of a clone, or of what a reader has at hand.
-_ELSEWHERE = ("train.toml", "--chunks")
+# Of a clone, or of what a reader has at hand; studies of a well are run by tests/rods.
+_ELSEWHERE = ("train.toml", "--chunks", "tapers.toml", "speed.toml", "counterbalance.toml", "motors.toml")
 # Serves until it is interrupted; `tests/studio` opens it.
 _ENDLESS = "linkwright studio"
 # Commands whose machine cannot do it, as the page says.
@@ -67,6 +67,10 @@ def prepared(page: Path, folder: Path) -> None:
         step = len(motion.rod_load) // 200
         rows = [f"{x:.5f}, {F:.1f}" for x, F in zip(motion.rod_position, motion.rod_load, strict=True)]
         (folder / "card.csv").write_text("\n".join(["position [m], load [N]", *rows[::step]]) + "\n")
+    if "--cards day" in text:
+        (folder / "day").mkdir()
+        for hour in ("08", "14"):
+            (folder / "day" / f"{hour}.csv").write_bytes((folder / "card.csv").read_bytes())
     if "rod.dxf" in text:
         drawing = ROOT / "examples" / "drawn_connecting_rod" / "rod.dxf"
         (folder / "rod.dxf").write_bytes(drawing.read_bytes())

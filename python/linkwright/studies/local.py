@@ -36,10 +36,6 @@ _MARGIN = 3e-9
 # Cost of passing a limit by its own size, over the size of the goal: more than any multiplier that is met.
 _PENALTY = 1e3
 
-# SLSQP that gains less than this share in so many machines, and some more for each variable, stands before a
-# kink, where its line searches halve one step after another: cutting planes go on.
-_STALLED, _EACH, _LITTLE = 25, 5, 1e-4
-
 # First radius of the cutting planes and the last, as shares of the ranges, and how many tangents are kept.
 _FIRST, _LAST, _KEPT = 0.02, 1e-10, 30
 
@@ -71,10 +67,6 @@ class _Place:
 
 class _SpentError(Exception):
     """As many machines are computed as may be."""
-
-
-class _StalledError(Exception):
-    """The last machines gained next to nothing."""
 
 
 class Descent:
@@ -152,23 +144,13 @@ class Descent:
         """Best place on the path of SLSQP."""
         from scipy.optimize import minimize
 
-        merits: list[float] = []
-        patience = _STALLED + _EACH * len(start)
-
-        def advancing(share: Floats) -> float:
-            there = self.at(share)
-            merits.append(min([there.merit, *merits[-1:]]))
-            if len(merits) > patience and merits[-patience] - merits[-1] < _LITTLE * abs(merits[-1]):
-                raise _StalledError
-            return there.goal
-
         kept = {
             "type": "ineq",
             "fun": lambda share: -self.at(share).over,
             "jac": lambda share: -self.at(share).over_slope,
         }
         given: Any = {
-            "fun": advancing,
+            "fun": lambda share: self.at(share).goal,
             "x0": start,
             "jac": lambda share: self.at(share).goal_slope,
             "bounds": [(0.0, 1.0)] * len(start),
@@ -181,7 +163,7 @@ class Descent:
         except FindingError as error:
             # What was found before it stands.
             self.reasons[str(error)] += 1
-        except (_SpentError, _StalledError):
+        except _SpentError:
             pass
         return self._least()
 
