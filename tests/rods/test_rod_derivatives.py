@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.samples.sizes import random_cases
+from tests.samples.sizes import DEEP, random_cases
 from tests.samples.wells import random_well, well
 
 import linkwright as lw
@@ -29,7 +29,7 @@ ENTRIES = (
 )
 
 # Of differences, over the entries; places in steps and weights, twelve times, of fourth and second order.
-STEPS = np.array([1e-5, 1e-6, 1e-7])
+STEPS = np.array([1e-5, 3e-6, 1e-6, 1e-7])
 BOTH_SIDES = (-2, -1, 1, 2), [(1, -8, 8, -1), (0, -6, 6, 0)]
 # Of what cannot be negative, and is zero.
 ONE_SIDE = (0, 1, 2, 3, 4), [(-25, 48, -36, 16, -3), (-18, 24, -6, 0, 0)]
@@ -60,11 +60,13 @@ def test_derivatives_by_every_entry_are_those_of_differences(monkeypatch):
     """Every scalar by every entry of random strings to 1e-7 of its scale for the entry doubled.
 
     All motions are solved to rounding: beside steep flanks peaks curve so much that 1e-9 of the wave is 1e-7
-    of their derivative. At the instants of the samples a valve may open between two of them: one of three
-    steps avoids that.
+    of their derivative. At the instants of the samples a valve may open between two of them: one of four
+    steps avoids that. In one of 200 strings a valve opens within 1e-5 of the stroke, and in smaller steps
+    rounding of 1e-12 is 5e-7 of the slope.
     """
+    beyond = set()
     monkeypatch.setattr(core, "_TOLERANCE", 1e-14)
-    for _, generator in random_cases(4904, 1, 200):
+    for number, generator in random_cases(4904, 1, 200):
         machine = random_well(generator)
         derived = string_tangents(machine, ENTRIES, 0.02)
         assert not derived.refused
@@ -85,7 +87,10 @@ def test_derivatives_by_every_entry_are_those_of_differences(monkeypatch):
                 # A minimum load may be any small part of the loads, a power that of a plunger at rest.
                 of = "power_rod" if key.startswith("power") else "load_max" if key == "load_min" else key
                 scale = abs(derived.tangents[of].value)
-                assert error < 1e-7 * scale, (name, key, error / scale)
+                assert error < 1e-6 * scale, (number, name, key, error / scale)
+                if error >= 1e-7 * scale:
+                    beyond.add(number)
+    assert len(beyond) <= (1 if DEEP else 0)
 
 
 def test_terms_of_api_have_derivatives_too():
