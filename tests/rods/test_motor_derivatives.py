@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.samples.sizes import DEEP, random_cases
-from tests.samples.wells import UNIT, random_well, well
+from tests.samples.wells import API_STRING, UNIT, random_well, well
 
 import linkwright as lw
 from linkwright.kernel.numerics.implicit import iterated_along
@@ -34,20 +34,8 @@ inertia = 3000
 [pumping_unit.load]
 counterbalance = "28 kN m"
 efficiency = 0.9
-[rod_string]
-specific_gravity = 0.9
-[[rod_string.sections]]
-rod = "7/8"
-length = "1585 ft"
-grade = "C"
-[[rod_string.sections]]
-rod = "3/4"
-length = "3415 ft"
-grade = "C"
-[rod_string.pump]
-plunger = "1.5 in"
-fluid_level = "4500 ft"
 """
+    + API_STRING
     + UNIT
 )
 

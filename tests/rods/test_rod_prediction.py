@@ -5,27 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from tests.samples.sizes import random_cases
-from tests.samples.wells import FOOT, INCH, POUND, UNIT, random_well, well
+from tests.samples.wells import API_STRING, FOOT, INCH, POUND, UNIT, random_well, well
 
 import linkwright as lw
 
-STRING = """
-[rod_string]
-specific_gravity = 0.9
-[[rod_string.sections]]
-rod = "7/8"
-length = "1585 ft"
-grade = "C"
-[[rod_string.sections]]
-rod = "3/4"
-length = "3415 ft"
-grade = "C"
-[rod_string.pump]
-plunger = "1.5 in"
-fluid_level = "4500 ft"
+STRING = (
+    API_STRING
+    + """
 tubing_diameter = "2.375 in"
 tubing_bore = "1.995 in"
 """
+)
 
 
 def machine(*tables: str) -> lw.Machine:

@@ -23,6 +23,23 @@ G = "41 in"
 R = "23.4 in"
 """
 
+# The string of the worked example of API RP 11L.
+API_STRING = """
+[rod_string]
+specific_gravity = 0.9
+[[rod_string.sections]]
+rod = "7/8"
+length = "1585 ft"
+grade = "C"
+[[rod_string.sections]]
+rod = "3/4"
+length = "3415 ft"
+grade = "C"
+[rod_string.pump]
+plunger = "1.5 in"
+fluid_level = "4500 ft"
+"""
+
 
 def well(pump: dict[str, Any] | None = None, **entries: Any) -> lw.Machine:
     """The string of the worked example of API RP 11L on a harmonic polished rod; entries of it exchanged."""

@@ -243,10 +243,10 @@ def _kept_speed(machine: Machine, speed: float | None, speed_start: float) -> fl
         if speed_start:
             raise InputError("speed, speed_start: found both, expected a constant speed or one at the start")
         return float(speed)
-    motor = None if machine.drive is None else machine.drive.motor
-    if isinstance(motor, ConstantSpeedMotor):
-        return float(motor.speed / machine.drive.gearbox.ratio) if machine.drive is not None else None
-    if motor is None and not speed_start and machine.design_speed is not None:
+    drive = machine.drive or Drive()
+    if isinstance(drive.motor, ConstantSpeedMotor):
+        return float(speed_guess(drive))
+    if drive.motor is None and not speed_start and machine.design_speed is not None:
         return float(machine.design_speed)
     return None
 
