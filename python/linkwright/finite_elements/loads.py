@@ -24,7 +24,7 @@ from linkwright.kernel.arrays import Floats
 from linkwright.kernel.description.base import suggestion
 from linkwright.kernel.errors import InputError, show
 from linkwright.kernel.public import public
-from linkwright.kinetostatics.applied import AppliedLoad, together
+from linkwright.kinetostatics.applied import AppliedLoad, gravity, together
 from linkwright.kinetostatics.collect import DRIVES, Collector
 from linkwright.kinetostatics.forces import PRESSURE_ANGLE, acting, solved
 from linkwright.kinetostatics.friction import Friction
@@ -159,10 +159,7 @@ class _Link:
 
     def _weights(self) -> Floats:
         """Acceleration of gravity in the axes of the link, (n, 2)."""
-        total = np.zeros(2)
-        for load in self.scene.machine.all_loads.values():
-            if isinstance(load, Gravity):
-                total += load.acceleration * np.array([np.cos(load.direction), np.sin(load.direction)])
+        total = gravity(self.scene.machine)
         return self._turned(np.broadcast_to(total, (self.scene.n, 2)))
 
     def _masses(self, origin: Floats, omega: Floats, alpha: Floats, gravity: Floats) -> Iterator[LinkMass]:

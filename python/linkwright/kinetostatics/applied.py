@@ -6,7 +6,7 @@ the body of its guide, a spring between the members that carry its ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ from linkwright.kinetostatics.model import loads
 from linkwright.kinetostatics.places import Scene, dot, unit
 from linkwright.kinetostatics.wrench import Wrenches, masses
 from linkwright.linkages.model.structure import FRAME
+from linkwright.machine.machine import Machine
 from linkwright.machine.program.loads import gas_column
 
 
@@ -149,8 +150,18 @@ def _torque(scene: Scene, load: loads.ConstantTorque) -> Wrenches:
     return Wrenches(scene).couple(load.on, load.torque * np.ones(scene.n))
 
 
+def gravity(machine: Machine, left_out: Collection[str] = ()) -> Floats:
+    """Acceleration of gravity, all such loads together, (2,) [m/s²]."""
+    own = (load for name, load in machine.all_loads.items() if name not in left_out)
+    return sum((_fall(load) for load in own if isinstance(load, loads.Gravity)), np.zeros(2))
+
+
+def _fall(load: loads.Gravity) -> Any:
+    return load.acceleration * np.stack([np.cos(load.direction), np.sin(load.direction)])
+
+
 def _weight(scene: Scene, load: loads.Gravity) -> Wrenches:
-    fall = load.acceleration * np.stack([np.cos(load.direction), np.sin(load.direction)])
+    fall = _fall(load)
     wrenches = Wrenches(scene)
     for mass in masses(scene):
         wrenches.force(mass.member, np.broadcast_to(mass.mass * fall, (scene.n, 2)), mass.centre)

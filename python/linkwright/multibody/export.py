@@ -20,13 +20,14 @@ from linkwright.kernel.quantities import About, Label
 from linkwright.kernel.result import Result
 from linkwright.kernel.units.kinds import ANGLE, SPEED, TIME
 from linkwright.kernel.units.marks import Quantity
+from linkwright.kinetostatics.applied import gravity
 from linkwright.kinetostatics.motion import Motion
 from linkwright.kinetostatics.places import Scene
 from linkwright.linkages.closure import closure, require_full_turn
 from linkwright.machine.machine import Machine
 from linkwright.machine.program.compiled import compile_machine
 from linkwright.machine.program.drive_line import drive_inertia, speed_guess
-from linkwright.multibody.linear_laws import Law, load_laws, motor_law, weight
+from linkwright.multibody.linear_laws import Law, load_laws, motor_law
 from linkwright.multibody.mjcf_file import IMPEDANCE, TIME_CONSTANT, Setting, mjcf_text
 from linkwright.multibody.refusals import require_guides, require_laws, require_tree
 from linkwright.multibody.transmission import Transmission, start_speeds, transmission
@@ -163,7 +164,7 @@ def mjcf(
     setting = Setting(
         name=machine.name,
         step=h,
-        gravity=weight(machine, leave_out),
+        gravity=gravity(machine, leave_out),
         armature=armature,
         masses=masses,
         laws=laws,

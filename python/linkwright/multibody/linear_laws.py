@@ -8,7 +8,7 @@ coordinate of a point. Weight is an acceleration of all masses; dry friction is 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +17,6 @@ from linkwright.drive.model.drive import Drive
 from linkwright.kernel.arrays import Floats
 from linkwright.kinetostatics.model import loads
 from linkwright.linkages.model.structure import FRAME
-from linkwright.machine.machine import Machine
 from linkwright.multibody.tree import Tree, added
 
 
@@ -55,14 +54,6 @@ class Law:
     per_speed: float = 0.0
     dry: float = 0.0  # size of dry friction
     is_motor: bool = False  # whether the supply switches it
-
-
-def weight(machine: Machine, left_out: Collection[str]) -> Floats:
-    """Acceleration of gravity, all such loads together, (2,) [m/s²]."""
-    own = (load for name, load in machine.all_loads.items() if name not in left_out)
-    fields = [load for load in own if isinstance(load, loads.Gravity)]
-    parts = [f.acceleration * np.array([np.cos(f.direction), np.sin(f.direction)]) for f in fields]
-    return sum(parts, np.zeros(2))
 
 
 def motor_law(tree: Tree, drive: Drive | None) -> Law | None:
